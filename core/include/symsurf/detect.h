@@ -1,0 +1,25 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/method.h>
+#include <symsurf/points_view.h>
+#include <symsurf/result.h>
+
+#include <cstdint>
+#include <string>
+
+namespace symsurf {
+
+struct Options {
+  std::string method = "auto";
+  Values parameters;       ///< the method's, by name; the rest keep their defaults
+  PointsView normals;      ///< optional, one a point; taken as lines, their sign does not count
+  std::uint64_t seed = 0;  ///< of the methods that draw at random
+};
+
+/// Finds the mirror of a point set. The points are read in place and must stay alive for the call.
+/// Throws InvalidInput (too few points, NaN or infinity, all points equal or on one line),
+/// InvalidParameter (unknown method or parameter, value out of range) and Cancelled.
+Result detect(PointsView points, const Options& options = {}, const Context& context = {});
+
+}  // namespace symsurf

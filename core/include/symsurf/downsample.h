@@ -1,0 +1,14 @@
+#pragma once
+
+#include <symsurf/points_view.h>
+
+namespace symsurf {
+
+/// The simplification of Hruda et al. (2022): a grid of cells l_avg / k, anchored at the bounding
+/// box's minimum, k = 1, 2, 3, ... until at least `count` cells are occupied (l_avg: the mean
+/// distance of the points from their centroid); the mean of each occupied cell, in lexicographic
+/// order of the cells. With `count` or fewer distinct points, these points themselves.
+/// Throws InvalidInput for no points or NaN, InvalidParameter for a count below 1.
+Points downsample(PointsView points, Index count);
+
+}  // namespace symsurf

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/mirror.h>
+#include <symsurf/points_view.h>
+#include <symsurf/result.h>
+
+namespace symsurf {
+
+/// Pairs every point with the input point nearest to its image over a known mirror, where that is
+/// nearer than `pair_distance` times the diagonal: how a mirror found elsewhere, or one of
+/// Result::candidates, fits. Equally near partners: the lowest index. The result has no score.
+/// Throws InvalidInput and Cancelled as detect does, InvalidParameter for a negative distance.
+Result match(PointsView points, const Mirror& mirror, double pair_distance = 0.05,
+             const Context& context = {});
+
+}  // namespace symsurf

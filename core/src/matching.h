@@ -1,0 +1,17 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/mirror.h>
+#include <symsurf/result.h>
+
+#include "point_tree.h"
+
+namespace symsurf {
+
+/// Fills the result's pairs, residuals and surface points: for each point the nearest of the
+/// tree's points (the same cloud) to its image, where that is no farther than `limit` (input
+/// units). In the order of the points; equally near partners: the lowest index.
+void add_pairs(Result& result, PointsView points, const PointTree& tree, const Mirror& mirror,
+               double limit, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+// The list of methods. A new one is its own source file, a line here and a line in methods.cpp.
+
+namespace symsurf {
+
+Method auto_method();
+Method plane_method();
+
+}  // namespace symsurf

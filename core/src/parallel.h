@@ -1,0 +1,28 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/types.h>
+
+#include <functional>
+#include <vector>
+
+namespace symsurf {
+
+/// Calls body(begin, end) on consecutive chunks of `grain` items. The chunks do not depend on the
+/// number of threads, so neither do results made chunk by chunk. Reports and cancels through the
+/// context, on the calling thread; an exception of the body is rethrown here.
+void parallel_for(const Context& context, Index count, Index grain,
+                  const std::function<void(Index begin, Index end)>& body);
+
+/// Joins body(begin, end) of all chunks in their order: the same bits for any number of threads.
+template <typename T, typename Body>
+T parallel_sum(const Context& context, Index count, Index grain, T zero, const Body& body) {
+  std::vector<T> parts((count + grain - 1) / grain, zero);
+  parallel_for(context, count, grain,
+               [&](Index begin, Index end) { parts[begin / grain] = body(begin, end); });
+  T sum = zero;
+  for (const T& part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,164 @@
+#include <symsurf/errors.h>
+#include <symsurf/parameter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace symsurf {
+
+namespace {
+
+std::string number(double value) {
+  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::digits10);
+  text << value;
+  return text.str();
+}
+
+template <typename Items>
+std::string join(const Items& items, const char* separator) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : separator) + item;
+  return text;
+}
+
+}  // namespace
+
+std::string_view to_string(ParameterType type) {
+  switch (type) {
+    case ParameterType::Boolean:
+      return "boolean";
+    case ParameterType::Integer:
+      return "integer";
+    case ParameterType::Real:
+      return "real";
+    case ParameterType::Choice:
+      return "choice";
+    case ParameterType::Direction:
+      return "direction";
+    case ParameterType::Position:
+      return "position";
+  }
+  return "";
+}
+
+std::string to_string(const Value& value) {
+  struct Text {
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(Index v) const { return std::to_string(v); }
+    std::string operator()(double v) const { return number(v); }
+    std::string operator()(const std::string& v) const { return v; }
+    std::string operator()(const Vector3& v) const {
+      return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
+    }
+    std::string operator()(const Eigen::MatrixXd& v) const {
+      return std::to_string(v.rows()) + " x " + std::to_string(v.cols()) + " numbers";
+    }
+  };
+  return std::visit(Text{}, value);
+}
+
+Parameter Parameter::boolean(std::string name, bool value, std::string doc) {
+  return {std::move(name), ParameterType::Boolean, "", value, 0, 0, {}, std::move(doc)};
+}
+
+Parameter Parameter::integer(std::string name, Index value, Index minimum, Index maximum,
+                             std::string unit, std::string doc) {
+  return {std::move(name),
+          ParameterType::Integer,
+          std::move(unit),
+          value,
+          static_cast<double>(minimum),
+          static_cast<double>(maximum),
+          {},
+          std::move(doc)};
+}
+
+Parameter Parameter::real(std::string name, double value, double minimum, double maximum,
+                          std::string unit, std::string doc) {
+  return {std::move(name), ParameterType::Real, std::move(unit), value, minimum, maximum, {},
+          std::move(doc)};
+}
+
+Parameter Parameter::choice(std::string name, std::string value, std::vector<std::string> choices,
+                            std::string doc) {
+  return {std::move(name),    ParameterType::Choice, "", std::move(value), 0, 0,
+          std::move(choices), std::move(doc)};
+}
+
+Parameter Parameter::direction(std::string name, std::string doc) {
+  return {std::move(name), ParameterType::Direction, "", Vector3(0, 0, 0), 0, 0, {},
+          std::move(doc)};
+}
+
+Parameter Parameter::position(std::string name, std::string doc) {
+  return {std::move(name), ParameterType::Position, "", Vector3(0, 0, 0), 0, 0, {}, std::move(doc)};
+}
+
+std::string Parameter::range() const {
+  switch (type) {
+    case ParameterType::Boolean:
+      return "true | false";
+    case ParameterType::Choice:
+      return join(choices, " | ");
+    case ParameterType::Direction:
+    case ParameterType::Position:
+      return "3 finite numbers";
+    default:
+      return (std::isinf(minimum) ? "(" : "[") + number(minimum) + ", " + number(maximum) +
+             (std::isinf(maximum) ? ")" : "]");
+  }
+}
+
+Value Parameter::checked(const Value& value) const {
+  const auto fail = [&]() -> Value {
+    throw InvalidParameter(name + " is " + to_string(value) + "; allowed is " +
+                           std::string(to_string(type)) + " " + range());
+  };
+  const auto within = [&](double v) { return v >= minimum && v <= maximum; };
+  switch (type) {
+    case ParameterType::Boolean:
+      return std::holds_alternative<bool>(value) ? value : fail();
+    case ParameterType::Integer: {
+      const Index* v = std::get_if<Index>(&value);
+      return v && within(static_cast<double>(*v)) ? value : fail();
+    }
+    case ParameterType::Real: {
+      const Index* whole = std::get_if<Index>(&value);
+      const double* real = std::get_if<double>(&value);
+      if (!whole && !real) return fail();
+      const double v = real ? *real : static_cast<double>(*whole);
+      return within(v) ? Value(v) : fail();
+    }
+    case ParameterType::Choice: {
+      const std::string* v = std::get_if<std::string>(&value);
+      return v && std::find(choices.begin(), choices.end(), *v) != choices.end() ? value : fail();
+    }
+    case ParameterType::Direction:
+    case ParameterType::Position: {
+      const Vector3* v = std::get_if<Vector3>(&value);
+      return v && v->allFinite() ? value : fail();
+    }
+  }
+  return fail();
+}
+
+ParameterValues::ParameterValues(std::string_view owner, const std::vector<Parameter>& described,
+                                 const Values& given) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : described) {
+    const auto it = given.find(parameter.name);
+    values_[parameter.name] =
+        parameter.checked(it == given.end() ? parameter.default_value : it->second);
+    names.push_back(parameter.name);
+  }
+  for (const auto& [name, value] : given)
+    if (!values_.count(name))
+      throw InvalidParameter("method '" + std::string(owner) + "' has no parameter '" + name +
+                             "'; it has " + (names.empty() ? "none" : join(names, ", ")));
+}
+
+}  // namespace symsurf

@@ -1,0 +1,141 @@
+#include "point_tree.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "parallel.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr int bits_per_axis = 21;
+
+// Spreads the low 21 bits of v to every third bit.
+std::uint64_t spread(std::uint64_t v) {
+  v &= 0x1fffff;
+  v = (v | v << 32) & 0x1f00000000ffff;
+  v = (v | v << 16) & 0x1f0000ff0000ff;
+  v = (v | v << 8) & 0x100f00f00f00f00f;
+  v = (v | v << 4) & 0x10c30c30c30c30c3;
+  return (v | v << 2) & 0x1249249249249249;
+}
+
+// Orders `order` by key, stably; a digit that all keys share costs no pass.
+void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::int32_t>& order) {
+  constexpr int digit_bits = 11, digits = 6, buckets = 1 << digit_bits;
+  std::vector<std::array<std::size_t, buckets>> counts(digits);
+  for (auto& count : counts) count.fill(0);
+  for (const std::uint64_t key : keys)
+    for (int d = 0; d < digits; ++d) ++counts[d][key >> (digit_bits * d) & (buckets - 1)];
+
+  std::vector<std::uint64_t> keys_to(keys.size());
+  std::vector<std::int32_t> order_to(keys.size());
+  for (int d = 0; d < digits; ++d) {
+    auto& start = counts[d];
+    if (*std::max_element(start.begin(), start.end()) == keys.size()) continue;
+    std::exclusive_scan(start.begin(), start.end(), start.begin(), std::size_t{0});
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const std::size_t to = start[keys[i] >> (digit_bits * d) & (buckets - 1)]++;
+      keys_to[to] = keys[i];
+      order_to[to] = order[i];
+    }
+    keys.swap(keys_to);
+    order.swap(order_to);
+  }
+}
+
+}  // namespace
+
+PointTree::PointTree(PointsView points, const Context& context) {
+  const auto matrix = points.matrix();
+  const Vector3 low = matrix.colwise().minCoeff(), high = matrix.colwise().maxCoeff();
+  origin_ = (low + high) / 2;
+  reach_ = static_cast<float>((high - low).maxCoeff());
+  sort(points);
+  context.report(0.5);
+
+  coordinates_.resize(3 * order_.size());
+  for (std::size_t p = 0; p < order_.size(); ++p)
+    Eigen::Map<Vector3>(coordinates_.data() + 3 * p) = points[order_[p]] - origin_;
+  stack_boxes();
+}
+
+void PointTree::sort(PointsView points) {
+  const double cells = static_cast<double>(1 << bits_per_axis) - 1;
+  const double scale = reach_ > 0 ? cells / static_cast<double>(reach_) : 0;
+  const Vector3 to_cells = Vector3::Constant(cells / 2);
+  std::vector<std::uint64_t> keys(points.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    const Vector3 cell = (points[i] - origin_) * scale + to_cells;
+    const auto at = [&](int axis) {
+      return spread(static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, cells)));
+    };
+    keys[i] = at(0) << 2 | at(1) << 1 | at(2);
+  }
+  order_.resize(keys.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  radix_sort(keys, order_);
+}
+
+void PointTree::stack_boxes() {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Boxes nothing;
+  for (int axis = 0; axis < 3; ++axis) {
+    nothing.low[axis].fill(infinity);
+    nothing.high[axis].fill(-infinity);
+  }
+  const auto groups = [](Index items) { return (items + fan - 1) / fan; };
+
+  Index boxes = groups(size());
+  levels_.emplace_back(groups(boxes), nothing);
+  for (Index p = 0; p < size(); ++p) {
+    const Index box = p / fan;
+    Boxes& group = levels_[0][box / fan];
+    for (int axis = 0; axis < 3; ++axis) {
+      const float x = static_cast<float>(coordinates_[3 * p + axis]);
+      float& low = group.low[axis][box % fan];
+      float& high = group.high[axis][box % fan];
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  while (levels_.back().size() > 1) {
+    const std::vector<Boxes>& below = levels_.back();
+    std::vector<Boxes> level(groups(static_cast<Index>(below.size())), nothing);
+    for (std::size_t b = 0; b < below.size(); ++b)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto& low = below[b].low[axis];
+        const auto& high = below[b].high[axis];
+        level[b / fan].low[axis][b % fan] = *std::min_element(low.begin(), low.end());
+        level[b / fan].high[axis][b % fan] = *std::max_element(high.begin(), high.end());
+      }
+    levels_.push_back(std::move(level));
+  }
+}
+
+Neighbour PointTree::nearest(const Vector3& query, double limit) const {
+  Neighbour best{-1, limit};
+  search(query, limit, [&](Index position, double squared) {
+    const Neighbour found{order_[position], squared};
+    if (squared > limit || (best.index >= 0 && !(found < best))) return;
+    best = found;
+    limit = squared;
+  });
+  return best;
+}
+
+void PointTree::nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const {
+  found.clear();
+  double limit = std::numeric_limits<double>::infinity();
+  search(query, limit, [&](Index position, double squared) {
+    const Neighbour candidate{order_[position], squared};
+    const bool full = static_cast<Index>(found.size()) == k;
+    if (full && !(candidate < found.back())) return;
+    if (full) found.pop_back();
+    found.insert(std::upper_bound(found.begin(), found.end(), candidate), candidate);
+    if (static_cast<Index>(found.size()) == k) limit = found.back().squared_distance;
+  });
+}
+
+}  // namespace symsurf
