@@ -17,17 +17,6 @@ constexpr Index grain = 1 << 16;
 // A cloud thinner than this, against its length, is a line.
 constexpr double line_thinness = 1e-8;
 
-void require_finite(PointsView rows, const char* what) {
-  // One pass without branches finds out whether; a second one only then finds out where.
-  double sum = 0;
-  for (Index i = 0; i < 3 * rows.size(); ++i) sum += 0 * rows.data()[i];
-  if (sum == 0) return;
-  for (Index i = 0; i < rows.size(); ++i)
-    if (!rows[i].allFinite())
-      throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is " +
-                         to_string(Value(rows[i])) + "; coordinates must be finite");
-}
-
 void require_area(PointsView points, const Vector3& low, const Vector3& high,
                   const Context& context) {
   const double extent = (high - low).maxCoeff();
@@ -60,6 +49,17 @@ void require_area(PointsView points, const Vector3& low, const Vector3& high,
 }
 
 }  // namespace
+
+void require_finite(PointsView rows, const char* what) {
+  // One pass without branches finds out whether; a second one only then finds out where.
+  double sum = 0;
+  for (Index i = 0; i < 3 * rows.size(); ++i) sum += 0 * rows.data()[i];
+  if (sum == 0) return;
+  for (Index i = 0; i < rows.size(); ++i)
+    if (!rows[i].allFinite())
+      throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is " +
+                         to_string(Value(rows[i])) + "; coordinates must be finite");
+}
 
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {

@@ -9,4 +9,8 @@ namespace symsurf {
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
 
+/// Throws InvalidInput naming the first of the rows that is not finite, as "point 3" where `what`
+/// is "point".
+void require_finite(PointsView rows, const char* what);
+
 }  // namespace symsurf

@@ -1,0 +1,74 @@
+#include <symsurf/errors.h>
+#include <symsurf/normals.h>
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "cloud.h"
+#include "parallel.h"
+#include "point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+// k x 3, from a point amid them and in units of their reach: no digits are lost to a far-off
+// origin, and squares neither overflow nor vanish.
+using Patch = Points;
+
+Vector3 pca_normal(Patch& patch) {
+  patch.rowwise() -= patch.colwise().mean().eval();
+  const Matrix3 scatter = patch.transpose() * patch;
+  Vector3 normal = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
+  Index largest;
+  normal.cwiseAbs().maxCoeff(&largest);
+  return normal[largest] < 0 ? -normal : normal;
+}
+
+Vector3 regression_normal(Patch& patch) {
+  // A projection on xy thinner than this, against its length, is a line.
+  constexpr double thinness = 1e-8;
+  patch.rowwise() -= patch.colwise().mean().eval();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 2>> plane;
+  plane.setThreshold(thinness);
+  plane.compute(patch.leftCols<2>());
+  const Eigen::Vector2d slope = plane.solve(patch.col(2));
+  return Vector3(-slope.x(), -slope.y(), 1).normalized();
+}
+
+}  // namespace
+
+Points estimate_normals(PointsView points, Index neighbours, std::string_view method,
+                        const Context& context) {
+  if (method != "pca" && method != "regression")
+    throw InvalidParameter("method is " + std::string(method) + "; allowed is pca | regression");
+  if (neighbours < 3)
+    throw InvalidParameter("neighbours is " + std::to_string(neighbours) +
+                           "; allowed is 3 and above");
+  if (points.size() < neighbours)
+    throw InvalidInput(std::to_string(points.size()) + " points given; at least " +
+                       std::to_string(neighbours) + ", the number of neighbours, are needed");
+  require_finite(points, "point");
+
+  const auto normal_of = method == "pca" ? pca_normal : regression_normal;
+  const PointTree tree(points, context.stage(0, 0.1));
+  Points normals(points.size(), 3);
+  constexpr Index grain = 2048;
+  parallel_for(context.stage(0.1, 1), points.size(), grain, [&](Index begin, Index end) {
+    std::vector<Neighbour> found;
+    Patch patch(neighbours, 3);
+    for (Index p = begin; p < end; ++p) {
+      const Index i = tree.order()[p];
+      tree.nearest(points[i], neighbours, found);
+      for (Index n = 0; n < neighbours; ++n)
+        patch.row(n) = (points[found[n].index] - points[i]).transpose();
+      const double reach = patch.cwiseAbs().maxCoeff();
+      if (reach > 0) patch /= reach;
+      normals.row(i) = normal_of(patch).transpose();
+    }
+  });
+  return normals;
+}
+
+}  // namespace symsurf
