@@ -1,0 +1,17 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+// Each part of the module, in the order module.cpp adds them.
+
+namespace symsurf::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& module);
+void bind_methods(py::module_& module);
+void bind_mirrors(py::module_& module);
+void bind_detection(py::module_& module);
+void bind_sampling(py::module_& module);
+
+}  // namespace symsurf::python

@@ -1,0 +1,55 @@
+#include <pybind11/stl.h>
+#include <symsurf/detect.h>
+#include <symsurf/match.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "context.h"
+#include "results.h"
+#include "values.h"
+
+namespace symsurf::python {
+
+namespace {
+
+py::dict with_points(Result&& result, const PointsArgument& points) {
+  py::dict fields = to_python(std::move(result));
+  fields["points"] = points.array;
+  return fields;
+}
+
+py::dict detect_fields(const PointsArgument& points, const py::object& method_name,
+                       const std::optional<NormalsArgument>& normals, const py::object& seed,
+                       const py::object& threads, const py::object& progress,
+                       const py::dict& parameters) {
+  Options options;
+  options.method = py::str(method_name);
+  options.parameters = values_from(parameters, method(options.method).parameters);
+  if (normals) options.normals = *normals;
+  options.seed = whole_number(seed, "seed", std::numeric_limits<std::uint64_t>::max());
+  const Context context = context_from(progress, threads);
+  return with_points(without_gil([&] { return detect(points, options, context); }), points);
+}
+
+py::dict match_fields(const PointsArgument& points, const Mirror& mirror, double pair_distance,
+                      const py::object& threads, const py::object& progress) {
+  const Context context = context_from(progress, threads);
+  return with_points(without_gil([&] { return match(points, mirror, pair_distance, context); }),
+                     points);
+}
+
+}  // namespace
+
+void bind_detection(py::module_& module) {
+  module.def("detect", &detect_fields, py::arg("points"), py::arg("method"), py::arg("normals"),
+             py::arg("seed"), py::arg("threads"), py::arg("progress"), py::arg("parameters"),
+             "The fields of symsurf.Result.");
+  module.def("match", &match_fields, py::arg("points"), py::arg("mirror"), py::arg("pair_distance"),
+             py::arg("threads"), py::arg("progress"), "The fields of symsurf.Result.");
+}
+
+}  // namespace symsurf::python

@@ -1,0 +1,45 @@
+"""Finds the mirror of a 3D point set: a plane, a sphere or a curved surface.
+
+>>> import symsurf
+>>> shape = symsurf.read("scan.ply")
+>>> result = symsurf.detect(shape.points)
+>>> result.mirror, result.score
+"""
+
+from . import detectors
+from ._core import (
+    Cancelled,
+    InvalidInput,
+    InvalidParameter,
+    Method,
+    Mirror,
+    Parameter,
+    Plane,
+    __version__,
+    methods,
+)
+from .detection import detect, match
+from .detectors import *  # noqa: F403 (detect_<method>, one for each in methods())
+from .result import Result
+from .sampling import downsample, estimate_normals
+from .shape import Shape, read
+
+__all__ = [
+    "Cancelled",
+    "InvalidInput",
+    "InvalidParameter",
+    "Method",
+    "Mirror",
+    "Parameter",
+    "Plane",
+    "Result",
+    "Shape",
+    "__version__",
+    "detect",
+    "downsample",
+    "estimate_normals",
+    "match",
+    "methods",
+    "read",
+]
+__all__ += detectors.__all__

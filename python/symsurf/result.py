@@ -1,0 +1,82 @@
+"""What a detection found."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._core import Mirror
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
+
+    from .shape import Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What a detection found. No symmetry is a result too: one with a low score."""
+
+    method: str
+    """The method that found it."""
+    mirror: Mirror | None
+    """None for methods that find surface points only."""
+    surface_points: NDArray[np.float64] = field(repr=False)
+    """(m, 3) midpoints of the pairs, which lie on the mirror; input units."""
+    pairs: NDArray[np.int64] = field(repr=False)
+    """(m, 2) indices into the input: a point, and the point its image falls on."""
+    residuals: NDArray[np.float64] = field(repr=False)
+    """(m,) distances from the image to the partner; input units."""
+    score: float
+    """0: no symmetry, 1: exact."""
+    candidates: list[Result] = field(repr=False)
+    """Other mirrors, best first, without pairs; ``match`` gives them theirs."""
+    parameters: dict[str, Any]
+    """Every parameter of the method, as used."""
+    statistics: dict[str, Any] = field(repr=False)
+    """Whatever else the method reports."""
+    seconds: float
+    points: NDArray[np.float64] | None = field(default=None, repr=False)
+    """(n, 3) the input: the caller's own array where it could be read in place."""
+
+    @classmethod
+    def from_fields(cls, fields: dict[str, Any]) -> Result:
+        """A result from its fields by name, the candidates likewise."""
+        candidates = [cls.from_fields(candidate) for candidate in fields["candidates"]]
+        return cls(**fields | {"candidates": candidates})
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the result, in the format of the suffix.
+
+        ``.json``: everything. ``.vtp``: mirror, surface points and residuals for VTK and ParaView.
+        ``.ply``: surface points with residuals as quality. ``.txt``: comment lines starting with
+        ``#``, then the surface points, x,y,z a line; a sphere as its centre, then its radius.
+
+        Raises InvalidParameter for another suffix, OSError where nothing can be written. A file is
+        written whole or not at all.
+        """
+        from .saving import save
+
+        save(self, path)
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        shape: Shape | None = None,
+        points: ArrayLike | None = None,
+    ) -> Plotter:
+        """Draws the object coloured by residual, and its mirror translucent; needs PyVista.
+
+        Args:
+            path: a PNG to write off-screen; without it a window opens.
+            shape: the object as it was read, whose faces are then drawn.
+            points: the object's points (n, 3); without them, those of the detection.
+        """
+        from .plotting import plot
+
+        return plot(self, path, shape=shape, points=points)

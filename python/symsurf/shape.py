@@ -1,0 +1,37 @@
+"""Point sets and meshes from files."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What a file holds, in its own units and order."""
+
+    points: NDArray[np.float64]
+    """(n, 3)"""
+    faces: NDArray[np.int64] | None = None
+    """(m, 3) indices of points, polygons as fans of triangles; None for a bare cloud."""
+    normals: NDArray[np.float64] | None = None
+    """(n, 3) as the file gives them; None where it gives none."""
+
+    def __repr__(self) -> str:
+        faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"
+        normals = "no normals" if self.normals is None else "normals"
+        return f"Shape({len(self.points)} points, {faces}, {normals})"
+
+
+def read(path: str | os.PathLike[str]) -> Shape:
+    """Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix.
+
+    Coordinates keep every digit a double holds. Raises InvalidInput naming the file and the reason:
+    unknown suffix, not readable, broken, truncated, no points.
+    """
+    return Shape(**_core.read(path))
