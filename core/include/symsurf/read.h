@@ -10,12 +10,21 @@ namespace symsurf {
 struct Shape {
   Points points;
   Triangles faces;  ///< no rows for a bare cloud; polygons come as fans of triangles
-  Points normals;   ///< no rows where the file has none
+  Points normals;   ///< no rows where the file lacks a normal of some point, or gives it as 0
 };
 
 /// Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix. Coordinates keep every digit a
-/// double holds. Throws InvalidInput naming the file and the reason: unknown suffix, not readable,
-/// broken, truncated, no points.
+/// double holds.
+///
+/// XYZ, CSV and TXT hold rows of numbers, separated by blanks and tabs, by commas or by semicolons;
+/// comments start with # or //. A first row of names says which columns are x, y, z and, if it
+/// names them, nx, ny, nz (or Points:0, Normals:0, ..., as ParaView writes them); capitals do not
+/// count. Without names the first three columns are the point, the next three its normal if there
+/// are exactly six, unless they are colours: whole numbers from 0 to 255, some above 1. Other
+/// columns are ignored.
+///
+/// Throws InvalidInput naming the file and the reason, in text files with the line:
+/// unknown suffix, not readable, empty, broken, truncated, not finite, no points.
 Shape read(const std::filesystem::path& path);
 
 }  // namespace symsurf

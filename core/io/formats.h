@@ -1,0 +1,32 @@
+#pragma once
+
+#include <symsurf/read.h>
+
+#include <string_view>
+
+// The formats, one source each. All take a file's content and throw InvalidInput with the reason,
+// and the line where there are lines; read() adds the file's name, sees to finite coordinates and
+// drops normals that some points lack.
+
+namespace symsurf {
+
+/// Turk's Polygon File Format 1.0: ascii, binary_little_endian, binary_big_endian. Elements but
+/// vertex and face, and properties but x y z nx ny nz and vertex_indices (vertex_index), are
+/// skipped.
+Shape read_ply(std::string_view content);
+
+/// Wavefront OBJ: v, vn and f. A vertex's normal is the one that its faces' corners name (their
+/// mean where they differ); without any in the faces, the normals are the vertices' in order if
+/// there are as many.
+Shape read_obj(std::string_view content);
+
+/// Geomview's OFF, COFF, NOFF, CNOFF, with or without texture coordinates (ST); ascii.
+Shape read_off(std::string_view content);
+
+/// Stereolithography, ascii or binary. Equal corners of the triangles are one point.
+Shape read_stl(std::string_view content);
+
+/// XYZ, CSV and TXT: rows of numbers, as read() describes them.
+Shape read_columns(std::string_view content);
+
+}  // namespace symsurf

@@ -1,0 +1,137 @@
+#include <symsurf/errors.h>
+#include <symsurf/value.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "formats.h"
+#include "ply_header.h"
+#include "ply_rows.h"
+#include "shape_builder.h"
+
+namespace symsurf {
+
+namespace {
+
+template <typename Rows>
+Index integer(Rows& rows, const PlyProperty& property, PlyType type) {
+  constexpr double largest = 0x1p53;
+  const double value = rows.number(property, type);
+  if (!(value >= -largest && value <= largest) || value != std::floor(value))
+    rows.fail(property.name + " holds " + to_string(Value(value)) + ", not an index");
+  return static_cast<Index>(value);
+}
+
+template <typename Rows>
+Index list_length(Rows& rows, const PlyProperty& property) {
+  const Index length = integer(rows, property, *property.length_type);
+  if (length < 0) rows.fail("the list " + property.name + " has a length below 0");
+  return length;
+}
+
+template <typename Rows>
+void skip(Rows& rows, const PlyProperty& property) {
+  const Index length = property.length_type ? list_length(rows, property) : 1;
+  for (Index i = 0; i < length; ++i) rows.skip(property, property.type);
+}
+
+// Calls read(property number) for every property of every row; read says whether it took it.
+template <typename Rows, typename Read, typename End>
+void each_row(Rows& rows, const PlyElement& element, const Read& read, const End& end_row) {
+  if (element.properties.empty()) return;
+  for (Index row = 0; row < element.count; ++row) {
+    rows.begin(element, row);
+    for (std::size_t p = 0; p < element.properties.size(); ++p)
+      if (!read(p)) skip(rows, element.properties[p]);
+    rows.end();
+    end_row();
+  }
+}
+
+template <typename Rows>
+void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
+  constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+  std::vector<int> place(element.properties.size(), -1);
+  int named = 0;  // a bit a name
+  for (std::size_t p = 0; p < place.size(); ++p) {
+    const PlyProperty& property = element.properties[p];
+    const auto it = std::find(names.begin(), names.end(), property.name);
+    if (it == names.end() || property.length_type) continue;
+    place[p] = static_cast<int>(it - names.begin());
+    named |= 1 << place[p];
+  }
+  if ((named & 7) != 7) throw InvalidInput("the element 'vertex' lacks x, y or z");
+  const bool has_normals = (named & 56) == 56;
+  if (!has_normals)
+    for (int& p : place) p = p < 3 ? p : -1;
+
+  std::array<double, 6> values;
+  each_row(
+      rows, element,
+      [&](std::size_t p) {
+        if (place[p] >= 0)
+          values[place[p]] = rows.number(element.properties[p], element.properties[p].type);
+        return place[p] >= 0;
+      },
+      [&] {
+        shape.add_point({values[0], values[1], values[2]});
+        if (has_normals) shape.add_normal({values[3], values[4], values[5]});
+      });
+}
+
+template <typename Rows>
+void read_faces(Rows& rows, const PlyElement& element, Index vertices, ShapeBuilder& shape) {
+  std::vector<Index> corners;
+  each_row(
+      rows, element,
+      [&](std::size_t p) {
+        const PlyProperty& property = element.properties[p];
+        if (!property.length_type ||
+            (property.name != "vertex_indices" && property.name != "vertex_index"))
+          return false;
+        const Index length = list_length(rows, property);
+        corners.clear();
+        for (Index i = 0; i < length; ++i) {
+          const Index corner = integer(rows, property, property.type);
+          if (corner < 0 || corner >= vertices) rows.fail(no_vertex(corner, vertices));
+          corners.push_back(corner);
+        }
+        return true;
+      },
+      [&] { shape.add_polygon(corners); });
+}
+
+template <typename Rows>
+Shape read_elements(Rows rows, const PlyHeader& header) {
+  Index vertices = 0;
+  for (const PlyElement& element : header.elements)
+    if (element.name == "vertex") vertices += element.count;
+  ShapeBuilder shape;
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex")
+      read_vertices(rows, element, shape);
+    else if (element.name == "face")
+      read_faces(rows, element, vertices, shape);
+    else
+      each_row(
+          rows, element, [](std::size_t) { return false; }, [] {});
+  }
+  return shape.build();
+}
+
+}  // namespace
+
+Shape read_ply(std::string_view content) {
+  TextScanner text(content);
+  const PlyHeader header = read_ply_header(text);
+  if (header.encoding == PlyHeader::Encoding::Ascii)
+    return read_elements(PlyTextRows(text), header);
+  const bool is_little = header.encoding == PlyHeader::Encoding::LittleEndian;
+  const bool swapped = is_little != (std::endian::native == std::endian::little);
+  return read_elements(PlyBinaryRows(text.text_after_line(), swapped), header);
+}
+
+}  // namespace symsurf

@@ -1,0 +1,86 @@
+#include "ply_header.h"
+
+#include <symsurf/errors.h>
+
+#include <map>
+#include <string_view>
+
+namespace symsurf {
+
+namespace {
+
+PlyHeader::Encoding encoding(TextScanner& text) {
+  const std::string_view name = text.word(), version = text.word();
+  if (version != "1.0") text.fail("PLY's version is " + in_quotes(version) + "; 1.0 can be read");
+  if (name == "ascii") return PlyHeader::Encoding::Ascii;
+  if (name == "binary_little_endian") return PlyHeader::Encoding::LittleEndian;
+  if (name == "binary_big_endian") return PlyHeader::Encoding::BigEndian;
+  text.fail("there is no PLY format " + in_quotes(name));
+}
+
+PlyType type(TextScanner& text, std::string_view name) {
+  static const std::map<std::string_view, PlyType> types{
+      {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
+      {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
+      {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
+      {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
+      {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+      {"float64", PlyType::Float64}};
+  const auto it = types.find(name);
+  if (it == types.end()) text.fail("PLY has no type " + in_quotes(name));
+  return it->second;
+}
+
+PlyElement element(TextScanner& text) {
+  const std::string name(text.word());
+  const Index count = text.integer("the count of the element " + in_quotes(name));
+  if (count < 0) text.fail("the count of the element " + in_quotes(name) + " is below 0");
+  return {name, count, {}};
+}
+
+PlyProperty property(TextScanner& text) {
+  PlyProperty property;
+  std::string_view word = text.word();
+  if (word == "list") {
+    property.length_type = type(text, text.word());
+    if (*property.length_type == PlyType::Float32 || *property.length_type == PlyType::Float64)
+      text.fail("a list's length cannot be a fraction");
+    word = text.word();
+  }
+  property.type = type(text, word);
+  property.name = text.word();
+  if (property.name.empty()) text.fail("the property's name is missing");
+  return property;
+}
+
+}  // namespace
+
+PlyHeader read_ply_header(TextScanner& text) {
+  if (!text.next_line() || text.word() != "ply")
+    throw InvalidInput("this is no PLY file: it does not start with 'ply'");
+  text.pass_over("comment");
+  text.pass_over("obj_info");
+
+  PlyHeader header;
+  bool has_format = false;
+  while (text.next_line()) {
+    const std::string_view keyword = text.word();
+    if (keyword == "format") {
+      header.encoding = encoding(text);
+      has_format = true;
+    } else if (keyword == "element") {
+      header.elements.push_back(element(text));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) text.fail("a property stands before any element");
+      header.elements.back().properties.push_back(property(text));
+    } else if (keyword == "end_header") {
+      if (!has_format) text.fail("the header names no format");
+      return header;
+    } else {
+      text.fail("PLY headers have no " + in_quotes(keyword));
+    }
+  }
+  throw InvalidInput("the header is truncated: 'end_header' is missing");
+}
+
+}  // namespace symsurf

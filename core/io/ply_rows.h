@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "ply_header.h"
+#include "text_scanner.h"
+
+namespace symsurf {
+
+// The two ways a PLY file writes an element's rows. Both have
+//   begin(element, row)  moves to the next row
+//   number(property)     the next scalar of the row
+//   skip(type)           passes over it
+//   end()                the row is done
+//   fail(reason)         throws InvalidInput, saying where
+
+/// A row a line.
+class PlyTextRows {
+ public:
+  explicit PlyTextRows(TextScanner& text) : text_(text) {}
+
+  void begin(const PlyElement& element, Index row);
+  double number(const PlyProperty& property, PlyType) { return text_.number(property.name); }
+  void skip(const PlyProperty& property, PlyType) {
+    if (text_.word().empty()) fail(property.name + " is missing");
+  }
+  void end() {
+    if (!text_.line_ends()) fail("the row is longer than the header says");
+  }
+  [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
+
+ private:
+  TextScanner& text_;
+};
+
+/// Numbers of fixed size, one after the other.
+class PlyBinaryRows {
+ public:
+  PlyBinaryRows(std::string_view bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+
+  void begin(const PlyElement& element, Index row) {
+    element_ = &element;
+    row_ = row;
+  }
+  double number(const PlyProperty&, PlyType type);
+  void skip(const PlyProperty&, PlyType type) { take(type); }
+  void end() {}
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  const char* take(PlyType type);
+
+  std::string_view bytes_;
+  bool swapped_;
+  const PlyElement* element_ = nullptr;
+  Index row_ = 0;
+};
+
+}  // namespace symsurf

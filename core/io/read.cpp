@@ -1,0 +1,73 @@
+#include <symsurf/errors.h>
+#include <symsurf/read.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <string>
+
+#include "cloud.h"
+#include "formats.h"
+
+namespace symsurf {
+
+namespace {
+
+struct Format {
+  std::string_view suffix;
+  Shape (*read)(std::string_view content);
+};
+
+constexpr std::array<Format, 7> formats{{{".ply", read_ply},
+                                         {".obj", read_obj},
+                                         {".off", read_off},
+                                         {".stl", read_stl},
+                                         {".xyz", read_columns},
+                                         {".csv", read_columns},
+                                         {".txt", read_columns}}};
+
+const Format& format_of(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string(), known;
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Format& format : formats) {
+    if (format.suffix == suffix) return format;
+    known += (known.empty() ? "" : " ") + std::string(format.suffix);
+  }
+  throw InvalidInput("suffix '" + suffix + "' is none of " + known);
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InvalidInput("there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw InvalidInput("this is not a file");
+  const auto size = std::filesystem::file_size(path, error);
+  std::ifstream file(path, std::ios::binary);
+  std::string content(error ? 0 : size, '\0');
+  if (error || !file.read(content.data(), static_cast<std::streamsize>(content.size())))
+    throw InvalidInput("the file cannot be read");
+  if (content.empty()) throw InvalidInput("the file is empty");
+  return content;
+}
+
+}  // namespace
+
+Shape read(const std::filesystem::path& path) {
+  try {
+    const Format& format = format_of(path);
+    Shape shape = format.read(content_of(path));
+    if (shape.points.rows() == 0) throw InvalidInput("the file holds no points");
+    require_finite(shape.points, "point");
+    require_finite(shape.normals, "normal");
+    const auto is_zero = shape.normals.array() == 0;
+    if (shape.normals.rows() != shape.points.rows() || is_zero.rowwise().all().any())
+      shape.normals.resize(0, 3);
+    return shape;
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace symsurf

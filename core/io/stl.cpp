@@ -1,0 +1,109 @@
+#include <symsurf/errors.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "formats.h"
+#include "shape_builder.h"
+#include "text_scanner.h"
+#include "triple_index.h"
+
+namespace symsurf {
+
+namespace {
+
+// 80 bytes of comment, the number of triangles, and for each its normal, three corners (12 floats)
+// and two bytes; little endian.
+constexpr std::size_t header_bytes = 84, count_at = 80, triangle_bytes = 50, corners_at = 12;
+
+template <typename T>
+T load(const char* bytes) {
+  std::array<char, sizeof(T)> ordered;
+  std::memcpy(ordered.data(), bytes, sizeof(T));
+  if (std::endian::native == std::endian::big) std::reverse(ordered.begin(), ordered.end());
+  return std::bit_cast<T>(ordered);
+}
+
+class Triangulation {
+ public:
+  void add_corner(const Vector3& x) {
+    const Index corner = distinct_.add(ordered_bits(x));
+    if (corner == shape_.points()) shape_.add_point(x);
+    corners_[corner_++] = corner;
+    if (corner_ < 3) return;
+    shape_.add_polygon(corners_);
+    corner_ = 0;
+  }
+
+  Shape build() const { return shape_.build(); }
+
+ private:
+  ShapeBuilder shape_;
+  TripleIndex distinct_;
+  std::array<Index, 3> corners_;
+  int corner_ = 0;
+};
+
+Shape read_binary(std::string_view content, std::size_t triangles) {
+  Triangulation shape;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const char* at = content.data() + header_bytes + t * triangle_bytes + corners_at;
+    for (int corner = 0; corner < 3; ++corner, at += 3 * sizeof(float))
+      shape.add_corner(
+          {load<float>(at), load<float>(at + sizeof(float)), load<float>(at + 2 * sizeof(float))});
+  }
+  return shape.build();
+}
+
+void expect(TextScanner& text, std::string_view keyword) {
+  if (!text.next_line())
+    throw InvalidInput("the file is truncated: '" + std::string(keyword) + "' is missing");
+  const std::string_view found = text.word();
+  if (found != keyword)
+    text.fail(in_quotes(found) + " stands where '" + std::string(keyword) + "' should");
+}
+
+Shape read_text(std::string_view content) {
+  Triangulation shape;
+  TextScanner text(content);
+  while (text.next_line()) {
+    if (text.word() != "solid") text.fail("'solid' is missing");
+    for (;;) {
+      if (!text.next_line()) throw InvalidInput("the file is truncated: 'endsolid' is missing");
+      const std::string_view keyword = text.word();
+      if (keyword == "endsolid") break;
+      if (keyword != "facet") text.fail(in_quotes(keyword) + " stands where 'facet' should");
+      expect(text, "outer");
+      for (int corner = 0; corner < 3; ++corner) {
+        expect(text, "vertex");
+        shape.add_corner(text.vector("a coordinate"));
+      }
+      expect(text, "endloop");
+      expect(text, "endfacet");
+    }
+  }
+  return shape.build();
+}
+
+}  // namespace
+
+Shape read_stl(std::string_view content) {
+  // Binary files may start with "solid" too: their size is the surer sign.
+  const bool has_header = content.size() >= header_bytes;
+  const std::size_t triangles =
+      has_header ? load<std::uint32_t>(content.data() + count_at) : std::size_t{0};
+  const std::size_t bytes = header_bytes + triangles * triangle_bytes;
+  if (content.starts_with("solid") && content.size() != bytes) return read_text(content);
+  if (!has_header)
+    throw InvalidInput("this is no STL file: neither text nor as long as a binary header");
+  if (content.size() < bytes)
+    throw InvalidInput("the file is truncated: " + std::to_string(triangles) + " triangles take " +
+                       std::to_string(bytes) + " bytes, it has " + std::to_string(content.size()));
+  return read_binary(content, triangles);
+}
+
+}  // namespace symsurf

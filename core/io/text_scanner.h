@@ -1,0 +1,62 @@
+#pragma once
+
+#include <symsurf/types.h>
+
+#include <string>
+#include <string_view>
+
+namespace symsurf {
+
+/// A text taken line by line and word by word. Lines end with \n or \r\n; blank lines and lines
+/// that start with a comment mark are passed over.
+class TextScanner {
+ public:
+  /// The text must outlive the scanner. A byte order mark is passed over.
+  explicit TextScanner(std::string_view text);
+
+  /// Lines that start with the mark are comments. May be called several times.
+  void pass_over(std::string_view comment_mark) { comment_marks_.emplace_back(comment_mark); }
+
+  /// What stands between words: ' ' (any run of blanks and tabs) or one given character.
+  void set_separator(char separator) { separator_ = separator; }
+
+  /// Moves to the next line; false at the end of the text.
+  bool next_line();
+
+  /// Back to the first word of the line.
+  void restart_line() { rest_ = line_; }
+
+  std::string_view line() const { return line_; }
+  bool line_ends() const { return rest_.empty(); }
+  std::string_view text_after_line() const { return text_.substr(position_); }
+
+  /// The next word of the line, empty where there is none.
+  std::string_view word();
+
+  /// The next word as a finite number. `what` names it in errors: "x of the vertex".
+  double number(std::string_view what);
+  Vector3 vector(std::string_view what);
+  Index integer(std::string_view what);
+
+  Index line_number() const { return line_number_; }
+
+  /// Throws InvalidInput: "line 12: " and the reason.
+  [[noreturn]] void fail(const std::string& reason) const { fail(reason, line_number_); }
+  [[noreturn]] static void fail(const std::string& reason, Index line_number);
+
+ private:
+  std::string_view text_, line_, rest_;
+  std::size_t position_ = 0;
+  Index line_number_ = 0;
+  char separator_ = ' ';
+  std::vector<std::string_view> comment_marks_;
+};
+
+/// Whether all of the word is a number, infinite and NaN ones included.
+bool parse(std::string_view word, double& number);
+bool parse(std::string_view word, Index& number);
+
+/// The word in quotes, fit for an error message: short and printable.
+std::string in_quotes(std::string_view word);
+
+}  // namespace symsurf
