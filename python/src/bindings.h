@@ -13,5 +13,6 @@ void bind_methods(py::module_& module);
 void bind_mirrors(py::module_& module);
 void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
+void bind_reading(py::module_& module);
 
 }  // namespace symsurf::python

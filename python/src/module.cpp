@@ -9,4 +9,5 @@ PYBIND11_MODULE(_core, module) {
   bind_mirrors(module);
   bind_detection(module);
   bind_sampling(module);
+  bind_reading(module);
 }

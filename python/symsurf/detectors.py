@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ._core import Method, Parameter, methods
+from .descriptions import allowed
 from .detection import detect
 from .result import Result
 
@@ -19,8 +20,6 @@ _TYPES = {
     "direction": "ArrayLike",
     "position": "ArrayLike",
 }
-
-_UNITS = {"diagonal": "of the diagonal"}
 
 
 def _keyword(parameter: Parameter) -> inspect.Parameter:
@@ -54,8 +53,8 @@ def _docstring(method: Method) -> str:
     lines = [textwrap.fill(method.summary, 96), "", "Args:"]
     lines.append(f"    points: (n, 3), at least {method.minimum_points} of them.")
     for parameter in method.parameters:
-        allowed = f"{parameter.range} {_UNITS.get(parameter.unit, parameter.unit)}".rstrip()
-        lines.append(_paragraph(f"{parameter.name}: {parameter.doc} Allowed: {allowed}.", 4))
+        text = f"{parameter.name}: {parameter.doc} Allowed: {allowed(parameter)}."
+        lines.append(_paragraph(text, 4))
     lines.append("    normals, seed, threads, progress: as for ``detect``.")
     return "\n".join(lines)
 

@@ -1,0 +1,48 @@
+"""The command line. Each command is a module with SUMMARY, add_arguments(parser) and
+run(arguments), which returns the exit status."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+from .. import __version__
+from .._core import InvalidInput, InvalidParameter
+from . import detect, methods
+from .values import attach_negative_numbers
+
+COMMANDS = {"detect": detect, "methods": methods}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    words = sys.argv[1:] if arguments is None else arguments
+    chosen = parser().parse_args(attach_negative_numbers(words))
+    try:
+        return chosen.run(chosen)
+    except (InvalidInput, InvalidParameter) as error:
+        print(f"symsurf: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+
+
+def parser() -> argparse.ArgumentParser:
+    top = argparse.ArgumentParser(
+        prog="symsurf",
+        description="Finds the mirror of 3D point sets: a plane, a sphere or a curved surface.",
+        allow_abbrev=False,
+    )
+    top.add_argument("--version", action="version", version=f"symsurf {__version__}")
+    commands = top.add_subparsers(required=True, metavar="COMMAND")
+    for name, command in COMMANDS.items():
+        sub = commands.add_parser(
+            name,
+            help=command.SUMMARY,
+            description=command.SUMMARY,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        command.add_arguments(sub)
+        sub.set_defaults(run=command.run)
+    return top

@@ -1,0 +1,143 @@
+"""symsurf detect: the mirrors of files."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import detection
+from .._core import InvalidInput, InvalidParameter
+from ..result import Result
+from ..saving import FORMATS
+from ..saving.json_format import plain, summary
+from ..shape import read
+from .method_options import add_method_options, given_parameters
+from .progress_bar import ProgressBar
+from .values import shown
+
+SUMMARY = "Find the mirror of each file"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "files", nargs="+", type=Path, metavar="FILE", help="PLY, OBJ, OFF, STL, XYZ, CSV or TXT"
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="write each result to DIR, under the file's name and the suffixes of --formats",
+    )
+    parser.add_argument(
+        "--formats",
+        default="json,vtp,ply,txt",
+        metavar="LIST",
+        help="what --output writes, separated by commas; default %(default)s",
+    )
+    parser.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
+    parser.add_argument("--threads", default="0", metavar="N", help="0: all there are")
+    parser.add_argument("--seed", default="0", metavar="N", help="of the methods that draw lots")
+    parser.add_argument(
+        "--ignore-normals", action="store_true", help="do not use the normals in the files"
+    )
+    add_method_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    outputs = _outputs(arguments)
+    failed = 0
+    for path in arguments.files:
+        try:
+            result = _detect(path, arguments)
+            for output in outputs.get(path, []):
+                result.save(output)
+        except (InvalidInput, OSError, MemoryError) as error:
+            failed += 1
+            reason = str(error) or type(error).__name__
+            named = reason if str(path) in reason else f"{path}: {reason}"
+            print("symsurf:", " ".join(named.split()), file=sys.stderr)
+            continue
+        print(json.dumps(_record(path, result)) if arguments.json else _report(path, result))
+    return 1 if failed else 0
+
+
+def _detect(path: Path, arguments: argparse.Namespace) -> Result:
+    shape = read(path)
+    with ProgressBar(path.name) as bar:
+        return detection.detect(
+            shape.points,
+            arguments.method,
+            normals=None if arguments.ignore_normals else shape.normals,
+            seed=_whole(arguments.seed),
+            threads=_whole(arguments.threads),
+            progress=bar,
+            **given_parameters(arguments),
+        )
+
+
+def _whole(text: str) -> int | str:
+    try:
+        return int(text)
+    except ValueError:
+        return text  # for the core to refuse
+
+
+def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
+    """The files to write for each file to read."""
+    if arguments.output is None:
+        return {}
+    suffixes = [f".{name.strip().lstrip('.')}" for name in arguments.formats.split(",")]
+    for suffix in suffixes:
+        if suffix not in FORMATS:
+            allowed = ", ".join(name[1:] for name in FORMATS)
+            raise InvalidParameter(f"formats is {arguments.formats}; allowed are {allowed}")
+    stems: dict[str, Path] = {}
+    for path in arguments.files:
+        if stems.setdefault(path.stem, path) != path:
+            raise InvalidParameter(
+                f"{stems[path.stem]} and {path} would both be written as {path.stem}{suffixes[0]}"
+            )
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    return {
+        path: [arguments.output / f"{path.stem}{suffix}" for suffix in suffixes]
+        for path in arguments.files
+    }
+
+
+def _record(path: Path, result: Result) -> dict[str, Any]:
+    return {
+        "file": str(path),
+        "points": len(result.points),
+        "pairs": len(result.pairs),
+        "surface_points": len(result.surface_points),
+        "median_residual": plain(_median_residual(result)),
+    } | summary(result)
+
+
+def _median_residual(result: Result) -> float:
+    return float(np.median(result.residuals)) if len(result.residuals) else float("nan")
+
+
+def _report(path: Path, result: Result) -> str:
+    lines = [str(path)]
+    if result.mirror is not None:
+        numbers = [f"{name} {_exact(value)}" for name, value in result.mirror.numbers.items()]
+        lines.append(f"  mirror    {', '.join([result.mirror.kind, *numbers])}")
+    lines.append(f"  score     {result.score:.3f} (method {result.method})")
+    paired = f"{len(result.pairs)} of {len(result.points)} points"
+    residual = f"median residual {_median_residual(result):.3g}" if len(result.pairs) else ""
+    lines.append(f"  pairs     {', '.join(filter(None, [paired, residual]))}")
+    if result.candidates:
+        scores = " ".join(f"{candidate.score:.3f}" for candidate in result.candidates)
+        lines.append(f"  others    {len(result.candidates)} with scores {scores}")
+    lines.append(f"  time      {1000 * result.seconds:.1f} ms")
+    return "\n".join(lines)
+
+
+def _exact(value: Any) -> str:
+    return f"({shown(value)})" if isinstance(value, np.ndarray) else shown(value)

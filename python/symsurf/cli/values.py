@@ -1,0 +1,53 @@
+"""Values of parameters as they are written on the command line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from .._core import Parameter
+
+_NUMBER = re.compile(r"-\.?\d")
+
+
+def value_from(text: str, parameter: Parameter) -> Any:
+    """The value in the parameter's type; a text that is none is left for the core to refuse."""
+    try:
+        return _CONVERSIONS[parameter.type](text)
+    except (ValueError, KeyError):
+        return text
+
+
+def shown(value: Any) -> str:
+    """The value as it would be written on the command line."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if hasattr(value, "tolist"):
+        return ",".join(f"{number:g}" for number in value.tolist())
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def attach_negative_numbers(words: Sequence[str]) -> list[str]:
+    """Joins an option and the negative number after it, which argparse takes for an option."""
+    joined: list[str] = []
+    for word in words:
+        if _NUMBER.match(word) and joined and re.fullmatch("--[^=]+", joined[-1]):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    return tuple(float(part) for part in text.split(","))
+
+
+_CONVERSIONS = {
+    "boolean": {"true": True, "false": False}.__getitem__,
+    "integer": int,
+    "real": float,
+    "choice": str,
+    "direction": _numbers,
+    "position": _numbers,
+}

@@ -1,0 +1,36 @@
+"""Writing results to files, each format in its own module."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from .._core import InvalidParameter
+from ..result import Result
+from .json_format import json_bytes
+from .ply_format import ply_bytes
+from .text_format import text_bytes
+from .vtp_format import vtp_bytes
+
+FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
+
+
+def save(result: Result, path: str | os.PathLike[str]) -> None:
+    """Writes the result in the format of the path's suffix; see ``Result.save``."""
+    path = Path(path)
+    if path.suffix.lower() not in FORMATS:
+        raise InvalidParameter(
+            f"path is {str(path)!r}; allowed are the suffixes {', '.join(FORMATS)}"
+        )
+    write_whole(path, FORMATS[path.suffix.lower()](result))
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Writes the file whole or not at all: what stood there stays until the new one is complete."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        partial.write_bytes(content)
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise

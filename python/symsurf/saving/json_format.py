@@ -1,0 +1,63 @@
+"""Results as JSON: every field by its name, the mirror as its kind and numbers."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+from .._core import Mirror
+from ..result import Result
+
+
+def json_bytes(result: Result) -> bytes:
+    return (json.dumps(record(result), indent=1, allow_nan=False) + "\n").encode()
+
+
+def record(result: Result) -> dict[str, Any]:
+    """The whole result in what JSON knows: lists for arrays, null for NaN and infinity."""
+    return summary(result) | {
+        "pairs": plain(result.pairs),
+        "residuals": plain(result.residuals),
+        "surface_points": plain(result.surface_points),
+    }
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """What a result says without its points: a few lines, however large the input."""
+    return {
+        "method": result.method,
+        "mirror": mirror_record(result.mirror),
+        "score": plain(result.score),
+        "seconds": result.seconds,
+        "parameters": plain(result.parameters),
+        "statistics": plain(result.statistics),
+        "candidates": [
+            {
+                "method": candidate.method,
+                "mirror": mirror_record(candidate.mirror),
+                "score": plain(candidate.score),
+            }
+            for candidate in result.candidates
+        ],
+    }
+
+
+def mirror_record(mirror: Mirror | None) -> dict[str, Any] | None:
+    return None if mirror is None else {"kind": mirror.kind} | plain(mirror.numbers)
+
+
+def plain(value: Any) -> Any:
+    """Arrays as lists, what is not finite as None."""
+    if isinstance(value, dict):
+        return {name: plain(item) for name, item in value.items()}
+    if isinstance(value, np.ndarray):
+        finite = value.dtype.kind != "f" or np.isfinite(value).all()
+        return value.tolist() if finite else plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
