@@ -1,0 +1,51 @@
+#pragma once
+
+#include <symsurf/types.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <random>
+
+namespace symsurf {
+
+/// Seeds of repeated tests: whatever fails for one of them fails.
+constexpr std::uint64_t seeds = 8;
+
+class RandomCloud {
+ public:
+  explicit RandomCloud(std::uint64_t seed) : random_(seed) {}
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vector3 in_box() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
+  Vector3 direction() {
+    std::normal_distribution<double> normal;
+    return Vector3(normal(random_), normal(random_), normal(random_)).normalized();
+  }
+  Matrix3 rotation() { return Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix(); }
+
+  Points box(Index n) {
+    return rows(n, [&] { return in_box(); });
+  }
+  Points sphere(Index n) {
+    return rows(n, [&] { return direction(); });
+  }
+  /// Corners of unit cells, each several times: distances tie, and are exact.
+  Points lattice(Index n, int side) {
+    std::uniform_int_distribution<int> at(0, side - 1);
+    return rows(n, [&] { return Vector3(at(random_), at(random_), at(random_)); });
+  }
+
+ private:
+  template <typename Draw>
+  static Points rows(Index n, const Draw& draw) {
+    Points points(n, 3);
+    for (Index i = 0; i < n; ++i) points.row(i) = draw().transpose();
+    return points;
+  }
+
+  std::mt19937_64 random_;
+};
+
+}  // namespace symsurf
