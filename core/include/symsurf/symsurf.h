@@ -3,6 +3,7 @@
 #include <symsurf/detect.h>
 #include <symsurf/downsample.h>
 #include <symsurf/errors.h>
+#include <symsurf/make_mirror.h>
 #include <symsurf/match.h>
 #include <symsurf/method.h>
 #include <symsurf/normals.h>

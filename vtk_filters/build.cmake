@@ -1,0 +1,51 @@
+# Builds the VTK module, its Python wrapping and, on ParaView's VTK, the plugin.
+enable_language(C)  # VTK looks for MPI's C library
+include(GNUInstallDirs)
+option(BUILD_SHARED_LIBS "Build shared VTK modules" ON)
+option(SYMSURF_VTK_PYTHON "Wrap the VTK module for Python" ON)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR})
+
+if(SYMSURF_PARAVIEW)
+  find_package(ParaView REQUIRED
+    COMPONENTS RemotingCore RemotingServerManager WrapClientServer ProcessXML)
+  message(STATUS "symsurf: ParaView ${ParaView_VERSION}")
+endif()
+find_package(VTK REQUIRED
+  COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore ParallelCore
+  OPTIONAL_COMPONENTS WrappingPythonCore Python)
+message(STATUS "symsurf: VTK ${VTK_VERSION}")
+
+add_executable(symsurf_generate)
+file(GLOB generate_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/generate/*.cpp)
+target_sources(symsurf_generate PRIVATE ${generate_sources})
+target_link_libraries(symsurf_generate PRIVATE symsurf::core)
+
+# Makes OUTPUT from the core's description of what CLASS can do; see generate/main.cpp.
+function(symsurf_generate class output)
+  add_custom_command(OUTPUT ${output}
+    COMMAND symsurf_generate ${class} ${output} ${ARGN}
+    DEPENDS symsurf_generate ${ARGN}
+    COMMENT "Describing ${class}" VERBATIM)
+endfunction()
+
+vtk_module_scan(MODULE_FILES ${CMAKE_CURRENT_LIST_DIR}/vtk.module
+  REQUEST_MODULES symsurf::Filters PROVIDES_MODULES symsurf_modules HIDE_MODULES_FROM_CACHE ON)
+vtk_module_build(MODULES ${symsurf_modules}
+  PACKAGE symsurf-filters INSTALL_EXPORT symsurf-filters INSTALL_HEADERS ON
+  HEADERS_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/symsurf-filters
+  CMAKE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
+if(SYMSURF_VTK_PYTHON)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
+  vtk_module_wrap_python(MODULES ${symsurf_modules} PYTHON_PACKAGE symsurf_filters
+    MODULE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages
+    INSTALL_HEADERS OFF TARGET symsurf::filters_python)
+endif()
+
+if(SYMSURF_PARAVIEW)
+  paraview_plugin_scan(PLUGIN_FILES ${CMAKE_CURRENT_LIST_DIR}/paraview/paraview.plugin
+    PROVIDES_PLUGINS symsurf_plugins ENABLE_BY_DEFAULT ON HIDE_PLUGINS_FROM_CACHE ON)
+  paraview_plugin_build(PLUGINS ${symsurf_plugins} PLUGINS_FILE_NAME symsurf.plugins.xml
+    RUNTIME_DESTINATION ${CMAKE_INSTALL_BINDIR} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY_SUBDIRECTORY paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/plugins)
+endif()

@@ -1,0 +1,38 @@
+#ifndef core_call_h
+#define core_call_h
+
+#include <symsurf/context.h>
+#include <symsurf/errors.h>
+
+#include "vtkAlgorithm.h"
+#include "vtkVersionMacros.h"
+
+/// Progress, abort and threads of a filter as the core wants them.
+inline symsurf::Context context_of(vtkAlgorithm* filter, int threads = 0) {
+  return symsurf::Context(
+      [filter](double fraction) {
+        filter->UpdateProgress(fraction);
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
+        if (filter->CheckAbort()) return false;
+#endif
+        return filter->GetAbortExecute() == 0;
+      },
+      threads);
+}
+
+/// Runs a call of the core inside RequestData and gives what RequestData has to return. Errors of
+/// the core become errors of the filter; an abort is none.
+template <typename Call>
+int core_call(vtkAlgorithm* filter, const Call& call) {
+  try {
+    call();
+    return 1;
+  } catch (const symsurf::Cancelled&) {
+    return 1;
+  } catch (const std::exception& error) {
+    vtkErrorWithObjectMacro(filter, << error.what());
+    return 0;
+  }
+}
+
+#endif

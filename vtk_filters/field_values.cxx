@@ -1,0 +1,101 @@
+#include "field_values.h"
+
+#include <cctype>
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+
+namespace {
+
+std::string array_name(const std::string& name) {
+  std::string text;
+  bool up = true;
+  for (const char c : name) {
+    if (c != '_') text += up ? static_cast<char>(std::toupper(c)) : c;
+    up = c == '_';
+  }
+  return text;
+}
+
+std::string core_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (std::isupper(c) && !text.empty()) text += '_';
+    text += static_cast<char>(std::tolower(c));
+  }
+  return text;
+}
+
+using Array = vtkSmartPointer<vtkAbstractArray>;
+
+Array numbers(const Eigen::MatrixXd& rows) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetNumberOfComponents(static_cast<int>(rows.cols()));
+  array->SetNumberOfTuples(rows.rows());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    for (Eigen::Index c = 0; c < rows.cols(); ++c)
+      array->SetComponent(r, static_cast<int>(c), rows(r, c));
+  return array;
+}
+
+Array array_of(const symsurf::Value& value) {
+  struct {
+    Array operator()(bool v) const { return (*this)(symsurf::Index(v)); }
+    Array operator()(symsurf::Index v) const {
+      vtkNew<vtkTypeInt64Array> array;
+      array->InsertNextValue(v);
+      return array;
+    }
+    Array operator()(double v) const { return numbers(Eigen::MatrixXd::Constant(1, 1, v)); }
+    Array operator()(const std::string& v) const {
+      vtkNew<vtkStringArray> array;
+      array->InsertNextValue(v);
+      return array;
+    }
+    Array operator()(const symsurf::Vector3& v) const { return numbers(v.transpose()); }
+    Array operator()(const Eigen::MatrixXd& v) const { return numbers(v); }
+  } const convert;
+  return std::visit(convert, value);
+}
+
+symsurf::Value value_of(vtkAbstractArray* array) {
+  if (auto* strings = vtkArrayDownCast<vtkStringArray>(array))
+    return std::string(strings->GetValue(0));
+  auto* data = vtkArrayDownCast<vtkDataArray>(array);
+  if (array->GetNumberOfValues() == 1) {
+    if (array->GetDataType() == VTK_DOUBLE) return data->GetComponent(0, 0);
+    return static_cast<symsurf::Index>(data->GetComponent(0, 0));
+  }
+  if (array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 3)
+    return symsurf::Vector3(data->GetTuple3(0));
+  Eigen::MatrixXd rows(data->GetNumberOfTuples(), data->GetNumberOfComponents());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    for (Eigen::Index c = 0; c < rows.cols(); ++c)
+      rows(r, c) = data->GetComponent(r, static_cast<int>(c));
+  return rows;
+}
+
+}  // namespace
+
+void add_field_values(vtkFieldData* field, const symsurf::Values& values) {
+  for (const auto& [name, value] : values) {
+    const Array array = array_of(value);
+    array->SetName(array_name(name).c_str());
+    field->AddArray(array);
+  }
+}
+
+symsurf::Values field_values(vtkFieldData* field) {
+  symsurf::Values values;
+  for (int i = 0; i < field->GetNumberOfArrays(); ++i) {
+    vtkAbstractArray* array = field->GetAbstractArray(i);
+    const bool known =
+        vtkArrayDownCast<vtkStringArray>(array) || vtkArrayDownCast<vtkDataArray>(array);
+    if (known && array->GetName() && array->GetNumberOfValues() > 0)
+      values[core_name(array->GetName())] = value_of(array);
+  }
+  return values;
+}

@@ -1,0 +1,68 @@
+#include "point_arrays.h"
+
+#include <symsurf/mirror.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "vtkCellArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTypeInt64Array.h"
+
+namespace {
+
+// Cells of `corners` points each, from their points' indices.
+template <typename Fill>
+vtkNew<vtkCellArray> cells_of(vtkIdType count, int corners, const Fill& fill) {
+  vtkNew<vtkTypeInt64Array> offsets, connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, i * corners);
+  connectivity->SetNumberOfValues(count * corners);
+  fill(connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+}  // namespace
+
+PointArray::PointArray(vtkDataArray* array) : doubles_(vtkArrayDownCast<vtkDoubleArray>(array)) {
+  if (!array || doubles_) return;
+  doubles_ = vtkSmartPointer<vtkDoubleArray>::New();
+  doubles_->DeepCopy(array);
+}
+
+symsurf::PointsView PointArray::view() const {
+  if (!doubles_) return {};
+  return {doubles_->GetPointer(0), doubles_->GetNumberOfTuples()};
+}
+
+PointArray points_of(vtkPolyData* data) {
+  return PointArray(data->GetPoints() ? data->GetPoints()->GetData() : nullptr);
+}
+
+void set_points(vtkPolyData* data, const symsurf::Points& points) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(points.rows());
+  std::copy_n(points.data(), points.size(), array->GetPointer(0));
+  vtkNew<vtkPoints> result;
+  result->SetData(array);
+  data->SetPoints(result);
+}
+
+void set_vertices(vtkPolyData* data, const symsurf::Points& points) {
+  set_points(data, points);
+  data->SetVerts(cells_of(points.rows(), 1, [&](vtkTypeInt64* ids) {
+    std::iota(ids, ids + points.rows(), vtkTypeInt64{0});
+  }));
+}
+
+void set_triangles(vtkPolyData* data, const symsurf::Mesh& mesh) {
+  set_points(data, mesh.vertices);
+  data->SetPolys(cells_of(mesh.triangles.rows(), 3, [&](vtkTypeInt64* ids) {
+    std::copy_n(mesh.triangles.data(), mesh.triangles.size(), ids);
+  }));
+}

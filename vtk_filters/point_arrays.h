@@ -1,0 +1,38 @@
+#ifndef point_arrays_h
+#define point_arrays_h
+
+#include <symsurf/points_view.h>
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+class vtkDataArray;
+class vtkPolyData;
+
+namespace symsurf {
+struct Mesh;
+}
+
+/// An array of three components as the core reads it: in place where it holds doubles one after
+/// the other, from one copy otherwise. Null: no points.
+class PointArray {
+ public:
+  explicit PointArray(vtkDataArray* array);
+
+  symsurf::PointsView view() const;
+
+ private:
+  vtkSmartPointer<vtkDoubleArray> doubles_;
+};
+
+/// The data set's points; none: an empty view.
+PointArray points_of(vtkPolyData* data);
+
+void set_points(vtkPolyData* data, const symsurf::Points& points);
+
+/// Points, and one vertex each.
+void set_vertices(vtkPolyData* data, const symsurf::Points& points);
+
+void set_triangles(vtkPolyData* data, const symsurf::Mesh& mesh);
+
+#endif

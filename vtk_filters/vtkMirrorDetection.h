@@ -1,0 +1,76 @@
+/**
+ * @class vtkMirrorDetection
+ * @brief Finds the mirror of a point set: a plane, a sphere or a curved surface.
+ *
+ * Works on the points of the input; its cells are only passed on. The outputs are
+ *
+ * - 0 "Mirror": triangles of the mirror over the object's footprint. Field data: Method (the one
+ *   that found it), Kind, Score (0: no symmetry, 1: exact), the mirror's numbers (Normal and Offset
+ *   of a plane, in input units) and the method's statistics. No triangles where the method gives
+ *   surface points only.
+ * - 1 "Surface Points": a vertex in the middle of each pair. Point data: Residual, the distance
+ *   from a point's image to its partner.
+ * - 2 "Mapping": the input. Point data: MirrorPartner (index of the partner, -1 for none),
+ *   MirrorResidual (NaN for none) and MirrorSide (the sign of the point's distance from the
+ * mirror).
+ *
+ * Points are read where they lie when they are contiguous doubles, from one copy otherwise. A
+ * cloud without symmetry is no error but a mirror with a low score. Too few points, NaN, points on
+ * one line, an unknown method or a value out of range are errors and leave the outputs empty.
+ */
+#ifndef vtkMirrorDetection_h
+#define vtkMirrorDetection_h
+
+#include "vtkMirrorDetectionParameters.h"
+#include "vtkSymsurfFiltersModule.h"  // for the export macro
+
+class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionParameters {
+ public:
+  static vtkMirrorDetection* New();
+  vtkTypeMacro(vtkMirrorDetection, vtkMirrorDetectionParameters);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum OutputPorts { MIRROR = 0, SURFACE_POINTS = 1, MAPPING = 2 };
+
+  ///@{
+  /**
+   * Whether the input's point normals are used, as lines: their sign does not count. Otherwise the
+   * methods that need normals estimate them.
+   */
+  vtkSetMacro(UseNormals, bool);
+  vtkGetMacro(UseNormals, bool);
+  vtkBooleanMacro(UseNormals, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the methods that draw at random.
+   */
+  vtkSetMacro(Seed, unsigned int);
+  vtkGetMacro(Seed, unsigned int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0: as many as the machine has. The results are the same for any number.
+   */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+ protected:
+  vtkMirrorDetection();
+  ~vtkMirrorDetection() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  bool UseNormals = false;
+  unsigned int Seed = 0;
+  int NumberOfThreads = 0;
+
+ private:
+  vtkMirrorDetection(const vtkMirrorDetection&) = delete;
+  void operator=(const vtkMirrorDetection&) = delete;
+};
+
+#endif
