@@ -9,10 +9,10 @@ from collections.abc import Sequence
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter
-from . import detect, methods
+from . import demo, detect, methods
 from .values import attach_negative_numbers
 
-COMMANDS = {"detect": detect, "methods": methods}
+COMMANDS = {"detect": detect, "methods": methods, "demo": demo}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

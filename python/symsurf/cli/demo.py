@@ -1,0 +1,51 @@
+"""symsurf demo: mirrors of real meshes, whole and damaged, against the truth."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..demonstration import Finding, cases, find
+
+SUMMARY = "Find the mirrors of two real meshes, whole and damaged; print a table, draw pictures"
+
+HEADINGS = "mesh", "damage", "points", "angle error", "offset error", "score", "time"
+ROW = "{:9} {:18} {:>7} {:>12} {:>13} {:>7} {:>9}"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=Path("symsurf-demo"),
+        metavar="DIR",
+        help="where the pictures go; default %(default)s",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    print(ROW.format(*HEADINGS))
+    findings = []
+    for case in cases():
+        finding = find(case)
+        findings.append(finding)
+        print(_row(finding), flush=True)
+    from .. import gallery
+
+    for path in gallery.draw(findings, arguments.output):
+        print(path)
+    return 0
+
+
+def _row(finding: Finding) -> str:
+    result = finding.result
+    return ROW.format(
+        finding.case.name,
+        finding.case.damage,
+        len(result.points),
+        f"{finding.angle:.4f}°",
+        f"{finding.offset:.4f} %",
+        f"{result.score:.3f}",
+        f"{1000 * result.seconds:.1f} ms",
+    )

@@ -1,0 +1,18 @@
+"""Pictures of the demonstration: one for each case, and all of them side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from .demonstration import Finding
+from .plotting import INK, draw as draw_result, new_plotter
+
+
+def draw(findings: list[Finding], folder: Path) -> Iterator[Path]:
+    """Writes the pictures, naming each when it is there."""
+    for finding in findings:
+        case = finding.case
+        path = folder / f"{case.name} {case.damage}.png".replace(" %", "").replace(" ", "-")
+        finding.result.plot(path, shape=case.shape)
+        yield path

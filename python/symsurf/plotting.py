@@ -1,0 +1,215 @@
+"""Pictures of results, with PyVista."""
+
+from __future__ import annotations
+
+import os
+import sys
+from ctypes.util import find_library
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._core import InvalidInput
+from .result import Result
+from .shape import Shape
+
+if TYPE_CHECKING:
+    import pyvista
+
+SIZE = (1200, 900)
+# From light to dark in even steps: an exact mirror leaves the object light.
+COLOURS = ("#f5e6c8", "#f0bd80", "#de8350", "#b4464b", "#74204f")
+UNPAIRED = "#9aa3ad"
+MIRROR = "#2f7fd0"
+BACKGROUND = "#ffffff"
+INK = "#333333"
+
+
+def plot(
+    result: Result,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    shape: Shape | None = None,
+    points: ArrayLike | None = None,
+) -> pyvista.Plotter:
+    """Draws a result; see ``Result.plot``."""
+    plotter = new_plotter(off_screen=path is not None)
+    draw(plotter, result, shape=shape, points=points)
+    if path is None:
+        plotter.show(auto_close=False)
+    else:
+        plotter.screenshot(Path(path))
+        plotter.close()
+    return plotter
+
+
+def new_plotter(off_screen: bool, **options: Any) -> pyvista.Plotter:
+    """A plotter of our size, without a window where off_screen."""
+    if off_screen and sys.platform == "linux" and not os.environ.get("DISPLAY"):
+        # VTK would try X first, and complain.
+        if find_library("EGL"):
+            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+    return _pyvista().Plotter(off_screen=off_screen, **{"window_size": SIZE} | options)
+
+
+def draw(
+    plotter: pyvista.Plotter,
+    result: Result,
+    *,
+    shape: Shape | None = None,
+    points: ArrayLike | None = None,
+    residual_range: float | None = None,
+) -> None:
+    """Adds a result to a plotter and looks at it.
+
+    Args:
+        plotter: with its own size and layout.
+        shape, points: the object; without them, the points of the detection.
+        residual_range: what the colours end at, in % of the diagonal; without it, what 98 % of the
+            residuals stay below.
+    """
+    object_ = _object(result, shape, points)
+    diagonal = object_.length
+    plotter.set_background(BACKGROUND)
+    plotter.enable_anti_aliasing("ssaa")
+    plotter.enable_lightkit()
+    _draw_object(plotter, object_, _percent(result, object_.n_points, diagonal), residual_range)
+    if result.mirror is not None:
+        _draw_mirror(plotter, result, object_)
+    _look(plotter, result, object_)
+
+
+def _pyvista():
+    try:
+        import pyvista
+    except ImportError as error:
+        raise ImportError("pictures need PyVista: pip install 'symsurf[plot]'") from error
+    return pyvista
+
+
+def _object(result: Result, shape: Shape | None, points: ArrayLike | None) -> pyvista.PolyData:
+    if shape is None:
+        chosen = result.points if points is None else points
+        if chosen is None:
+            raise InvalidInput("the result does not know its points: give shape or points")
+        shape = Shape(np.asarray(chosen, dtype=float))
+    if shape.faces is None:
+        return _pyvista().PolyData(shape.points)
+    return _pyvista().PolyData.from_regular_faces(shape.points, shape.faces)
+
+
+def _percent(result: Result, count: int, diagonal: float) -> NDArray[np.float64]:
+    """Each point's residual in % of the diagonal; NaN where it has no partner."""
+    if len(result.pairs) and result.pairs.max() >= count:
+        raise InvalidInput(f"the result has pairs beyond the {count} points given")
+    percent = np.full(count, np.nan)
+    percent[result.pairs[:, 0]] = 100 * result.residuals / diagonal
+    return percent
+
+
+def _draw_object(
+    plotter: pyvista.Plotter,
+    object_: pyvista.PolyData,
+    percent: NDArray[np.float64],
+    residual_range: float | None,
+) -> None:
+    paired = percent[np.isfinite(percent)]
+    if residual_range is None:
+        # An exact mirror's residuals are rounding; do not stretch the colours over that.
+        residual_range = max(0.1, float(np.percentile(paired, 98)) if len(paired) else 0.1)
+    title = "residual, % of the diagonal"
+    object_[title] = percent
+    bare = object_.n_cells == object_.n_verts
+    style = (
+        {"style": "points", "point_size": _point_size(object_), "render_points_as_spheres": True}
+        if bare
+        else {"smooth_shading": True, "split_sharp_edges": False}
+    )
+    plotter.add_mesh(
+        object_,
+        scalars=title,
+        cmap=_colour_map(),
+        clim=(0, residual_range),
+        nan_color=UNPAIRED,
+        ambient=0.25,
+        specular=0.1,
+        scalar_bar_args={
+            "title": title,
+            "color": INK,
+            "fmt": "%.2g",
+            "n_labels": 2,
+            "width": 0.4,
+            "height": 0.06,
+            "position_x": 0.3,
+            "position_y": 0.02,
+            "title_font_size": 20,
+            "label_font_size": 18,
+        },
+        **style,
+    )
+
+
+def _colour_map():
+    from matplotlib.colors import LinearSegmentedColormap
+
+    return LinearSegmentedColormap.from_list("residual", COLOURS)
+
+
+def _point_size(object_: pyvista.PolyData) -> float:
+    """So that neighbouring points nearly touch, whatever their number."""
+    return float(np.clip(700 / np.sqrt(object_.n_points), 3, 16))
+
+
+def _draw_mirror(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -> None:
+    surface = _pyvista().PolyData.from_regular_faces(*result.mirror.mesh(object_.points))
+    plotter.add_mesh(surface, color=MIRROR, opacity=0.22, lighting=False)
+    edges = surface.extract_feature_edges(
+        boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
+    )
+    if edges.n_points:
+        plotter.add_mesh(edges, color=MIRROR, line_width=2)
+
+
+def _look(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -> None:
+    direction, up = _view(result, object_)
+    camera = plotter.camera
+    camera.focal_point = object_.center
+    camera.position = np.asarray(object_.center) + direction * object_.length
+    camera.up = up
+    camera.view_angle = 25
+    plotter.reset_camera()
+    camera.zoom(1.35)
+    # Room for the bar below.
+    lower = np.asarray(camera.up) * -0.05 * object_.length
+    camera.position, camera.focal_point = camera.position + lower, camera.focal_point + lower
+
+
+def _view(
+    result: Result, object_: pyvista.PolyData
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where to look from, and what is up: from three quarters above the higher end of the object's
+    longest direction within the mirror, upright along the coordinate axis nearest to that."""
+    points = np.asarray(object_.points, dtype=float)
+    points = points[:: max(1, len(points) // 5000)] - points.mean(axis=0)
+    axes = np.linalg.svd(points, full_matrices=False)[2]
+    across = axes[2] if result.mirror is None else _across(result, object_)
+    along, other = (axes[i] - across * (axes[i] @ across) for i in (0, 1))
+    if np.linalg.norm(along) < np.linalg.norm(other) / 2:
+        along = other
+    along /= np.linalg.norm(along)
+    up = np.cross(across, along)
+    up *= np.sign(up[np.abs(up).argmax()])
+    heads = (points @ along) @ (points @ up)
+    towards = 0.7 * along * (1 if heads >= 0 else -1) + 0.7 * across + 0.4 * up
+    return towards / np.linalg.norm(towards), up
+
+
+def _across(result: Result, object_: pyvista.PolyData) -> NDArray[np.float64]:
+    """The direction the mirror maps along, on the whole."""
+    points = np.asarray(object_.points, dtype=float)
+    points = points[:: max(1, len(points) // 5000)]
+    chords = points - result.mirror.project(points)
+    chords = chords[np.isfinite(chords).all(axis=1)]
+    return np.linalg.svd(chords, full_matrices=False)[2][0]
