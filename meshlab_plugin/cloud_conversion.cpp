@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cloud_conversion.h"
+
+#include <symsurf/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace symsurf::meshlab {
+
+namespace {
+
+std::string quoted(const MeshModel& layer) { return "'" + layer.label().toStdString() + "'"; }
+
+std::vector<char> selected_vertices(const CMeshO& mesh) {
+  std::vector<char> selected(mesh.vert.size());
+  std::transform(mesh.vert.begin(), mesh.vert.end(), selected.begin(),
+                 [](const CVertexO& v) { return v.IsS(); });
+  for (const CFaceO& face : mesh.face)
+    if (!face.IsD() && face.IsS())
+      for (int corner = 0; corner < face.VN(); ++corner)
+        selected[vcg::tri::Index(mesh, face.cV(corner))] = true;
+  return selected;
+}
+
+std::vector<int> vertices_to_read(const CMeshO& mesh, bool only_selected) {
+  const std::vector<char> selected = only_selected ? selected_vertices(mesh) : std::vector<char>();
+  std::vector<int> vertices;
+  vertices.reserve(mesh.vn);
+  for (std::size_t i = 0; i < mesh.vert.size(); ++i)
+    if (!mesh.vert[i].IsD() && (!only_selected || selected[i]))
+      vertices.push_back(static_cast<int>(i));
+  return vertices;
+}
+
+template <typename Get>
+Points packed(const CMeshO& mesh, const std::vector<int>& vertices, const Get& get) {
+  Points rows(static_cast<Index>(vertices.size()), 3);
+  double* row = rows.data();
+  for (const int i : vertices)
+    for (int axis = 0; axis < 3; ++axis) *row++ = get(mesh.vert[i])[axis];
+  return rows;
+}
+
+}  // namespace
+
+MeshModel& current_layer(MeshDocument& document) {
+  if (!document.mm()) throw InvalidInput("there is no layer; open a mesh or a point cloud first");
+  return *document.mm();
+}
+
+double layer_diagonal(const MeshModel* layer) {
+  if (!layer || layer->cm.bbox.IsNull()) return 1;
+  const double diagonal = layer->cm.bbox.Diag();
+  return std::isfinite(diagonal) && diagonal > 0 ? diagonal : 1;
+}
+
+LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals) {
+  const CMeshO& mesh = layer.cm;
+  LayerCloud cloud;
+  cloud.vertex = vertices_to_read(mesh, only_selected);
+  if (cloud.vertex.empty())
+    throw InvalidInput("the layer " + quoted(layer) +
+                       (mesh.vn > 0 ? " has nothing selected" : " has no vertices"));
+  cloud.points = packed(mesh, cloud.vertex, [](const CVertexO& v) { return v.cP(); });
+  if (with_normals) {
+    cloud.normals = packed(mesh, cloud.vertex, [](const CVertexO& v) { return v.cN(); });
+    if (cloud.normals.isZero(0))
+      throw InvalidInput("the normals of the layer " + quoted(layer) +
+                         " are all zero; compute them first, or do without");
+  }
+  return cloud;
+}
+
+}  // namespace symsurf::meshlab

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <symsurf/points_view.h>
+
+#include <vector>
+
+#include "meshlab_host.h"
+
+namespace symsurf::meshlab {
+
+/// The vertices of a layer as the core takes them, in the layer's own coordinates: its transform is
+/// not applied.
+struct LayerCloud {
+  Points points;            ///< one row a vertex; deleted vertices have none
+  Points normals;           ///< the same rows; none unless asked for
+  std::vector<int> vertex;  ///< the vertex each row came from
+};
+
+/// The layer that filters work on. Throws InvalidInput where the document has none.
+MeshModel& current_layer(MeshDocument& document);
+
+/// The layer's bounding box's diagonal, what MeshLab shows lengths as percentages of; 1 where there
+/// is no box of finite size.
+double layer_diagonal(const MeshModel* layer);
+
+/// Packs a layer, or of it the selected vertices and the corners of selected faces.
+/// Throws InvalidInput for a layer without vertices or selection, and for normals asked of a layer
+/// whose normals are all zero, which is how MeshLab says that there are none.
+LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals);
+
+}  // namespace symsurf::meshlab

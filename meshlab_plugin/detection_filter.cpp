@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "detection_filter.h"
+
+#include <symsurf/detect.h>
+
+#include <limits>
+
+#include "cloud_conversion.h"
+#include "parameter_dialog.h"
+#include "result_layers.h"
+#include "returned_values.h"
+
+namespace symsurf::meshlab {
+
+namespace {
+
+// What every method takes beside its own parameters: the rest of detect()'s arguments.
+const std::vector<Parameter>& common_parameters() {
+  constexpr Index most = std::numeric_limits<int>::max();
+  static const std::vector<Parameter> described{
+      Parameter::boolean("only_selected", false,
+                         "Look only at the selected vertices and the corners of selected faces; "
+                         "percentages are then of the selection's diagonal."),
+      Parameter::boolean("use_normals", false,
+                         "Hand the layer's vertex normals to the method, which otherwise estimates "
+                         "its own where it needs them."),
+      Parameter::integer("seed", 0, 0, most, "", "Of the methods that draw at random."),
+      Parameter::integer("threads", 0, 0, most, "",
+                         "To compute with, 0: as many as the machine has; the result is the same."),
+  };
+  return described;
+}
+
+}  // namespace
+
+std::string DetectionFilter::info() const {
+  return method_.summary +
+         "<br>The mirror and the surface points (midpoints of the pairs) become new layers. On the "
+         "current layer each vertex gets its residual, the distance from its image to its partner, "
+         "as quality with a colour ramp, and the attributes <i>partner</i> and <i>side</i>; "
+         "vertices without a partner are grey. The log has the score, 0 (no symmetry) to 1 (exact),"
+         " and the mirror's numbers, in the layer's own coordinates.";
+}
+
+FilterPlugin::FilterClass DetectionFilter::menus() const {
+  return FilterPlugin::FilterClass(FilterPlugin::Quality | FilterPlugin::PointSet);
+}
+
+// With MM_VERTNUMBER among them MeshLab offers no preview, which could not take layers back.
+int DetectionFilter::changes() const {
+  return MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTNUMBER;
+}
+
+RichParameterList DetectionFilter::parameters(const MeshDocument& document) const {
+  RichParameterList dialog;
+  const double diagonal = layer_diagonal(document.mm());
+  add_parameters(dialog, method_.parameters, diagonal);
+  add_parameters(dialog, common_parameters(), diagonal);
+  return dialog;
+}
+
+Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument& document,
+                               const Context::Progress& progress) const {
+  MeshModel& layer = current_layer(document);
+  const double diagonal = layer_diagonal(&layer);
+  const ParameterValues given(method_.name, common_parameters(),
+                              read_parameters(parameters, common_parameters(), diagonal));
+  Options options;
+  options.method = method_.name;
+  options.parameters = read_parameters(parameters, method_.parameters, diagonal);
+  options.seed = given.integer("seed");
+  const LayerCloud cloud =
+      read_cloud(layer, given.boolean("only_selected"), given.boolean("use_normals"));
+  options.normals = cloud.normals;
+
+  const Result result =
+      detect(cloud.points, options, Context(progress, static_cast<int>(given.integer("threads"))));
+  const Mesh mesh = result.mirror ? result.mirror->mesh() : Mesh();
+
+  Outcome outcome{returned_values(result), logged_values(result)};
+  mark_asymmetry(layer, cloud, result);
+  if (result.mirror)
+    outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();
+  outcome.values["surface_points_layer"] = add_surface_points_layer(document, layer, result).id();
+  return outcome;
+}
+
+}  // namespace symsurf::meshlab

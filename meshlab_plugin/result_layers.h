@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <symsurf/result.h>
+
+#include <memory>
+
+#include "cloud_conversion.h"
+#include "meshlab_host.h"
+
+namespace symsurf::meshlab {
+
+/// Adds the layer "Mirror": the mirror's triangles, placed like `input`, and the mirror itself for
+/// mirror_of().
+MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
+                            std::shared_ptr<const Mirror> mirror, const Mesh& mesh);
+
+/// The mirror that add_mirror_layer() left in a layer; null in any other layer, and in one that was
+/// saved and read again.
+std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer);
+
+/// Adds the layer "Surface points": the result's, with their residuals as quality.
+MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,
+                                    const Result& result);
+
+/// Marks each vertex of the layer: quality = residual, with MeshLab's colour ramp from 0 to the
+/// largest; attribute "partner" = the vertex its image falls on; attribute "side" = -1, 0 or 1, the
+/// side of the mirror it is on. Vertices without a partner, and those not looked at, are grey with
+/// quality and partner -1.
+void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result);
+
+}  // namespace symsurf::meshlab

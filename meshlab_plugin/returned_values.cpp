@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "returned_values.h"
+
+#include <symsurf/plane.h>
+
+#include <limits>
+
+namespace symsurf::meshlab {
+
+namespace {
+
+// Of two figures of one name the first stands.
+Values figures(const Result& result) {
+  Values all{{"score", result.score},
+             {"pairs", static_cast<Index>(result.pairs.rows())},
+             {"seconds", result.seconds}};
+  if (!result.candidates.empty()) {
+    Eigen::MatrixXd scores(static_cast<Index>(result.candidates.size()), 1);
+    for (Index i = 0; i < scores.rows(); ++i) scores(i, 0) = result.candidates[i].score;
+    all.emplace("candidate_scores", scores);
+  }
+  if (result.mirror) {
+    all.emplace("kind", std::string(result.mirror->kind()));
+    all.merge(result.mirror->numbers());
+    if (const auto plane = std::dynamic_pointer_cast<const Plane>(result.mirror))
+      all.emplace("matrix", Eigen::MatrixXd(plane->matrix()));
+  }
+  all.merge(Values(result.statistics));
+  return all;
+}
+
+template <typename Matrix>
+QVariant square(const Eigen::MatrixXd& m) {
+  Matrix out;
+  for (int row = 0; row < m.rows(); ++row)
+    for (int column = 0; column < m.cols(); ++column) out[row][column] = m(row, column);
+  return QVariant::fromValue(out);
+}
+
+struct ToVariant {
+  std::optional<QVariant> operator()(bool v) const { return QVariant(v); }
+  std::optional<QVariant> operator()(Index v) const {
+    if (v < std::numeric_limits<int>::min() || v > std::numeric_limits<int>::max())
+      return QVariant(static_cast<double>(v));
+    return QVariant(static_cast<int>(v));
+  }
+  std::optional<QVariant> operator()(double v) const { return QVariant(v); }
+  std::optional<QVariant> operator()(const std::string&) const { return std::nullopt; }
+  std::optional<QVariant> operator()(const Vector3& v) const {
+    return QVariant::fromValue(Point3m(v.x(), v.y(), v.z()));
+  }
+  // Other shapes than MeshLab's two go row by row.
+  std::optional<QVariant> operator()(const Eigen::MatrixXd& v) const {
+    if (v.rows() == 4 && v.cols() == 4) return square<Matrix44m>(v);
+    if (v.rows() == 3 && v.cols() == 3) return square<Matrix33m>(v);
+    const Eigen::MatrixXd columns = v.transpose();
+    return QVariant::fromValue(
+        Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(columns.data(), columns.size())));
+  }
+};
+
+}  // namespace
+
+std::optional<QVariant> to_variant(const Value& value) { return std::visit(ToVariant{}, value); }
+
+std::map<std::string, QVariant> returned_values(const Result& result) {
+  std::map<std::string, QVariant> returned;
+  for (const auto& [name, value] : figures(result))
+    if (const auto variant = to_variant(value)) returned.emplace(name, *variant);
+  return returned;
+}
+
+std::vector<std::string> logged_values(const Result& result) {
+  std::vector<std::string> lines;
+  for (const auto& [name, value] : figures(result)) lines.push_back(name + ": " + to_string(value));
+  return lines;
+}
+
+}  // namespace symsurf::meshlab

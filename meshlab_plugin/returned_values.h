@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <symsurf/result.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshlab_host.h"
+
+namespace symsurf::meshlab {
+
+/// A figure in a type that MeshLab passes on to pymeshlab; none for text, which it cannot pass.
+std::optional<QVariant> to_variant(const Value& value);
+
+/// The result's figures: score, pairs (their number), seconds, candidate_scores, the mirror's own
+/// numbers, of a plane also its reflection matrix, and the method's statistics.
+std::map<std::string, QVariant> returned_values(const Result& result);
+
+/// The same for the log, a line each, text included.
+std::vector<std::string> logged_values(const Result& result);
+
+}  // namespace symsurf::meshlab
