@@ -10,3 +10,4 @@
 #include <symsurf/plane.h>
 #include <symsurf/read.h>
 #include <symsurf/result.h>
+#include <symsurf/sphere.h>
