@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "parallel.h"
+#include "radix_sort.h"
 
 namespace symsurf {
 
@@ -19,30 +20,6 @@ std::uint64_t spread(std::uint64_t v) {
   v = (v | v << 8) & 0x100f00f00f00f00f;
   v = (v | v << 4) & 0x10c30c30c30c30c3;
   return (v | v << 2) & 0x1249249249249249;
-}
-
-// Orders `order` by key, stably; a digit that all keys share costs no pass.
-void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::int32_t>& order) {
-  constexpr int digit_bits = 11, digits = 6, buckets = 1 << digit_bits;
-  std::vector<std::array<std::size_t, buckets>> counts(digits);
-  for (auto& count : counts) count.fill(0);
-  for (const std::uint64_t key : keys)
-    for (int d = 0; d < digits; ++d) ++counts[d][key >> (digit_bits * d) & (buckets - 1)];
-
-  std::vector<std::uint64_t> keys_to(keys.size());
-  std::vector<std::int32_t> order_to(keys.size());
-  for (int d = 0; d < digits; ++d) {
-    auto& start = counts[d];
-    if (*std::max_element(start.begin(), start.end()) == keys.size()) continue;
-    std::exclusive_scan(start.begin(), start.end(), start.begin(), std::size_t{0});
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      const std::size_t to = start[keys[i] >> (digit_bits * d) & (buckets - 1)]++;
-      keys_to[to] = keys[i];
-      order_to[to] = order[i];
-    }
-    keys.swap(keys_to);
-    order.swap(order_to);
-  }
 }
 
 }  // namespace

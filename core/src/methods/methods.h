@@ -8,5 +8,8 @@ namespace symsurf {
 
 Method auto_method();
 Method plane_method();
+Method separation_method();
+Method separation_normals_method();
+Method normals_only_method();
 
 }  // namespace symsurf

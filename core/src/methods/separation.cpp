@@ -1,0 +1,35 @@
+#include "../thesis/trials.h"
+#include "methods.h"
+
+namespace symsurf {
+
+namespace {
+
+// Mean squared distance of the partners from their lines (3.3).
+double projection_error(const Separation& separation) {
+  double sum = 0;
+  for (const double squared : separation.squared) sum += squared;
+  return sum / static_cast<double>(separation.squared.size());
+}
+
+Result run_separation(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  Result result = best_separation(cloud, values.integer("steps"), projection_error, context);
+  result.method = "separation";
+  return result;
+}
+
+}  // namespace
+
+Method separation_method() {
+  Method method;
+  method.name = "separation";
+  method.title = "Symmetry by separation (thesis, Algorithm 1)";
+  method.summary =
+      "Divides the cloud by planes through its centroid and maps one side onto the other along the "
+      "normal; the score depends on the unit of the input.";
+  method.parameters = {direction_steps()};
+  method.run = run_separation;
+  return method;
+}
+
+}  // namespace symsurf

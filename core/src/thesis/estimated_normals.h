@@ -1,0 +1,17 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+namespace symsurf {
+
+/// The parameters of methods that need normals: how they are estimated where none are given.
+std::vector<Parameter> normal_parameters();
+
+/// Unit normals: the cloud's own, or estimated as the parameters say.
+Points given_or_estimated_normals(const Cloud& cloud, const ParameterValues& values,
+                                  const Context& context);
+
+/// Regression normals all point up, so their sign counts; others are lines.
+bool signed_normals(const Cloud& cloud, const ParameterValues& values);
+
+}  // namespace symsurf

@@ -1,0 +1,61 @@
+#include "separation.h"
+
+#include <cmath>
+#include <utility>
+
+#include "projection.h"
+
+namespace symsurf {
+
+Separator::Separator(PointsView points, const PointTree& tree)
+    : points_(points), tree_(tree), distance_bound_(points), centroid_(Vector3::Zero()) {
+  for (Index i = 0; i < points.size(); ++i) centroid_ += points[i];
+  centroid_ /= static_cast<double>(points.size());
+}
+
+Separation Separator::operator()(const Vector3& normal) const {
+  Separation result;
+  result.normal = normal;
+  result.is_upper.resize(points_.size());
+  std::vector<std::int32_t> lower;
+  for (const std::int32_t i : tree_.order()) {
+    const bool is_upper = (points_[i] - centroid_).dot(normal) > 0;
+    result.is_upper[i] = is_upper;
+    (is_upper ? result.upper : lower).push_back(i);
+  }
+  result.lower = static_cast<Index>(lower.size());
+  if (result.upper.empty() || lower.empty()) return result;
+
+  LinePartners partners = nearest_to_lines(points_, result.upper, lower, normal);
+  result.partner = std::move(partners.target);
+  result.squared = std::move(partners.squared);
+  return result;
+}
+
+double Separator::clearance(const Separation& separation) const {
+  const std::size_t count = separation.upper.size();
+  const auto midpoint = [&](std::size_t k) -> Vector3 {
+    return (points_[separation.upper[k]] + points_[separation.partner[k]]) / 2;
+  };
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < count; ++k)
+    shortest = std::min(shortest, (points_[separation.upper[k]] - midpoint(k)).norm());
+  // Midpoints that follow each other are about as far from the cloud: y needs a search only where
+  // neither the grid nor the distance known at an anchor a, less |y - a|, rules it out.
+  constexpr double rounding = 1e-9;
+  Vector3 anchor = Vector3::Zero();
+  double known = -1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3 y = midpoint(k);
+    const double settled = shortest * (1 + rounding);
+    if (distance_bound_(y) > settled || known - (y - anchor).norm() > settled) continue;
+    const double reach = shortest + std::min(shortest, distance_bound_.cell());
+    const Neighbour found = tree_.nearest(y, reach * reach);
+    anchor = y;
+    known = found.index < 0 ? reach : std::sqrt(found.squared_distance);
+    shortest = std::min(shortest, known);
+  }
+  return shortest;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,83 @@
+#include "sheet_score.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../parallel.h"
+#include "../point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index samples = 2000;
+constexpr Index grain = 64;
+
+Index stride(Index count) { return std::max<Index>(1, count / samples); }
+
+// Of points on a sheet, from the distance to the sixth neighbour: a disc of that radius holds six.
+double spacing(PointsView points, const PointTree& tree) {
+  constexpr Index sixth = 6;
+  const Index neighbours = std::min(sixth + 1, points.size());
+  std::vector<double> radii;
+  std::vector<Neighbour> found;
+  for (Index i = 0; i < points.size(); i += stride(points.size())) {
+    tree.nearest(points[i], neighbours, found);
+    radii.push_back(std::sqrt(found.back().squared_distance));
+  }
+  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  return radii[radii.size() / 2] / std::sqrt(static_cast<double>(sixth) / std::numbers::pi);
+}
+
+// Distance of the first of the neighbours from the plane through the others.
+double off_sheet(PointsView surface, const std::vector<Neighbour>& neighbours) {
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t k = 1; k < neighbours.size(); ++k) mean += surface[neighbours[k].index];
+  mean /= static_cast<double>(neighbours.size() - 1);
+  Matrix3 scatter = Matrix3::Zero();
+  for (std::size_t k = 1; k < neighbours.size(); ++k) {
+    const Vector3 w = surface[neighbours[k].index] - mean;
+    scatter.noalias() += w * w.transpose();
+  }
+  const Vector3 normal = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
+  return std::abs(normal.dot(surface[neighbours[0].index] - mean));
+}
+
+}  // namespace
+
+double sheet_score(PointsView points, const Result& result, const Context& context) {
+  constexpr Index neighbours = 11;
+  const PointsView surface(result.surface_points);
+  if (surface.size() < neighbours) return 0;
+  const double tolerance = spacing(points, PointTree(points, context.stage(0, 0.3)));
+  if (!(tolerance > 0)) return 0;
+
+  const PointTree tree(surface, context.stage(0.3, 0.5));
+  const Index step = stride(surface.size()), looked_at = (surface.size() + step - 1) / step;
+  const double agreeing =
+      parallel_sum(context.stage(0.5, 1), looked_at, grain, 0.0, [&](Index begin, Index end) {
+        double sum = 0;
+        std::vector<Neighbour> found;
+        for (Index k = begin; k < end; ++k) {
+          const Index row = k * step;
+          tree.nearest(surface[row], neighbours, found);
+          // Equal surface points come in any number; each stands for itself first.
+          found.front().index = row;
+          const double off = std::hypot(result.residuals[row], 2 * off_sheet(surface, found));
+          const Vector3 chord = points[result.pairs(row, 0)] - points[result.pairs(row, 1)];
+          const double moved = std::clamp(chord.norm() / 2 / tolerance - 1, 0.0, 1.0);
+          sum += moved * std::exp(-off * off / (2 * tolerance * tolerance));
+        }
+        return sum;
+      });
+
+  std::vector<char> paired(points.size(), 0);
+  for (const Index i : result.pairs.reshaped()) paired[i] = 1;
+  const double covered = static_cast<double>(std::count(paired.begin(), paired.end(), 1)) /
+                         static_cast<double>(points.size());
+  return covered * agreeing / static_cast<double>(looked_at);
+}
+
+}  // namespace symsurf
