@@ -20,7 +20,8 @@ void parallel_for(const Context& context, Index count, Index grain,
     try {
       for (Index chunk; !stop && (chunk = next++) < chunks;) {
         body(chunk * grain, std::min(count, (chunk + 1) * grain));
-        if (reports) context.report(static_cast<double>(chunk + 1) / static_cast<double>(chunks));
+        if (reports && chunk + 1 < chunks)
+          context.report(static_cast<double>(chunk + 1) / static_cast<double>(chunks));
       }
     } catch (...) {
       const std::scoped_lock lock(failure_mutex);
@@ -35,6 +36,7 @@ void parallel_for(const Context& context, Index count, Index grain,
   work(true);
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);
+  context.report(1);  // whichever thread had the last chunk
 }
 
 }  // namespace symsurf

@@ -12,9 +12,9 @@ namespace symsurf {
 
 struct Options {
   std::string method = "auto";
-  Values parameters;       ///< the method's, by name; the rest keep their defaults
-  PointsView normals;      ///< optional, one a point; taken as lines, their sign does not count
-  std::uint64_t seed = 0;  ///< of the methods that draw at random
+  Values parameters = {};   ///< the method's, by name; the rest keep their defaults
+  PointsView normals = {};  ///< optional, one a point; taken as lines, their sign does not count
+  std::uint64_t seed = 0;   ///< of the methods that draw at random
 };
 
 /// Finds the mirror of a point set. The points are read in place and must stay alive for the call.

@@ -3,6 +3,7 @@
 #include <symsurf/points_view.h>
 #include <symsurf/value.h>
 
+#include <concepts>
 #include <memory>
 #include <string_view>
 
@@ -35,6 +36,15 @@ class Mirror {
   Points reflect(PointsView points) const;
   Points project(PointsView points) const;
   Eigen::VectorXd signed_distance(PointsView points) const;
+  // Eigen would make a Vector3 of Points as readily as a view of them.
+  template <std::same_as<Points> Many>
+  Points reflect(const Many& points) const {
+    return reflect(PointsView(points));
+  }
+  template <std::same_as<Points> Many>
+  Eigen::VectorXd signed_distance(const Many& points) const {
+    return signed_distance(PointsView(points));
+  }
 
   /// Triangles over the footprint of the object: the part of the mirror that lies between the
   /// object's points and their images. `resolution` is the number of cells along the longer side.

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+#include <symsurf/symsurf.h>
+
+#include <atomic>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "expect_error.h"
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+struct LongCall {
+  std::string name;
+  std::function<void(const Context&)> run;
+};
+
+// Every call that takes a context, on a cloud large enough for several reports.
+std::vector<LongCall> long_calls() {
+  static const Points points = RandomCloud(0).sphere(20000);
+  std::vector<LongCall> calls{
+      {"estimate_normals",
+       [](const Context& context) { estimate_normals(points, 10, "pca", context); }},
+      {"match", [](const Context& context) {
+         match(points, Plane({1, 0, 0}, 0), 0.05, context);
+       }}};
+  static const Points few = RandomCloud(0).sphere(500);
+  for (const Method& method : methods())
+    calls.push_back({method.name, [name = method.name](const Context& context) {
+                       detect(few, {.method = name}, context);
+                     }});
+  return calls;
+}
+
+TEST(Context, ReportsFromZeroToOneNeverBackwardsOnTheCallingThread) {
+  for (const LongCall& call : long_calls())
+    for (const int threads : {1, 3}) {
+      std::vector<double> fractions;
+      const std::thread::id caller = std::this_thread::get_id();
+      std::atomic<bool> elsewhere = false;
+      call.run(Context(
+          [&](double fraction) {
+            if (std::this_thread::get_id() != caller) elsewhere = true;
+            fractions.push_back(fraction);
+            return true;
+          },
+          threads));
+      EXPECT_FALSE(elsewhere) << call.name;
+      ASSERT_GE(fractions.size(), 2u) << call.name;
+      EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end())) << call.name;
+      EXPECT_GE(fractions.front(), 0) << call.name;
+      EXPECT_EQ(fractions.back(), 1) << call.name;
+    }
+}
+
+TEST(Context, CancelsAtEveryReport) {
+  for (const LongCall& call : long_calls())
+    for (const int threads : {1, 3}) {
+      int reports = 0;
+      call.run(Context([&](double) { return ++reports; }, threads));
+      // How many reports there are hangs on the clock; those of the stages' ends are always there.
+      for (int last = 1; last <= std::min(reports, 12); ++last) {
+        int seen = 0;
+        const Context context([&](double) { return ++seen < last; }, threads);
+        try {
+          call.run(context);
+          EXPECT_LT(seen, last) << call.name << " went on";
+        } catch (const Cancelled&) {
+          EXPECT_EQ(seen, last) << call.name << " reported after it was cancelled";
+        }
+      }
+    }
+}
+
+TEST(Context, HandsOnWhatTheCallbackThrows) {
+  for (const LongCall& call : long_calls())
+    EXPECT_THROW(
+        call.run(Context(
+            [](double fraction) -> bool { throw std::length_error(std::to_string(fraction)); }, 2)),
+        std::length_error);
+}
+
+TEST(Context, StagesMapIntoTheWhole) {
+  double last = -1;
+  const Context whole([&](double fraction) {
+    last = fraction;
+    return true;
+  });
+  const Context part = whole.stage(0.5, 0.75).stage(0, 0.5);
+  part.report(0);
+  EXPECT_EQ(last, 0.5);
+  part.report(1);
+  EXPECT_EQ(last, 0.625);
+  EXPECT_EQ(part.threads(), whole.threads());
+}
+
+TEST(Context, KnowsItsThreads) {
+  EXPECT_GE(Context().threads(), 1);
+  EXPECT_GE(Context({}, 0).threads(), 1);
+  EXPECT_EQ(Context({}, 3).threads(), 3);
+  expect_error<InvalidParameter>("threads is -1; allowed are 0", [] { Context({}, -1); });
+}
+
+}  // namespace
+}  // namespace symsurf

@@ -1,0 +1,52 @@
+#include "parallel.h"
+
+#include <gtest/gtest.h>
+#include <symsurf/errors.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+TEST(Parallel, VisitsEveryItemOnceInChunksThatThreadsDoNotChange) {
+  for (const int threads : {1, 2, 5})
+    for (const Index count : {0, 1, 99, 100, 101, 1234}) {
+      std::vector<std::atomic<int>> visits(count);
+      parallel_for(Context({}, threads), count, 100, [&](Index begin, Index end) {
+        EXPECT_EQ(begin % 100, 0);
+        EXPECT_EQ(end, std::min(count, begin + 100));
+        for (Index i = begin; i < end; ++i) ++visits[i];
+      });
+      for (const auto& visit : visits) EXPECT_EQ(visit, 1);
+    }
+}
+
+TEST(Parallel, SumsToTheSameBitsForAnyNumberOfThreads) {
+  const Points points = RandomCloud(0).box(10000);
+  const auto sum = [&](int threads) {
+    return parallel_sum(Context({}, threads), points.rows(), 64, 0.0, [&](Index begin, Index end) {
+      double part = 0;
+      for (Index i = begin; i < end; ++i) part += points(i, 0);
+      return part;
+    });
+  };
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(sum(threads), sum(1));
+  EXPECT_NEAR(sum(1), points.col(0).sum(), 1e-10);
+}
+
+TEST(Parallel, HandsOnWhatTheBodyThrows) {
+  for (const int threads : {1, 4})
+    EXPECT_THROW(parallel_for(Context({}, threads), 1000, 1,
+                              [](Index begin, Index) {
+                                if (begin == 500) throw std::length_error("too long");
+                              }),
+                 std::length_error);
+}
+
+}  // namespace
+}  // namespace symsurf
