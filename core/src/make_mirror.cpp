@@ -1,6 +1,7 @@
 #include <symsurf/errors.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
+#include <symsurf/sphere.h>
 
 #include <array>
 #include <string>
@@ -29,6 +30,11 @@ constexpr std::array kinds{
          [](const Values& v) -> std::shared_ptr<Mirror> {
            return std::make_shared<Plane>(number<Vector3>(v, "normal"),
                                           number<double>(v, "offset"));
+         }},
+    Kind{"sphere",
+         [](const Values& v) -> std::shared_ptr<Mirror> {
+           return std::make_shared<Sphere>(number<Vector3>(v, "centre"),
+                                           number<double>(v, "radius"));
          }},
 };
 

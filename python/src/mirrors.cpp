@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
+#include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
+#include <symsurf/sphere.h>
 
 #include <memory>
 #include <optional>
@@ -29,11 +31,23 @@ py::tuple mesh(const Mirror& mirror, const std::optional<PointsArgument>& points
                         owned_array(std::move(found.triangles)));
 }
 
-// A kind of mirror: its class, and its defining numbers as attributes.
-template <typename Kind>
-py::class_<Kind, Mirror, std::shared_ptr<Kind>> bind_kind(py::module_& module, const char* name,
-                                                          const char* doc) {
-  return {module, name, doc};
+py::object footprint(const Mirror& mirror) {
+  if (mirror.footprint().empty()) return py::none();
+  return owned_array(Points(mirror.footprint().matrix()));
+}
+
+std::shared_ptr<Mirror> made(const std::string& kind, const py::dict& numbers,
+                             const std::optional<PointsArgument>& footprint) {
+  const std::shared_ptr<Mirror> mirror = make_mirror(kind, values_from(numbers, {}));
+  if (footprint) mirror->set_footprint(std::make_shared<Points>(PointsView(*footprint).matrix()));
+  return mirror;
+}
+
+// For pickle and copy: the arguments of make_mirror.
+py::tuple reduce(const Mirror& mirror) {
+  return py::make_tuple(
+      py::module_::import("symsurf._core").attr("make_mirror"),
+      py::make_tuple(std::string(mirror.kind()), to_python(mirror.numbers()), footprint(mirror)));
 }
 
 void bind_mirror(py::module_& module) {
@@ -70,26 +84,53 @@ void bind_mirror(py::module_& module) {
            "resolution: cells along the longer side.\n"
            "Returns vertices (v, 3) and triangles (t, 3). Raises InvalidInput for a mirror made\n"
            "by hand when no points are given, InvalidParameter for a resolution below 1.")
+      .def("__reduce__", &reduce)
       .def("__repr__", &repr);
+}
+
+// A kind of mirror: its class and its numbers as attributes. The constructor is up to the kind.
+template <typename Kind>
+auto bind_kind(py::module_& module, const char* name, const char* doc,
+               std::initializer_list<std::pair<const char*, const char*>> numbers) {
+  py::class_<Kind, Mirror, std::shared_ptr<Kind>> kind(module, name, doc);
+  for (const auto& [number, about] : numbers)
+    kind.def_property_readonly(
+        number,
+        [key = std::string(number)](const Kind& m) { return to_python(m.numbers().at(key)); },
+        about);
+  return kind;
 }
 
 }  // namespace
 
 void bind_mirrors(py::module_& module) {
   bind_mirror(module);
+  module.def("make_mirror", &made, py::arg("kind"), py::arg("numbers"),
+             py::arg("footprint") = py::none(),
+             "The mirror of Mirror.kind and Mirror.numbers: how one comes back from a file.\n\n"
+             "footprint: points (n, 3) that stand for the object, for Mirror.mesh.\n"
+             "Raises InvalidInput for an unknown kind, or a number that is missing or of another\n"
+             "type.");
 
-  bind_kind<Plane>(module, "Plane", "The plane normal . x + offset = 0.")
+  bind_kind<Plane>(module, "Plane", "The plane normal . x + offset = 0.",
+                   {{"normal", "Unit normal (3,)."}, {"offset", "In input units."}})
       .def(py::init([](const VectorArgument& normal, double offset) {
              return std::make_shared<Plane>(normal.vector, offset);
            }),
            py::arg("normal"), py::arg("offset"))
       .def_property_readonly(
-          "normal", [](const Plane& p) { return owned_array(Vector3(p.normal())); },
-          "Unit normal (3,).")
-      .def_property_readonly("offset", &Plane::offset, "In input units.")
-      .def_property_readonly(
           "matrix", [](const Plane& p) { return owned_array(RowMajor4(p.matrix())); },
           "The reflection (4, 4) on homogeneous columns (x, y, z, 1).");
+
+  bind_kind<Sphere>(
+      module, "Sphere",
+      "The sphere |x - centre| = radius. Points are mirrored along the radius, |x' - c| =\n"
+      "2r - |x - c|; the centre and points farther than 2r from it have no image.",
+      {{"centre", "(3,), in input units."}, {"radius", "In input units."}})
+      .def(py::init([](const VectorArgument& centre, double radius) {
+             return std::make_shared<Sphere>(centre.vector, radius);
+           }),
+           py::arg("centre"), py::arg("radius"));
 }
 
 }  // namespace symsurf::python

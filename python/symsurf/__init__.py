@@ -15,7 +15,9 @@ from ._core import (
     Mirror,
     Parameter,
     Plane,
+    Sphere,
     __version__,
+    make_mirror,
     methods,
 )
 from .detection import detect, match
@@ -34,10 +36,12 @@ __all__ = [
     "Plane",
     "Result",
     "Shape",
+    "Sphere",
     "__version__",
     "detect",
     "downsample",
     "estimate_normals",
+    "make_mirror",
     "match",
     "methods",
     "read",
