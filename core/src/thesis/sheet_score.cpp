@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "../parallel.h"
 #include "../point_tree.h"
+#include "../sheet_spacing.h"
 
 namespace symsurf {
 
@@ -16,20 +16,6 @@ constexpr Index samples = 2000;
 constexpr Index grain = 64;
 
 Index stride(Index count) { return std::max<Index>(1, count / samples); }
-
-// Of points on a sheet, from the distance to the sixth neighbour: a disc of that radius holds six.
-double spacing(PointsView points, const PointTree& tree) {
-  constexpr Index sixth = 6;
-  const Index neighbours = std::min(sixth + 1, points.size());
-  std::vector<double> radii;
-  std::vector<Neighbour> found;
-  for (Index i = 0; i < points.size(); i += stride(points.size())) {
-    tree.nearest(points[i], neighbours, found);
-    radii.push_back(std::sqrt(found.back().squared_distance));
-  }
-  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  return radii[radii.size() / 2] / std::sqrt(static_cast<double>(sixth) / std::numbers::pi);
-}
 
 // Distance of the first of the neighbours from the plane through the others.
 double off_sheet(PointsView surface, const std::vector<Neighbour>& neighbours) {
@@ -51,7 +37,7 @@ double sheet_score(PointsView points, const Result& result, const Context& conte
   constexpr Index neighbours = 11;
   const PointsView surface(result.surface_points);
   if (surface.size() < neighbours) return 0;
-  const double tolerance = spacing(points, PointTree(points, context.stage(0, 0.3)));
+  const double tolerance = sheet_spacing(points, PointTree(points, context.stage(0, 0.3)));
   if (!(tolerance > 0)) return 0;
 
   const PointTree tree(surface, context.stage(0.3, 0.5));
