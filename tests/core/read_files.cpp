@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "temporary_file.h"
+
+namespace symsurf {
+namespace {
+
+struct Sample {
+  const char* name;
+  std::string content;
+  bool says_its_length;  ///< a cut that takes more than the last line is seen
+};
+
+std::vector<Sample> samples() {
+  return {{"a.ply",
+           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+           "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+           true},
+          {"b.ply",
+           "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty char x\n"
+           "property char y\nproperty char z\nelement face 1\n"
+           "property list uchar uchar vertex_index\nend_header\n" +
+               std::string("\0\0\0\1\0\0\0\1\0\3\0\1\2", 13),
+           true},
+          {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", true},
+          {"a.stl",
+           "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+           "endloop\nendfacet\nendsolid a\n",
+           true},
+          {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n", false},
+          {"a.xyz", "0 0 0\n1 0 0\n0 1 0\n", false},
+          {"a.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n", false}};
+}
+
+// Reads, and allows nothing but a sound shape or an InvalidInput of the file's name.
+bool reads_soundly(const std::string& name, const std::string& content) {
+  try {
+    const Shape shape = read_content(name, content);
+    EXPECT_GT(shape.points.rows(), 0);
+    EXPECT_TRUE(shape.points.allFinite());
+    EXPECT_TRUE(shape.normals.allFinite());
+    EXPECT_TRUE(shape.normals.rows() == 0 || shape.normals.rows() == shape.points.rows());
+    if (shape.faces.rows() > 0) {
+      EXPECT_GE(shape.faces.minCoeff(), 0);
+      EXPECT_LT(shape.faces.maxCoeff(), shape.points.rows());
+    }
+    return true;
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find(name + ": "), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return false;
+  }
+}
+
+TEST(ReadFiles, WholeOnes) {
+  for (const Sample& sample : samples())
+    EXPECT_TRUE(reads_soundly(sample.name, sample.content)) << sample.name;
+}
+
+TEST(ReadFiles, CutAnywhere) {
+  for (const Sample& sample : samples()) {
+    const std::size_t last_line = sample.content.rfind('\n', sample.content.size() - 2);
+    for (std::size_t size = 0; size < sample.content.size(); ++size) {
+      SCOPED_TRACE(sample.name + (" cut at " + std::to_string(size)));
+      const bool read = reads_soundly(sample.name, sample.content.substr(0, size));
+      EXPECT_FALSE(read && sample.says_its_length && size <= last_line);
+    }
+  }
+}
+
+TEST(ReadFiles, WithAnyByteChanged) {
+  for (const Sample& sample : samples()) {
+    std::mt19937 random(0);
+    for (std::size_t at = 0; at < sample.content.size(); ++at)
+      for (const int byte : {0, 10, 32, 45, 57, 255, static_cast<int>(random() % 256)}) {
+        std::string content = sample.content;
+        content[at] = static_cast<char>(byte);
+        SCOPED_TRACE(content);
+        reads_soundly(sample.name, content);
+      }
+  }
+}
+
+TEST(ReadFiles, ThatAreNone) {
+  expect_error<InvalidInput>("nowhere.ply: there is no such file", [] { read("nowhere.ply"); });
+  expect_unreadable("a.vtk", "# vtk",
+                    "suffix '.vtk' is none of .ply .obj .off .stl .xyz .csv .txt");
+  expect_unreadable("a", "1 2 3", "suffix '' is none of");
+  for (const Sample& sample : samples()) expect_unreadable(sample.name, "", "the file is empty");
+  const auto folder = std::filesystem::path(testing::TempDir()) /
+                      ("symsurf_" + std::to_string(getpid()) + "_folder.ply");
+  std::filesystem::create_directory(folder);
+  expect_error<InvalidInput>("folder.ply: this is not a file", [&] { read(folder); });
+  std::filesystem::remove(folder);
+}
+
+TEST(ReadFiles, WithSuffixesInCapitals) {
+  EXPECT_EQ(read_content("A.XYZ", "1 2 3\n").points, rows({{1, 2, 3}}));
+  EXPECT_EQ(read_content("A.Obj", "v 1 2 3\n").points, rows({{1, 2, 3}}));
+}
+
+}  // namespace
+}  // namespace symsurf
