@@ -1,10 +1,13 @@
 #include <symsurf/errors.h>
+#include <symsurf/free_form.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <string>
+#include <vector>
 
 namespace symsurf {
 
@@ -20,12 +23,43 @@ const T& number(const Values& numbers, const std::string& name) {
   return *value;
 }
 
+const Eigen::MatrixXd& table(const Values& numbers, const std::string& name, Index rows,
+                             Index columns) {
+  const auto& values = number<Eigen::MatrixXd>(numbers, name);
+  if (values.rows() != rows || values.cols() != columns)
+    throw InvalidInput("the mirror's " + name + " are " + std::to_string(values.rows()) + " x " +
+                       std::to_string(values.cols()) + " numbers; " + std::to_string(rows) + " x " +
+                       std::to_string(columns) + " are needed");
+  return values;
+}
+
+std::shared_ptr<Mirror> free_form(const Values& numbers) {
+  const auto& centres = number<Eigen::MatrixXd>(numbers, "centres");
+  const Index count = centres.rows();
+  table(numbers, "centres", count, 3);
+  const auto& tangents = table(numbers, "tangents", count, 3);
+  const auto& normals = table(numbers, "normals", count, 3);
+  const auto& heights = table(numbers, "heights", count, 6);
+  const auto& radii = table(numbers, "radii", count, 1);
+  std::vector<Patch> patches(count);
+  for (Index i = 0; i < count; ++i) {
+    const Vector3 tangent = tangents.row(i), normal = normals.row(i);
+    patches[i].centre = centres.row(i);
+    patches[i].frame.row(0) = tangent.transpose();
+    patches[i].frame.row(1) = normal.cross(tangent).transpose();
+    patches[i].frame.row(2) = normal.transpose();
+    patches[i].height = heights.row(i);
+    patches[i].radius = radii(i, 0);
+  }
+  return std::make_shared<FreeForm>(std::move(patches));
+}
+
 struct Kind {
   std::string_view name;
   std::shared_ptr<Mirror> (*make)(const Values&);
 };
 
-constexpr std::array kinds{
+const std::array kinds{
     Kind{"plane",
          [](const Values& v) -> std::shared_ptr<Mirror> {
            return std::make_shared<Plane>(number<Vector3>(v, "normal"),
@@ -36,6 +70,7 @@ constexpr std::array kinds{
            return std::make_shared<Sphere>(number<Vector3>(v, "centre"),
                                            number<double>(v, "radius"));
          }},
+    Kind{"free-form", free_form},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <symsurf/detect.h>
 #include <symsurf/downsample.h>
 #include <symsurf/errors.h>
+#include <symsurf/free_form.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/match.h>
 #include <symsurf/method.h>

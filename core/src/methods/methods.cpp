@@ -6,8 +6,12 @@ namespace symsurf {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
-      auto_method(),         plane_method(), separation_method(), separation_normals_method(),
+      auto_method(),
+      plane_method(),
+      separation_method(),
+      separation_normals_method(),
       normals_only_method(),
+      perpendicular_method(),
   };
   return list;
 }

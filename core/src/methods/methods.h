@@ -7,6 +7,7 @@
 namespace symsurf {
 
 Method auto_method();
+Method perpendicular_method();
 Method plane_method();
 Method separation_method();
 Method separation_normals_method();

@@ -1,0 +1,149 @@
+#include "refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+struct Smoothing {
+  Index neighbours;  // data a patch is fitted to
+  double along;
+  double robust_scale;  // in units of the diagonal
+  double most_missed;   // a patch whose data miss by more, in the median, is none
+};
+
+double median_miss(const std::vector<Carried>& data) {
+  std::vector<double> squared;
+  for (const Carried& c : data) squared.push_back(c.miss.squaredNorm());
+  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+  std::nth_element(squared.begin(), middle, squared.end());
+  return std::sqrt(*middle);
+}
+
+Points feet_of(const std::vector<Carried>& carried) {
+  Points feet(static_cast<Index>(carried.size()), 3);
+  for (Index i = 0; i < feet.rows(); ++i) feet.row(i) = carried[i].foot.transpose();
+  return feet;
+}
+
+// Patches about one spacing apart, each fitted to the data around it.
+std::shared_ptr<const FreeForm> fitted(const SearchCloud& cloud,
+                                       const std::vector<Carried>& carried,
+                                       const Smoothing& smoothing) {
+  if (carried.size() < 6) return nullptr;
+  const Points feet = feet_of(carried);
+  const PointTree tree(feet);
+  const double apart = 0.9 * cloud.spacing;
+  std::vector<char> covered(carried.size(), 0);
+  std::vector<Index> nodes;
+  for (Index i = 0; i < feet.rows(); ++i) {
+    if (covered[i]) continue;
+    nodes.push_back(i);
+    tree.within(feet.row(i), apart, [&](Index other, double) {
+      if (carried[other].normal.dot(carried[i].normal) > 0.5) covered[other] = 1;
+    });
+  }
+  Points centres(static_cast<Index>(nodes.size()), 3);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    centres.row(static_cast<Index>(k)) = feet.row(nodes[k]);
+  const PointTree centre_tree(centres);
+
+  std::vector<Patch> patches;
+  std::vector<Neighbour> found;
+  std::vector<Carried> data;
+  for (const Index node : nodes) {
+    const Carried& own = carried[node];
+    tree.nearest(own.foot, std::min<Index>(smoothing.neighbours, feet.rows()), found);
+    FitWeights weights;
+    weights.radius = 1.1 * std::sqrt(found.back().squared_distance) + 1e-6;
+    weights.along = smoothing.along;
+    weights.robust_scale = smoothing.robust_scale;
+    data.clear();
+    for (const Neighbour& other : found) data.push_back(carried[other.index]);
+    if (median_miss(data) > smoothing.most_missed) continue;
+    Patch patch;
+    if (!fit_patch(own.foot, own.normal, data, weights, patch)) continue;
+    centre_tree.nearest(own.foot, std::min<Index>(8, centres.rows()), found);
+    patch.radius = std::max(2.2 * apart, std::sqrt(found.back().squared_distance));
+    patch.radius = std::min(patch.radius, 8 * apart);
+    patches.push_back(patch);
+  }
+  if (patches.size() < 3) return nullptr;
+  return std::make_shared<FreeForm>(std::move(patches));
+}
+
+double local_spacing(const SearchCloud& cloud, Index i) {
+  return std::max(cloud.spacing, cloud.local_spacing[i]);
+}
+
+void match(const SearchCloud& cloud, double tolerance, Sheet& sheet) {
+  sheet.carried.clear();
+  sheet.points.clear();
+  sheet.partners.clear();
+  std::vector<double> misses;
+  for (Index p = 0; p < cloud.size(); ++p) {
+    const Index i = cloud.tree.order()[p];
+    Carried c;
+    const Vector3 x = cloud.point(i);
+    if (!sheet.mirror->foot(x, 1e-9, c.foot, c.normal)) continue;
+    c.distance = c.normal.dot(x - c.foot);
+    const Vector3 image = x - 2 * c.distance * c.normal;
+    const double reach = tolerance * local_spacing(cloud, i);
+    const Neighbour near = cloud.tree.nearest(image, reach * reach);
+    if (near.index < 0 || near.index == i) continue;
+    const Vector3 n = cloud.normal(i), other = cloud.normal(near.index);
+    const double cosine = std::abs(other.dot(n - 2 * c.normal.dot(n) * c.normal));
+    c.turned = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    if (c.turned > 0.75) continue;
+    c.miss = cloud.point(near.index) - image;
+    c.partner_normal = cloud.normal(near.index);
+    misses.push_back(c.miss.norm() / cloud.spacing);
+    sheet.carried.push_back(c);
+    sheet.points.push_back(static_cast<std::int32_t>(i));
+    sheet.partners.push_back(static_cast<std::int32_t>(near.index));
+  }
+  if (misses.empty()) return;
+  std::nth_element(misses.begin(), misses.begin() + misses.size() / 2, misses.end());
+  sheet.typical_miss = misses[misses.size() / 2];
+}
+
+}  // namespace
+
+void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
+  std::size_t matched = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const Smoothing smoothing = sheet.exact
+                                    ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
+                                    : Smoothing{40, 0.08, 0.6 * cloud.spacing, 1};
+    const bool fresh = !sheet.mirror;
+    sheet.mirror = fitted(cloud, sheet.carried,
+                          fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
+    if (!sheet.mirror) return;
+    match(cloud, sheet.exact ? 0.8 : 1.3, sheet);
+    if (sheet.carried.size() < 6) {
+      sheet.mirror = nullptr;
+      return;
+    }
+    sheet.exact = sheet.typical_miss < 0.25;
+    sheet.explained = explained(cloud, sheet);
+    if (round > 2 && sheet.carried.size() <= matched + matched / 200) return;
+    matched = sheet.carried.size();
+  }
+}
+
+double explained(const SearchCloud& cloud, const Sheet& sheet) {
+  double sum = 0;
+  for (std::size_t k = 0; k < sheet.carried.size(); ++k) {
+    const Carried& c = sheet.carried[k];
+    const double tau = local_spacing(cloud, sheet.points[k]);
+    // Exact partners can be told from their neighbours however near the mirror they are.
+    const double least = sheet.exact ? 0.3 * tau : tau;
+    const double moved = std::clamp(2 * std::abs(c.distance) / least - 1, 0.0, 1.0);
+    sum += moved * landing(c, tau);
+  }
+  return sum / static_cast<double>(cloud.size());
+}
+
+}  // namespace symsurf::perpendicular

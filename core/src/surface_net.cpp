@@ -1,0 +1,124 @@
+#include "surface_net.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace symsurf {
+
+namespace {
+
+using Cell = std::array<int, 3>;
+
+// A grid along the principal axes of the points.
+struct Grid {
+  Vector3 origin;
+  Matrix3 axes;
+  double cell = 0;
+
+  Vector3 corner(const Cell& c) const { return origin + axes * (cell * Vector3(c[0], c[1], c[2])); }
+  Cell cell_of(const Vector3& x) const {
+    const Vector3 at = axes.transpose() * (x - origin) / cell;
+    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+            static_cast<int>(std::floor(at.z()))};
+  }
+};
+
+Grid grid_along(const Points& points, int resolution) {
+  Grid grid;
+  const Eigen::RowVector3d centre = points.colwise().mean();
+  const Points centred = points.rowwise() - centre;
+  grid.axes = Eigen::SelfAdjointEigenSolver<Matrix3>(centred.transpose() * centred).eigenvectors();
+  const Points along = centred * grid.axes;
+  const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
+  const double longest = (high - low).maxCoeff();
+  grid.cell = longest > 0 ? longest / resolution : 1;
+  // Half a cell off the extremes, so that flat pieces do not fall between two layers of cells.
+  grid.origin = centre.transpose() + grid.axes * (low - Vector3::Constant(grid.cell / 2));
+  return grid;
+}
+
+Cell moved(Cell c, int axis, int by) {
+  c[axis] += by;
+  return c;
+}
+
+}  // namespace
+
+Mesh surface_net(const Points& on_surface, int resolution,
+                 const std::function<bool(const Vector3&, double&)>& value) {
+  const Grid grid = grid_along(on_surface, resolution);
+  std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
+  for (Index i = 0; i < on_surface.rows(); ++i) {
+    const Cell c = grid.cell_of(on_surface.row(i));
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) vertex_of[{c[0] + x, c[1] + y, c[2] + z}] = -1;
+  }
+
+  std::map<Cell, double> values;
+  const auto at = [&](const Cell& c) {
+    const auto [entry, fresh] = values.try_emplace(c, std::nan(""));
+    double v;
+    if (fresh && value(grid.corner(c), v)) entry->second = v;
+    return entry->second;
+  };
+
+  std::vector<Vector3> vertices;
+  for (auto& [c, vertex] : vertex_of) {
+    Vector3 sum = Vector3::Zero();
+    int crossings = 0;
+    bool defined = true;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int corner = 0; corner < 4; ++corner) {
+        Cell a = moved(c, (axis + 1) % 3, corner & 1);
+        a = moved(a, (axis + 2) % 3, corner >> 1);
+        const Cell b = moved(a, axis, 1);
+        const double fa = at(a), fb = at(b);
+        defined = defined && std::isfinite(fa) && std::isfinite(fb);
+        if (!defined || (fa < 0) == (fb < 0)) continue;
+        sum += grid.corner(a) + fa / (fa - fb) * (grid.corner(b) - grid.corner(a));
+        ++crossings;
+      }
+    if (!defined || crossings == 0) continue;
+    vertex = static_cast<Index>(vertices.size());
+    vertices.push_back(sum / crossings);
+  }
+
+  std::vector<std::array<Index, 3>> triangles;
+  for (const auto& [c, vertex] : vertex_of) {
+    if (vertex < 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double fa = at(c), fb = at(moved(c, axis, 1));
+      if (!std::isfinite(fa) || !std::isfinite(fb) || (fa < 0) == (fb < 0)) continue;
+      // The four cells around the edge from c along the axis.
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const std::array<Cell, 4> around{c, moved(c, u, -1), moved(moved(c, u, -1), v, -1),
+                                       moved(c, v, -1)};
+      std::array<Index, 4> q{};
+      bool complete = true;
+      for (int k = 0; k < 4; ++k) {
+        const auto found = vertex_of.find(around[k]);
+        complete = complete && found != vertex_of.end() && found->second >= 0;
+        if (complete) q[k] = found->second;
+      }
+      if (!complete) continue;
+      if (fa < 0) std::swap(q[1], q[3]);  // triangles face the side where the function is positive
+      triangles.push_back({q[0], q[1], q[2]});
+      triangles.push_back({q[0], q[2], q[3]});
+    }
+  }
+
+  Mesh mesh;
+  mesh.vertices.resize(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    mesh.vertices.row(static_cast<Index>(i)) = vertices[i].transpose();
+  mesh.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    mesh.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1], triangles[i][2];
+  return mesh;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <symsurf/mirror.h>
+
+#include <functional>
+
+namespace symsurf {
+
+/// Triangulates the zero set of `value` around the given points on it: surface nets (Gibson 1998)
+/// on a grid along the points' principal axes, `resolution` cells along the longest, in cells that
+/// hold a point or touch one that does. `value` gives false where the function is not defined.
+Mesh surface_net(const Points& on_surface, int resolution,
+                 const std::function<bool(const Vector3& x, double& value)>& value);
+
+}  // namespace symsurf
