@@ -130,8 +130,9 @@ Shape read_ply(std::string_view content) {
   if (header.encoding == PlyHeader::Encoding::Ascii)
     return read_elements(PlyTextRows(text), header);
   const bool is_little = header.encoding == PlyHeader::Encoding::LittleEndian;
-  const bool swapped = is_little != (std::endian::native == std::endian::little);
-  return read_elements(PlyBinaryRows(text.text_after_line(), swapped), header);
+  return read_elements(
+      PlyBinaryRows(text.text_after_line(), is_little ? std::endian::little : std::endian::big),
+      header);
 }
 
 }  // namespace symsurf

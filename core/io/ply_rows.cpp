@@ -2,11 +2,9 @@
 
 #include <symsurf/errors.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
+
+#include "byte_order.h"
 
 namespace symsurf {
 
@@ -15,14 +13,6 @@ namespace {
 std::string truncated(const PlyElement& element, Index row) {
   return "the file is truncated: it ends at row " + std::to_string(row) + " of the " +
          std::to_string(element.count) + " of the element " + in_quotes(element.name);
-}
-
-template <typename T>
-double load(const char* bytes, bool swapped) {
-  std::array<char, sizeof(T)> ordered;
-  std::memcpy(ordered.data(), bytes, sizeof(T));
-  if (swapped) std::reverse(ordered.begin(), ordered.end());
-  return static_cast<double>(std::bit_cast<T>(ordered));
 }
 
 std::size_t size_of(PlyType type) {
@@ -58,21 +48,21 @@ double PlyBinaryRows::number(const PlyProperty& property, PlyType type) {
   const char* at = take(type);
   switch (type) {
     case PlyType::Int8:
-      return load<std::int8_t>(at, swapped_);
+      return load<std::int8_t>(at, order_);
     case PlyType::UInt8:
-      return load<std::uint8_t>(at, swapped_);
+      return load<std::uint8_t>(at, order_);
     case PlyType::Int16:
-      return load<std::int16_t>(at, swapped_);
+      return load<std::int16_t>(at, order_);
     case PlyType::UInt16:
-      return load<std::uint16_t>(at, swapped_);
+      return load<std::uint16_t>(at, order_);
     case PlyType::Int32:
-      return load<std::int32_t>(at, swapped_);
+      return load<std::int32_t>(at, order_);
     case PlyType::UInt32:
-      return load<std::uint32_t>(at, swapped_);
+      return load<std::uint32_t>(at, order_);
     case PlyType::Float32:
-      return load<float>(at, swapped_);
+      return load<float>(at, order_);
     case PlyType::Float64:
-      return load<double>(at, swapped_);
+      return load<double>(at, order_);
   }
   fail(property.name + " has no type");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <string>
 #include <string_view>
 
@@ -37,7 +38,7 @@ class PlyTextRows {
 /// Numbers of fixed size, one after the other.
 class PlyBinaryRows {
  public:
-  PlyBinaryRows(std::string_view bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
+  PlyBinaryRows(std::string_view bytes, std::endian order) : bytes_(bytes), order_(order) {}
 
   void begin(const PlyElement& element, Index row) {
     element_ = &element;
@@ -52,7 +53,7 @@ class PlyBinaryRows {
   const char* take(PlyType type);
 
   std::string_view bytes_;
-  bool swapped_;
+  std::endian order_;
   const PlyElement* element_ = nullptr;
   Index row_ = 0;
 };

@@ -1,12 +1,11 @@
 #include <symsurf/errors.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
+#include "byte_order.h"
 #include "formats.h"
 #include "shape_builder.h"
 #include "text_scanner.h"
@@ -21,11 +20,8 @@ namespace {
 constexpr std::size_t header_bytes = 84, count_at = 80, triangle_bytes = 50, corners_at = 12;
 
 template <typename T>
-T load(const char* bytes) {
-  std::array<char, sizeof(T)> ordered;
-  std::memcpy(ordered.data(), bytes, sizeof(T));
-  if (std::endian::native == std::endian::big) std::reverse(ordered.begin(), ordered.end());
-  return std::bit_cast<T>(ordered);
+T number_at(const char* bytes) {
+  return load<T>(bytes, std::endian::little);
 }
 
 class Triangulation {
@@ -53,8 +49,8 @@ Shape read_binary(std::string_view content, std::size_t triangles) {
   for (std::size_t t = 0; t < triangles; ++t) {
     const char* at = content.data() + header_bytes + t * triangle_bytes + corners_at;
     for (int corner = 0; corner < 3; ++corner, at += 3 * sizeof(float))
-      shape.add_corner(
-          {load<float>(at), load<float>(at + sizeof(float)), load<float>(at + 2 * sizeof(float))});
+      shape.add_corner({number_at<float>(at), number_at<float>(at + sizeof(float)),
+                        number_at<float>(at + 2 * sizeof(float))});
   }
   return shape.build();
 }
@@ -95,7 +91,7 @@ Shape read_stl(std::string_view content) {
   // Binary files may start with "solid" too: their size is the surer sign.
   const bool has_header = content.size() >= header_bytes;
   const std::size_t triangles =
-      has_header ? load<std::uint32_t>(content.data() + count_at) : std::size_t{0};
+      has_header ? number_at<std::uint32_t>(content.data() + count_at) : std::size_t{0};
   const std::size_t bytes = header_bytes + triangles * triangle_bytes;
   if (content.starts_with("solid") && content.size() != bytes) return read_text(content);
   if (!has_header)
