@@ -71,12 +71,12 @@ Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
   result.statistics["typical_miss"] = best.typical_miss;
   result.statistics["exact"] = best.exact;
   result.mirror = best.mirror->transformed(search.diagonal, Matrix3::Identity(), search.centroid);
-  const PointTree tree(cloud.points, context.stage(0.5, 0.6));
+  const PointTree tree(cloud.points, context.stage(0.8, 0.85));
   // Farther off there are only mere neighbours.
   const double limit =
       std::min(values.real("pair_distance"), (best.exact ? 0.8 : 1.3) * search.spacing);
   add_pairs(result, cloud.points, tree, *result.mirror, limit * cloud.diagonal,
-            context.stage(0.6, 1));
+            context.stage(0.85, 1));
   drop_false_pairs(result, cloud.points.size(), best.exact);
   if (!best.exact) result.surface_points = result.mirror->project(result.surface_points);
   return result;

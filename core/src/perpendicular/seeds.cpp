@@ -79,7 +79,8 @@ Seeds find_seeds(const SearchCloud& cloud, std::uint64_t seed, const Context& co
   }
   Seeds seeds{std::move(along.seeds()), std::move(across.seeds())};
   for (std::vector<Seed>* kind : {&seeds.along, &seeds.across}) {
-    parallel_for(context, static_cast<Index>(kind->size()), 256, [&](Index begin, Index end) {
+    const Context half = kind == &seeds.along ? context.stage(0, 0.5) : context.stage(0.5, 1);
+    parallel_for(half, static_cast<Index>(kind->size()), 256, [&](Index begin, Index end) {
       for (Index s = begin; s < end; ++s)
         (*kind)[s].support = support(cloud, (*kind)[s].first, (*kind)[s].second);
     });
