@@ -9,8 +9,11 @@ namespace {
 
 constexpr int last_rounds = 8;
 constexpr std::size_t most_refined = 3;
+constexpr double worth_refining = 0.7;  // of the best rank
 
-bool explains_more(const Sheet& a, const Sheet& b) { return a.explained > b.explained; }
+// Of mirrors that explain about the same the curved one comes first: planes have their own method.
+double rank(const Sheet& sheet) { return (is_flat(sheet) ? 0.85 : 1) * sheet.explained; }
+bool ranks_higher(const Sheet& a, const Sheet& b) { return rank(a) > rank(b); }
 
 // How well the points that a sheet carries land.
 double precision(const SearchCloud& cloud, const Sheet& sheet) {
@@ -74,10 +77,11 @@ Sheet whole_from(const SearchCloud& cloud, const std::vector<Sheet>& sheets, std
 
 std::vector<Sheet> assemble(const SearchCloud& cloud, std::vector<Sheet> sheets,
                             const Context& context) {
-  std::stable_sort(sheets.begin(), sheets.end(), explains_more);
+  std::stable_sort(sheets.begin(), sheets.end(), ranks_higher);
   std::vector<Sheet> wholes;
   for (std::size_t k = 0; k < std::min(sheets.size(), most_refined); ++k) {
     context.report(static_cast<double>(k) / most_refined);
+    if (rank(sheets[k]) < worth_refining * rank(sheets[0])) break;
     Sheet whole = whole_from(cloud, sheets, k);
     refine(cloud, last_rounds, whole);
     wholes.push_back(whole.mirror && whole.explained > sheets[k].explained ? std::move(whole)
@@ -85,7 +89,7 @@ std::vector<Sheet> assemble(const SearchCloud& cloud, std::vector<Sheet> sheets,
   }
   for (std::size_t k = wholes.size(); k < sheets.size(); ++k)
     wholes.push_back(std::move(sheets[k]));
-  std::stable_sort(wholes.begin(), wholes.end(), explains_more);
+  std::stable_sort(wholes.begin(), wholes.end(), ranks_higher);
   return wholes;
 }
 

@@ -10,12 +10,13 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr std::size_t most_trials = 24, most_sheets = 5;  // of either kind of seed
+constexpr std::size_t most_trials = 20, most_sheets = 4;  // of either kind of seed
 constexpr Index trial_points = 60;
 constexpr int settlings = 2, first_rounds = 2;
 constexpr std::array<double, 3> same_place{12, 6, 3};  // spacings
 constexpr double least_support = 0.3;
 constexpr double same_direction = 0.9;
+constexpr double hopeless = 0.4, convincing = 0.85;
 
 // Seeds to try: the best supported first, but far from each other before they crowd.
 std::vector<Seed> spread_out(const SearchCloud& cloud, const std::vector<Seed>& seeds) {
@@ -69,20 +70,29 @@ std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& se
   return growths;
 }
 
-std::vector<Sheet> explore(const SearchCloud& cloud, std::vector<Growth> trials,
+std::vector<Sheet> explore(const SearchCloud& cloud, std::vector<Growth> trials, double best,
                            const Context& context) {
   std::vector<Sheet> sheets;
+  std::size_t grown = 0;
   for (Growth& growth : trials) {
-    if (sheets.size() == most_sheets) break;
-    context.report(static_cast<double>(sheets.size()) / most_sheets);
+    context.report(static_cast<double>(grown) / most_sheets);
     if (std::any_of(sheets.begin(), sheets.end(),
                     [&](const Sheet& sheet) { return known(cloud, growth, sheet); }))
       continue;
     growth.grow(cloud.size());
+    // What has grown says about what refining can give; far below the best it is not worth it.
+    const double promise = growth.closeness() * static_cast<double>(growth.accepted().size()) /
+                           static_cast<double>(cloud.size());
+    if (++grown > most_sheets) break;
+    if (promise < hopeless * best) continue;
     Sheet sheet;
     for (const std::int32_t i : growth.accepted()) sheet.carried.push_back(growth.carried(i));
     refine(cloud, first_rounds, sheet);
-    if (sheet.mirror) sheets.push_back(std::move(sheet));
+    if (!sheet.mirror) continue;
+    best = std::max(best, sheet.explained);
+    const bool enough = sheet.explained > convincing && !is_flat(sheet);
+    sheets.push_back(std::move(sheet));
+    if (enough) break;
   }
   return sheets;
 }

@@ -96,12 +96,14 @@ void Growth::refit(std::int32_t i) {
   static thread_local std::vector<Carried> data;
   data.clear();
   const Carried& own = carried_[patch_of_[i]];
+  // Where partners are exact few data say more than many; elsewhere reach farther.
+  const int stride = exact_ ? SearchCloud::ring : 5;
   for (const std::int32_t end : {i, partner_[i]}) {
     if (partner_[end] >= 0) data.push_back(carried_[patch_of_[end]]);
     for (int k = 0; k < SearchCloud::ring; ++k) {
       const std::int32_t other = cloud_->neighbours(end, k);
       if (partner_[other] >= 0) data.push_back(carried_[patch_of_[other]]);
-      for (int l = 0; l < SearchCloud::ring; l += 2) {
+      for (int l = stride - 1; l < SearchCloud::ring; l += stride) {
         const std::int32_t farther = cloud_->neighbours(other, l);
         if (partner_[farther] >= 0) data.push_back(carried_[patch_of_[farther]]);
       }

@@ -1,11 +1,16 @@
 #include "refinement.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 namespace symsurf::perpendicular {
 
 namespace {
+
+constexpr double exact_miss = 0.25;  // spacings, in the median
+constexpr double flat_enough = 0.995;
+constexpr double foot_precision = 1e-9;
 
 struct Smoothing {
   Index neighbours;  // data a patch is fitted to
@@ -78,7 +83,9 @@ double local_spacing(const SearchCloud& cloud, Index i) {
   return std::max(cloud.spacing, cloud.local_spacing[i]);
 }
 
-void match(const SearchCloud& cloud, double tolerance, Sheet& sheet) {
+}  // namespace
+
+void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sheet& sheet) {
   sheet.carried.clear();
   sheet.points.clear();
   sheet.partners.clear();
@@ -87,7 +94,7 @@ void match(const SearchCloud& cloud, double tolerance, Sheet& sheet) {
     const Index i = cloud.tree.order()[p];
     Carried c;
     const Vector3 x = cloud.point(i);
-    if (!sheet.mirror->foot(x, 1e-9, c.foot, c.normal)) continue;
+    if (!foot_of(x, c.foot, c.normal)) continue;
     c.distance = c.normal.dot(x - c.foot);
     const Vector3 image = x - 2 * c.distance * c.normal;
     const double reach = tolerance * local_spacing(cloud, i);
@@ -107,9 +114,16 @@ void match(const SearchCloud& cloud, double tolerance, Sheet& sheet) {
   if (misses.empty()) return;
   std::nth_element(misses.begin(), misses.begin() + misses.size() / 2, misses.end());
   sheet.typical_miss = misses[misses.size() / 2];
+  sheet.exact = sheet.typical_miss < exact_miss;
 }
 
-}  // namespace
+bool is_flat(const Sheet& sheet) {
+  Matrix3 spread = Matrix3::Zero();
+  for (const Carried& c : sheet.carried) spread += c.normal * c.normal.transpose();
+  const Vector3 values =
+      Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
+  return values[2] > flat_enough * static_cast<double>(sheet.carried.size());
+}
 
 void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
   std::size_t matched = 0;
@@ -121,12 +135,17 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
     sheet.mirror = fitted(cloud, sheet.carried,
                           fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!sheet.mirror) return;
-    match(cloud, sheet.exact ? 0.8 : 1.3, sheet);
+    const FreeForm& mirror = *sheet.mirror;
+    match(
+        cloud,
+        [&](const Vector3& x, Vector3& foot, Vector3& normal) {
+          return mirror.foot(x, foot_precision, foot, normal);
+        },
+        sheet.exact ? 0.8 : 1.3, sheet);
     if (sheet.carried.size() < 6) {
       sheet.mirror = nullptr;
       return;
     }
-    sheet.exact = sheet.typical_miss < 0.25;
     sheet.explained = explained(cloud, sheet);
     if (round > 2 && sheet.carried.size() <= matched + matched / 200) return;
     matched = sheet.carried.size();

@@ -2,6 +2,7 @@
 
 #include <symsurf/free_form.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,15 @@ struct Sheet {
 /// Mirror, match, refit: starts from the sheet's mirror or, without one, from what it has carried.
 /// The sheet has no mirror afterwards when it dissolved.
 void refine(const SearchCloud& cloud, int rounds, Sheet& sheet);
+
+/// Carries all points over a mirror: gives its foot for x and its normal there, or false.
+using FootOf = std::function<bool(const Vector3& x, Vector3& foot, Vector3& normal)>;
+/// Fills what the sheet has carried with the points whose images fall within `tolerance` spacings
+/// of a partner whose normal fits.
+void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sheet& sheet);
+
+/// Whether all its normals are nearly parallel: a plane, for which there is a method of its own.
+bool is_flat(const Sheet& sheet);
 
 /// The share of the points that the sheet carries onto the cloud; points on the sheet itself, which
 /// are their own images, do not count.

@@ -11,7 +11,7 @@ namespace symsurf::perpendicular {
 namespace {
 
 constexpr Index first_ends = 500;
-constexpr std::size_t most_tested = 5000;
+constexpr std::size_t most_tested = 2500;
 const double parallel_enough = std::cos(30 * M_PI / 180);
 constexpr double facing = 0.8;          // cosine between chord and normals
 constexpr double shortest_chord = 1.2;  // spacings

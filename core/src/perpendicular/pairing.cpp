@@ -1,0 +1,43 @@
+#include "pairing.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "../matching.h"
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+// A point is not its own partner. Where partners are exact they agree about each other.
+void drop_false_pairs(Result& result, Index size, bool mutual) {
+  std::vector<Index> partner(size, -1);
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    partner[result.pairs(row, 0)] = result.pairs(row, 1);
+  Index kept = 0;
+  for (Index row = 0; row < result.pairs.rows(); ++row) {
+    const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
+    if (j == i || (mutual && partner[j] != i)) continue;
+    result.pairs.row(kept) = result.pairs.row(row);
+    result.residuals[kept] = result.residuals[row];
+    result.surface_points.row(kept++) = result.surface_points.row(row);
+  }
+  result.pairs.conservativeResize(kept, 2);
+  result.residuals.conservativeResize(kept);
+  result.surface_points.conservativeResize(kept, 3);
+}
+
+}  // namespace
+
+void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, const Sheet& sheet,
+               double pair_distance, const Context& context) {
+  const PointTree tree(cloud.points, context.stage(0, 0.2));
+  // Farther off there are only mere neighbours.
+  const double limit = std::min(pair_distance, (sheet.exact ? 0.8 : 1.3) * searched.spacing);
+  symsurf::add_pairs(result, cloud.points, tree, *result.mirror, limit * cloud.diagonal,
+                     context.stage(0.2, 1));
+  drop_false_pairs(result, cloud.points.size(), sheet.exact);
+  if (!sheet.exact) result.surface_points = result.mirror->project(result.surface_points);
+}
+
+}  // namespace symsurf::perpendicular
