@@ -1,0 +1,81 @@
+#include <symsurf/principal_frame.h>
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "parallel.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index grain = 1 << 15;
+
+struct Extent {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = -low;
+  Vector3 skewness = Vector3::Zero();
+
+  Extent& operator+=(const Extent& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    skewness += other.skewness;
+    return *this;
+  }
+};
+
+}  // namespace
+
+PrincipalFrame principal_frame(PointsView points, const Context& context) {
+  const double count = static_cast<double>(points.size());
+  PrincipalFrame frame;
+  // About the first point: far-off clouds keep their digits.
+  const Vector3 first = points[0];
+  frame.centroid =
+      first +
+      parallel_sum(context, points.size(), grain, Vector3(0, 0, 0), [&](Index begin, Index end) {
+        Vector3 sum = Vector3::Zero();
+        for (Index i = begin; i < end; ++i) sum += points[i] - first;
+        return sum;
+      }) / count;
+  Matrix3 scatter = Matrix3::Zero();
+  scatter = parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
+    Matrix3 sum = Matrix3::Zero();
+    for (Index i = begin; i < end; ++i) {
+      const Vector3 x = points[i] - frame.centroid;
+      sum += x * x.transpose();
+    }
+    return sum;
+  });
+  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(scatter);
+  frame.axes = eigen.eigenvectors().rowwise().reverse();
+  frame.variance = eigen.eigenvalues().reverse() / count;
+
+  const Extent extent =
+      parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
+        Extent part;
+        for (Index i = begin; i < end; ++i) {
+          const Vector3 x = frame.axes.transpose() * (points[i] - frame.centroid);
+          part.low = part.low.cwiseMin(x);
+          part.high = part.high.cwiseMax(x);
+          part.skewness += x.cwiseProduct(x).cwiseProduct(x);
+        }
+        return part;
+      });
+  frame.size = (extent.high - extent.low).norm();
+  frame.low = extent.low;
+  frame.high = extent.high;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (extent.skewness[axis] >= 0) continue;
+    frame.axes.col(axis) *= -1;
+    frame.low[axis] = -extent.high[axis];
+    frame.high[axis] = -extent.low[axis];
+  }
+  if (frame.size > 0) {
+    frame.low /= frame.size;
+    frame.high /= frame.size;
+  }
+  return frame;
+}
+
+}  // namespace symsurf
