@@ -1,5 +1,6 @@
 #include <symsurf/errors.h>
 #include <symsurf/free_form.h>
+#include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
@@ -71,6 +72,11 @@ const std::array kinds{
                                            number<double>(v, "radius"));
          }},
     Kind{"free-form", free_form},
+    Kind{"height field",
+         [](const Values& v) -> std::shared_ptr<Mirror> {
+           return std::make_shared<HeightField>(number<Vector3>(v, "direction"),
+                                                Points(number<Eigen::MatrixXd>(v, "nodes")));
+         }},
 };
 
 }  // namespace

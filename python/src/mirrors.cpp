@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
@@ -131,6 +132,17 @@ void bind_mirrors(py::module_& module) {
              return std::make_shared<Sphere>(centre.vector, radius);
            }),
            py::arg("centre"), py::arg("radius"));
+
+  bind_kind<HeightField>(
+      module, "HeightField",
+      "The graph of a height over the plane orthogonal to a direction: points are mirrored along\n"
+      "it. The surface passes through its nodes and goes on smoothly between and beyond them.",
+      {{"direction", "Unit vector (3,)."}, {"nodes", "(m, 3), in input units."}})
+      .def(py::init([](const VectorArgument& direction, const PointsArgument& nodes) {
+             return std::make_shared<HeightField>(direction.vector,
+                                                  Points(PointsView(nodes).matrix()));
+           }),
+           py::arg("direction"), py::arg("nodes"));
 }
 
 }  // namespace symsurf::python

@@ -9,6 +9,7 @@
 from . import detectors
 from ._core import (
     Cancelled,
+    HeightField,
     InvalidInput,
     InvalidParameter,
     Method,
@@ -28,6 +29,7 @@ from .shape import Shape, read
 
 __all__ = [
     "Cancelled",
+    "HeightField",
     "InvalidInput",
     "InvalidParameter",
     "Method",

@@ -5,6 +5,7 @@
 #include <symsurf/downsample.h>
 #include <symsurf/errors.h>
 #include <symsurf/free_form.h>
+#include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/match.h>
 #include <symsurf/method.h>
