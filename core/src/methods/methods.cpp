@@ -8,6 +8,7 @@ const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       auto_method(),
       plane_method(),
+      fixed_direction_method(),
       separation_method(),
       separation_normals_method(),
       normals_only_method(),

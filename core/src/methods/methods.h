@@ -12,5 +12,6 @@ Method plane_method();
 Method separation_method();
 Method separation_normals_method();
 Method normals_only_method();
+Method fixed_direction_method();
 
 }  // namespace symsurf

@@ -1,0 +1,74 @@
+#include "direction_search.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index tried = 180;    // directions on the half sphere, 12 degrees apart
+constexpr double apart = 0.12;  // radians between candidates
+constexpr double first_step = 0.09, last_step = 0.02;
+constexpr double pi = 3.14159265358979323846;
+
+// Evenly over the half sphere: a Fibonacci spiral.
+Vector3 spread_direction(Index i) {
+  const double z = (static_cast<double>(i) + 0.5) / tried;
+  const double angle = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+bool better(const DirectionCandidate& a, const DirectionCandidate& b) {
+  return a.explained > b.explained;
+}
+
+std::vector<DirectionCandidate> distinct(std::vector<DirectionCandidate> candidates, Index count) {
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  std::vector<DirectionCandidate> kept;
+  for (const DirectionCandidate& c : candidates) {
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const DirectionCandidate& other) {
+      return c.direction.cross(other.direction).norm() < apart;
+    });
+    if (!seen) kept.push_back(c);
+    if (static_cast<Index>(kept.size()) == count) break;
+  }
+  return kept;
+}
+
+void climb(MidSheet& sheet, DirectionCandidate& candidate) {
+  for (double step = first_step; step >= last_step; step /= 2) {
+    const auto across = orthogonal_to(candidate.direction);
+    const Vector3 centre = candidate.direction;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = k * pi / 3;
+      const Vector3 moved =
+          centre + step * across * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const DirectionCandidate next{moved.normalized(), sheet.explained(moved.normalized())};
+      if (better(next, candidate)) candidate = next;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinned,
+                                                      const std::vector<ChordPeak>& hints,
+                                                      Index count, const Context& context) {
+  MidSheet sheet(thinned);
+  std::vector<DirectionCandidate> candidates;
+  for (Index i = 0; i < tried; ++i) {
+    const Vector3 v = spread_direction(i);
+    candidates.push_back({v, sheet.explained(v)});
+    context.report(0.8 * static_cast<double>(i) / tried);
+  }
+  for (const ChordPeak& hint : hints)
+    candidates.push_back({hint.direction, sheet.explained(hint.direction)});
+  candidates = distinct(std::move(candidates), count);
+  for (DirectionCandidate& candidate : candidates) climb(sheet, candidate);
+  return distinct(std::move(candidates), count);
+}
+
+}  // namespace symsurf

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "chord_histogram.h"
+#include "mid_sheet.h"
+
+namespace symsurf {
+
+/// A direction of mapping and how it was judged.
+struct DirectionCandidate {
+  Vector3 direction;
+  double explained = 0;  ///< MidSheet::explained
+};
+
+/// Directions under which a surface half-way between the sheets explains most of the cloud, best
+/// first, some degrees apart: the half sphere is tried on a thinned cloud, and the given hints,
+/// then the best of them are moved uphill.
+std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinned,
+                                                      const std::vector<ChordPeak>& hints,
+                                                      Index count, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,91 @@
+#include "field_search.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "direction_search.h"
+#include "exact_partners.h"
+#include "partner_evidence.h"
+#include "sheet_refinement.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index peaks_a_scale = 6, explaining = 6;
+constexpr Index thinned_size = 600;
+constexpr double exact_share = 0.2;       // of the points have exact partners: no chance
+constexpr double evidence_reach = 1.7;    // spacings
+constexpr double no_evidence = 5;         // standard deviations that chance reaches
+constexpr double known_scatter = 7;       // from here on the scatter is believed
+constexpr double strong_evidence = 9;     // no need to look further
+constexpr double evidence_weight = 0.05;  // share of explained points a deviation is worth
+constexpr double rough_sheets = 0.1;      // spacings off a plane: noise, or sharp bends
+constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
+constexpr int rounds = 6;
+
+// Ranks directions by what their surface explains and by the partners found along them.
+class Ranking {
+ public:
+  explicit Ranking(const WorkingCloud& cloud) : cloud_(cloud), sheet_(cloud, evidence_reach) {}
+
+  void consider(const Vector3& direction) {
+    const double explained = sheet_.explained(direction);
+    const PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction);
+    const double rank =
+        explained + evidence_weight * std::max(0.0, evidence.significance - no_evidence);
+    if (rank <= rank_) return;
+    rank_ = rank;
+    best_ = evidence;
+    if (best_.significance <= no_evidence) best_.direction = direction;
+    if (best_.significance <= known_scatter)
+      best_.scatter = std::numeric_limits<double>::infinity();
+  }
+  const PartnerEvidence& best() const { return best_; }
+
+ private:
+  const WorkingCloud& cloud_;
+  MidSheet sheet_;
+  PartnerEvidence best_;
+  double rank_ = -1;
+};
+
+WorkingCloud thinned(const WorkingCloud& cloud) { return {cloud.points, thinned_size}; }
+
+}  // namespace
+
+FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_direction,
+                                Values& statistics, const Context& context) {
+  std::vector<ChordPeak> peaks;
+  const bool given = !given_direction.isZero(0);
+  if (given)
+    peaks.push_back({given_direction.normalized(), 0});
+  else
+    peaks = chord_peaks(cloud, peaks_a_scale);
+  context.report(0.2);
+
+  const FieldEstimate exact = exact_partners(cloud, peaks);
+  statistics["partners"] = std::string(exact.explained > exact_share ? "exact" : "sheets");
+  if (exact.explained > exact_share) return exact;
+  context.report(0.3);
+
+  Ranking ranking(cloud);
+  for (const ChordPeak& peak : peaks) {
+    ranking.consider(peak.direction);
+    context.report(0.4);
+  }
+  if (!given && ranking.best().significance < strong_evidence)
+    for (const DirectionCandidate& candidate :
+         explaining_directions(thinned(cloud), peaks, explaining, context.stage(0.4, 0.7)))
+      ranking.consider(candidate.direction);
+
+  const PartnerEvidence& start = ranking.best();
+  statistics["partner_significance"] = start.significance;
+  const double roughness =
+      median({cloud.flatness.data(), cloud.flatness.data() + cloud.size()}) / cloud.spacing;
+  const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch);
+  context.report(0.75);
+  return SheetRefinement(cloud, patches)(start.direction, start.scatter, rounds);
+}
+
+}  // namespace symsurf

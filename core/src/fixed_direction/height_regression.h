@@ -1,0 +1,45 @@
+#pragma once
+
+#include <symsurf/types.h>
+
+#include <vector>
+
+#include "../point_tree.h"
+
+namespace symsurf {
+
+/// What is known of a surface's height at one place of the plane.
+struct HeightObservation {
+  Eigen::Vector2d place;
+  double height;
+  double weight;
+};
+
+/// Robust local quadratic regression (loess, Cleveland 1979) of heights over scattered places.
+class HeightRegression {
+ public:
+  explicit HeightRegression(std::vector<HeightObservation> observations);
+
+  /// The places (rows u, v, anything) with the heights fitted there, each from its `neighbours`
+  /// nearest observations, tricube weights; without places where all of these were rejected.
+  Points fitted(const Points& places, Index neighbours) const;
+
+  /// Lowers the weight of observations that do not fit their surroundings (Tukey's biweight, from
+  /// the median residual).
+  void reject_outliers(Index neighbours);
+
+  /// The number of neighbours, of those offered, that predicts left-out observations best.
+  Index best_neighbours(const std::vector<Index>& offered) const;
+
+  /// Of the observations, as rows for fitted().
+  Points places() const;
+
+ private:
+  /// Height at a place, without the observation `left_out`; NaN without observations.
+  double height(const Eigen::Vector2d& place, Index neighbours, Index left_out) const;
+
+  std::vector<HeightObservation> observations_;
+  PointTree tree_;
+};
+
+}  // namespace symsurf

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "field_estimate.h"
+#include "height_regression.h"
+#include "mid_sheet.h"
+#include "sheet_patches.h"
+
+namespace symsurf {
+
+/// Mirror, match, fit again: images over the estimate meet the sheets on the other side, half
+/// their distance along the direction is what the surface is wrong by there, and what remains
+/// across tells where the direction should turn.
+class SheetRefinement {
+ public:
+  SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches);
+
+  /// Starts from the surface that MidSheet votes for, where `scatter` (infinity: unknown) is that
+  /// of partners across the direction.
+  FieldEstimate operator()(const Vector3& direction, double scatter, int rounds);
+
+ private:
+  struct Matches {
+    std::vector<HeightObservation> observations;
+    Eigen::Vector2d turn = Eigen::Vector2d::Zero();  // that the matches ask of the direction
+    double explained = 0;
+  };
+  Matches matches(const FieldEstimate& estimate) const;
+  FieldEstimate voted(const Vector3& direction, double scatter);
+
+  const WorkingCloud& cloud_;
+  const SheetPatches& patches_;
+  MidSheet votes_;
+};
+
+}  // namespace symsurf

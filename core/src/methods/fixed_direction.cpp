@@ -1,0 +1,86 @@
+#include <symsurf/height_field.h>
+#include <symsurf/principal_frame.h>
+
+#include <algorithm>
+
+#include "../fixed_direction/field_search.h"
+#include "../matching.h"
+#include "../parallel.h"
+#include "methods.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double outlying = 6;     // median residuals: a partner by chance
+constexpr double rounding = 1e-9;  // of the diagonal
+
+Points framed(const Cloud& cloud, const PrincipalFrame& frame, const Context& context) {
+  Points points(cloud.points.size(), 3);
+  parallel_for(context, points.rows(), 1 << 14, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) points.row(i) = frame.enter(cloud.points[i]).transpose();
+  });
+  return points;
+}
+
+// Where one side is missing, images fall on whatever lies at the gap's rim.
+void drop_outlying_pairs(Result& result, double diagonal) {
+  if (result.residuals.size() == 0) return;
+  const double* r = result.residuals.data();
+  const double limit =
+      std::max(outlying * median({r, r + result.residuals.size()}), rounding * diagonal);
+  std::vector<Index> kept;
+  for (Index i = 0; i < result.residuals.size(); ++i)
+    if (r[i] <= limit) kept.push_back(i);
+  result.pairs = Pairs(result.pairs(kept, Eigen::all));
+  result.residuals = Eigen::VectorXd(result.residuals(kept));
+  result.surface_points = Points(result.surface_points(kept, Eigen::all));
+}
+
+Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
+                           const Context& context) {
+  Result result;
+  result.method = "fixed_direction";
+  const PrincipalFrame frame = principal_frame(cloud.points, context.stage(0, 0.02));
+  const WorkingCloud work(framed(cloud, frame, context.stage(0.02, 0.05)),
+                          values.integer("sample_size"), context.stage(0.05, 0.1));
+  const Vector3 given = frame.axes.transpose() * values.vector("direction");
+  const FieldEstimate found =
+      find_height_field(work, given, result.statistics, context.stage(0.1, 0.7));
+  if (found.nodes.rows() == 0) return result;
+
+  const HeightField field(found.direction, found.nodes);
+  result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
+  result.score = found.explained;
+  const PointTree tree(cloud.points, context.stage(0.7, 0.8));
+  add_pairs(result, cloud.points, tree, *result.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 1));
+  drop_outlying_pairs(result, cloud.diagonal);
+  result.surface_points = result.mirror->project(result.surface_points);
+  return result;
+}
+
+}  // namespace
+
+Method fixed_direction_method() {
+  Method method;
+  method.name = "fixed_direction";
+  method.title = "Curved mirror, fixed direction";
+  method.summary =
+      "Finds a curved mirror that maps all points along one direction, wherever that points and "
+      "whether or not a plane separates the sides.";
+  method.parameters = {
+      Parameter::direction("direction",
+                           "The direction of mapping, if known to a degree; (0, 0, 0) searches."),
+      Parameter::integer("sample_size", 5000, 100, 100000, "points",
+                         "Points that the search works on."),
+      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
+                      "A point whose image has no point of the cloud nearer than this has no "
+                      "partner."),
+  };
+  method.minimum_points = 20;
+  method.run = run_fixed_direction;
+  return method;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+#include <symsurf/height_field.h>
+
+#include <cmath>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+double ripple(double x, double y) { return std::sin(0.7 * x) * std::cos(0.7 * y); }
+double cone(double x, double y) { return std::hypot(x, y); }
+double hemisphere(double x, double y) { return std::sqrt(9 - x * x - y * y); }
+
+// A sheet and its image over the graph of `mirror`, along z, then turned at random.
+struct Sheets {
+  template <typename Mirror, typename Gap>
+  Sheets(std::uint64_t seed, Index pairs, const Mirror& mirror, const Gap& gap)
+      : random(seed), rotation(random.rotation()), points(2 * pairs, 3), truth(pairs, 3) {
+    for (Index i = 0; i < pairs; ++i) {
+      const double x = random.uniform(-2, 2), y = random.uniform(-2, 2);
+      const double z = mirror(x, y), d = gap(x, y);
+      points.row(2 * i) = (rotation * Vector3(x, y, z + d)).transpose();
+      points.row(2 * i + 1) = (rotation * Vector3(x, y, z - d)).transpose();
+      truth.row(i) = (rotation * Vector3(x, y, z)).transpose();
+    }
+  }
+  RandomCloud random;
+  Matrix3 rotation;
+  Points points, truth;
+};
+
+double wide(double x, double y) { return 0.9 + 0.2 * std::sin(x + 1) + 0.15 * std::cos(y); }
+double narrow(double x, double) { return 0.35 + 0.1 * std::sin(2 * x); }
+
+Result found(const Points& points) {
+  Options options;
+  options.method = "fixed_direction";
+  return detect(points, options);
+}
+
+double farthest_foot(const Result& result, const Points& truth) {
+  return (result.mirror->project(truth) - truth).rowwise().norm().maxCoeff();
+}
+
+TEST(FixedDirection, IsExactWherePartnersAre) {
+  for (const auto& mirror : {ripple, cone, hemisphere})
+    for (const auto& gap : {wide, narrow})
+      for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const Sheets sheets(seed, 300, mirror, gap);
+        const Result result = found(sheets.points);
+        EXPECT_LE(farthest_foot(result, sheets.truth), 1e-9);
+        EXPECT_EQ(result.pairs.rows(), sheets.points.rows());
+        for (Index k = 0; k < result.pairs.rows(); ++k)
+          EXPECT_EQ(result.pairs(k, 0) / 2, result.pairs(k, 1) / 2);
+        EXPECT_LE(result.residuals.maxCoeff(), 1e-9);
+      }
+}
+
+TEST(FixedDirection, PairsAClosedShapeNested) {
+  // A torus and its image overlap: lines along z meet up to eight sheets.
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Matrix3 rotation = random.rotation();
+    const Index pairs = 400;
+    Points points(2 * pairs, 3), truth(pairs, 3);
+    for (Index i = 0; i < pairs; ++i) {
+      const double a = random.uniform(0, 2 * M_PI), b = random.uniform(0, 2 * M_PI);
+      const double r = 1 + 0.4 * std::cos(b);
+      const Vector3 x(r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b) + 0.3);
+      const Vector3 foot(x.x(), x.y(), ripple(x.x(), x.y()));
+      points.row(2 * i) = (rotation * x).transpose();
+      points.row(2 * i + 1) = (rotation * (2 * foot - x)).transpose();
+      truth.row(i) = (rotation * foot).transpose();
+    }
+    EXPECT_LE(farthest_foot(found(points), truth), 1e-9);
+  }
+}
+
+TEST(FixedDirection, SmoothsNoise) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Sheets sheets(seed, 1000, ripple, wide);
+    const double diagonal = 6;
+    for (auto row : sheets.points.rowwise())
+      row += 0.01 * diagonal * sheets.random.uniform(0, 1) * sheets.random.direction().transpose();
+    const Result result = found(sheets.points);
+    const Points feet = result.mirror->project(sheets.truth);
+    const double rms = (feet - sheets.truth).norm() / std::sqrt(feet.rows());
+    EXPECT_LE(rms / diagonal, 0.003) << "seed " << seed;
+  }
+}
+
+TEST(FixedDirection, DoesNotDependOnPoseUnitOrderOrThreads) {
+  Sheets sheets(3, 400, ripple, wide);
+  const Result result = found(sheets.points);
+  const Matrix3 rotation = sheets.random.rotation();
+  const Vector3 shift = 50 * sheets.random.in_box();
+  Points moved = 1000 * sheets.points.colwise().reverse() * rotation.transpose();
+  moved.rowwise() += shift.transpose();
+  Options options;
+  options.method = "fixed_direction";
+  const Result other = detect(moved, options, Context(nullptr, 1));
+  for (Index i = 0; i < sheets.truth.rows(); ++i) {
+    const Vector3 x = sheets.truth.row(i).transpose();
+    const Vector3 expected = 1000 * (rotation * result.mirror->foot(x)) + shift;
+    EXPECT_LE((other.mirror->foot(1000 * (rotation * x) + shift) - expected).norm(), 1e-5);
+  }
+}
+
+TEST(FixedDirection, TakesAGivenDirection) {
+  const Sheets sheets(5, 300, ripple, wide);
+  Options options;
+  options.method = "fixed_direction";
+  options.parameters["direction"] = Vector3(-2 * sheets.rotation.col(2));
+  EXPECT_LE(farthest_foot(detect(sheets.points, options), sheets.truth), 1e-9);
+}
+
+}  // namespace
+}  // namespace symsurf
