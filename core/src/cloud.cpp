@@ -41,7 +41,8 @@ void require_finite(PointsView rows, const char* what) {
                          to_string(Value(rows[i])) + "; coordinates must be finite");
 }
 
-Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points) {
+Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
+                    const Context& context) {
   if (points.size() < minimum_points)
     throw InvalidInput(std::to_string(points.size()) + " points given; at least " +
                        std::to_string(minimum_points) + " are needed");
@@ -59,7 +60,7 @@ Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points)
       if (normals[i].isZero(0))
         throw InvalidInput("normal " + std::to_string(i) + " is (0, 0, 0); a direction is needed");
   }
-  return {points, normals, (high - low).norm(), 0};
+  return {points, normals, (high - low).norm(), principal_frame(points, context), 0};
 }
 
 }  // namespace symsurf

@@ -33,7 +33,7 @@ Result detect(PointsView points, const Options& options, const Context& context)
   const auto start = std::chrono::steady_clock::now();
   const Method& chosen = method(options.method);
   const ParameterValues values(chosen.name, chosen.parameters, options.parameters);
-  Cloud cloud = checked_cloud(points, options.normals, chosen.minimum_points);
+  Cloud cloud = checked_cloud(points, options.normals, chosen.minimum_points, context.stage(0, 0));
   cloud.seed = options.seed;
 
   context.report(0);

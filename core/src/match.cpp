@@ -14,7 +14,7 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance,
     throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
                            "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
-  const Cloud cloud = checked_cloud(points, {}, 1);
+  const Cloud cloud = checked_cloud(points, {}, 1, context.stage(0, 0));
   Result result;
   result.method = "match";
   result.parameters = {{"pair_distance", pair_distance}};

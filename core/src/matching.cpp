@@ -1,7 +1,6 @@
 #include "matching.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "parallel.h"
 
@@ -12,11 +11,15 @@ void add_pairs(Result& result, PointsView points, const PointTree& tree, const M
   constexpr Index grain = 4096;
   std::vector<std::int32_t> partner(points.size(), -1);
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const Index i = tree.order()[p];
-      const Vector3 image = mirror.reflect(points[i]);
-      if (!image.allFinite()) continue;
-      partner[i] = static_cast<std::int32_t>(tree.nearest(image, limit * limit).index);
+    Index near = begin;
+    for (Index p = begin; p < end; p += PointTree::block) {
+      const Index last = end - 1;
+      PointTree::Queries images;
+      for (Index i = 0; i < PointTree::block; ++i)
+        images.col(i) = mirror.reflect(points[tree.order()[std::min(p + i, last)]]);
+      const auto found = tree.nearest(images, limit * limit, near);
+      for (Index i = 0; i < PointTree::block && p + i < end; ++i)
+        partner[tree.order()[p + i]] = static_cast<std::int32_t>(found[i].index);
     }
   });
 

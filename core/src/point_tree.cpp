@@ -24,6 +24,79 @@ std::uint64_t spread(std::uint64_t v) {
 
 }  // namespace
 
+namespace {
+
+// A run of points against a block of queries, one lane a query: x, y, z, then the best so far as
+// squared distance, index and position. All are doubles, so that a lane has one width throughout
+// and the inner loop becomes vector instructions.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+void scan(const double* coordinates, const std::int32_t* order, Index begin, Index end,
+          double* __restrict lanes) {
+  constexpr int n = PointTree::block;
+  const double *x = lanes, *y = lanes + n, *z = lanes + 2 * n;
+  double *squared = lanes + 3 * n, *index = lanes + 4 * n, *position = lanes + 5 * n;
+  for (Index p = begin; p < end; ++p) {
+    const double px = coordinates[3 * p], py = coordinates[3 * p + 1], pz = coordinates[3 * p + 2];
+    const double at = static_cast<double>(p), named = order[p];
+    for (int i = 0; i < n; ++i) {
+      const double dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
+      const double d = dx * dx + dy * dy + dz * dz;
+      const bool nearer = (d < squared[i]) | ((d == squared[i]) & (named < index[i]));
+      squared[i] = nearer ? d : squared[i];
+      index[i] = nearer ? named : index[i];
+      position[i] = nearer ? at : position[i];
+    }
+  }
+}
+
+}  // namespace
+
+std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& queries, double limit,
+                                                           Index& near) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::array<double, 6 * block> lanes;
+  double* squared = &lanes[3 * block];
+  std::array<float, 3> low, high;
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
+  for (int i = 0; i < block; ++i) {
+    const Vector3 q = queries.col(i) - origin_;
+    const bool asked = q.allFinite();
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes[axis * block + i] = asked ? q[axis] : 0;
+      if (!asked) continue;
+      low[axis] = std::min(low[axis], static_cast<float>(q[axis]));
+      high[axis] = std::max(high[axis], static_cast<float>(q[axis]));
+    }
+    squared[i] = asked ? std::min(limit, std::numeric_limits<double>::max()) : -1;
+    lanes[4 * block + i] = none;
+    lanes[5 * block + i] = -1;
+  }
+  const auto farthest = [&] { return *std::max_element(squared, squared + block); };
+  const auto scan_leaf = [&](Index leaf) {
+    scan(coordinates_.data(), order_.data(), leaf * fan, std::min((leaf + 1) * fan, size()),
+         lanes.data());
+  };
+  scan_leaf(near / fan);
+  double bound = farthest();
+  if (bound >= 0)
+    descend(low, high, bound, [&](Index leaf) {
+      scan_leaf(leaf);
+      bound = farthest();
+    });
+
+  std::array<Neighbour, block> found;
+  for (int i = 0; i < block; ++i) {
+    const double at = lanes[5 * block + i];
+    if (at < 0) continue;
+    near = static_cast<Index>(at);
+    found[i] = {static_cast<Index>(lanes[4 * block + i]), squared[i]};
+  }
+  return found;
+}
+
 PointTree::PointTree(PointsView points, const Context& context) {
   const auto matrix = points.matrix();
   const Vector3 low = matrix.colwise().minCoeff(), high = matrix.colwise().maxCoeff();

@@ -46,6 +46,13 @@ class PointTree {
   /// The k nearest points, nearest first.
   void nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const;
 
+  /// Queries that lie close together, answered in one descent: a mirror's images of points that
+  /// follow each other along the curve. Column by column what nearest() gives; a column of NaN has
+  /// no neighbour. `near`, a point's place in order(), is a guess where the answers lie.
+  static constexpr int block = 8;
+  using Queries = Eigen::Matrix<double, 3, block>;
+  std::array<Neighbour, block> nearest(const Queries& queries, double limit, Index& near) const;
+
   /// visit(index, squared distance) for all points no farther than radius.
   template <typename Visit>
   void within(const Vector3& query, double radius, const Visit& visit) const {
@@ -66,10 +73,15 @@ class PointTree {
   void sort(PointsView points);
   void stack_boxes();
 
-  // Calls leaf(position, squared distance) for every point that may be within `limit`, which leaf
-  // may lower as it goes.
+  // Calls leaf(l) for every run l of `fan` points that may come nearer than sqrt(limit) to the box
+  // low..high, near ones first; leaf may lower the limit as it goes.
   template <typename Leaf>
-  void search(const Vector3& query, double& limit, const Leaf& leaf) const;
+  void descend(const std::array<float, 3>& low, const std::array<float, 3>& high, double& limit,
+               const Leaf& leaf) const;
+
+  // Calls visit(position, squared distance) for every point that may be within `limit`.
+  template <typename Visit>
+  void search(const Vector3& query, double& limit, const Visit& visit) const;
 
   Vector3 origin_ = Vector3::Zero();
   float reach_ = 0;  // the largest coordinate, from origin_
@@ -79,16 +91,16 @@ class PointTree {
 };
 
 template <typename Leaf>
-void PointTree::search(const Vector3& query, double& limit, const Leaf& leaf) const {
+void PointTree::descend(const std::array<float, 3>& low, const std::array<float, 3>& high,
+                        double& limit, const Leaf& leaf) const {
   struct Node {
     std::int32_t level, index;
     float squared;
   };
-  const Vector3 q = query - origin_;
-  const std::array<float, 3> qf{static_cast<float>(q.x()), static_cast<float>(q.y()),
-                                static_cast<float>(q.z())};
-  // Box distances are in float and from rounded coordinates: never prune by less than this.
-  const float slack = 4e-7f * (std::abs(qf[0]) + std::abs(qf[1]) + std::abs(qf[2]) + reach_);
+  // Distances between boxes are in float, from rounded coordinates: never prune by less than this.
+  float slack = reach_;
+  for (int axis = 0; axis < 3; ++axis) slack += std::max(std::abs(low[axis]), std::abs(high[axis]));
+  slack *= 4e-7f;
 
   limit = std::min(limit, std::numeric_limits<double>::max());  // padding boxes are at infinity
   std::array<Node, 8 * 16> stack;
@@ -97,29 +109,19 @@ void PointTree::search(const Vector3& query, double& limit, const Leaf& leaf) co
   while (top > 0) {
     const Node node = stack[--top];
     if (node.squared > limit) continue;
+    if (node.level < 0) {
+      leaf(node.index);
+      continue;
+    }
     const Boxes& boxes = levels_[node.level][node.index];
-    std::array<float, fan> squared;
-    for (int i = 0; i < fan; ++i) squared[i] = 0;
+    std::array<float, fan> squared{};
     for (int axis = 0; axis < 3; ++axis)
       for (int i = 0; i < fan; ++i) {
         const float outside =
-            std::max(boxes.low[axis][i] - qf[axis], qf[axis] - boxes.high[axis][i]);
+            std::max(boxes.low[axis][i] - high[axis], low[axis] - boxes.high[axis][i]);
         const float gap = std::max(outside - slack, 0.0f);
         squared[i] += gap * gap;
       }
-    if (node.level == 0) {
-      for (int i = 0; i < fan; ++i) {
-        if (squared[i] > limit) continue;
-        const Index begin = (static_cast<Index>(node.index) * fan + i) * fan;
-        const Index end = std::min(begin + fan, size());
-        for (Index p = begin; p < end; ++p) {
-          const double* x = &coordinates_[3 * p];
-          const double dx = q.x() - x[0], dy = q.y() - x[1], dz = q.z() - x[2];
-          leaf(p, dx * dx + dy * dy + dz * dz);
-        }
-      }
-      continue;
-    }
     const int first = top;
     for (int i = 0; i < fan; ++i) {
       if (squared[i] > limit) continue;
@@ -129,6 +131,21 @@ void PointTree::search(const Vector3& query, double& limit, const Leaf& leaf) co
       stack[at] = child;
     }
   }
+}
+
+template <typename Visit>
+void PointTree::search(const Vector3& query, double& limit, const Visit& visit) const {
+  const Vector3 q = query - origin_;
+  const std::array<float, 3> at{static_cast<float>(q.x()), static_cast<float>(q.y()),
+                                static_cast<float>(q.z())};
+  descend(at, at, limit, [&](Index leaf) {
+    const Index end = std::min((leaf + 1) * fan, size());
+    for (Index p = leaf * fan; p < end; ++p) {
+      const double* x = &coordinates_[3 * p];
+      const double dx = q.x() - x[0], dy = q.y() - x[1], dz = q.z() - x[2];
+      visit(p, dx * dx + dy * dy + dz * dz);
+    }
+  });
 }
 
 }  // namespace symsurf

@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 #include <symsurf/parameter.h>
 #include <symsurf/points_view.h>
+#include <symsurf/principal_frame.h>
 #include <symsurf/result.h>
 
 #include <string>
@@ -17,6 +18,7 @@ struct Cloud {
   PointsView points;
   PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
   double diagonal = 0;  ///< of the axis-aligned bounding box
+  PrincipalFrame frame;
   std::uint64_t seed = 0;
 };
 

@@ -1,21 +1,103 @@
 #include <symsurf/plane.h>
 
+#include <algorithm>
+
 #include "../matching.h"
+#include "../plane/candidates.h"
+#include "../plane/maximise.h"
+#include "../plane/refinement.h"
+#include "../plane/symmetry_measure.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
 
+constexpr Index started = 24;         // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;    // of these, have their measure maximised
+constexpr std::size_t finalists = 6;  // of these, are fitted to the full cloud
+constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
+constexpr double alike = 0.05;        // planes closer than this are one
+constexpr Index measured = 500;       // surfels that the measure is taken over
+
+Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
+  const Vector3 normal = frame.axes * plane.normal;
+  return Plane(normal, frame.size * plane.offset - normal.dot(frame.centroid));
+}
+
+// Hruda et al.: from each of the best candidates to the measure's maximum next to it, where that
+// explains more.
+void climb(const Surfels& surfels, const SurfelMap& map, std::vector<PlaneCandidate>& candidates) {
+  const Index stride = std::max<Index>(1, surfels.size() / measured);
+  Points positions((surfels.size() + stride - 1) / stride, 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) = surfels[i * stride].position.transpose();
+  const SymmetryMeasure measure(positions);
+  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
+    Eigen::Vector4d p;
+    p << candidates[i].plane.normal, candidates[i].plane.offset;
+    p = maximise<4>(measure, p, 0.02, 8);
+    const double length = p.head<3>().norm();
+    const UnitPlane plane{p.head<3>() / length, p[3] / length};
+    const double explained = explained_share(surfels, map, plane, 0.02, 3);
+    if (explained > candidates[i].explained) candidates[i] = {plane, explained};
+  }
+}
+
+void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
+  const double least = hopeless * candidates.front().explained;
+  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
+}
+
+// On the thinned cloud alone.
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels) {
+  const SurfelMap map(surfels);
+  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
+  if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
+  for (PlaneCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
+  keep_distinct(candidates, alike, started);
+  climb(surfels, map, candidates);
+  drop_hopeless(candidates);
+  for (PlaneCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(candidates, alike, started);
+  return candidates;
+}
+
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  Result result;
-  result.method = "plane";
-  const Vector3 centre = cloud.points.matrix().colwise().mean();
-  result.mirror = std::make_shared<Plane>(Vector3::UnitX(), -centre.x());
-  const PointTree tree(cloud.points, context.stage(0.5, 0.6));
-  add_pairs(result, cloud.points, tree, *result.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.6, 1));
-  return result;
+  const Index sample_size = values.integer("sample_size");
+  const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
+  const Surfels fine(cloud, 4 * sample_size, context.stage(0.1, 0.2));
+  std::vector<PlaneCandidate> candidates = promising_planes(coarse);
+  context.report(0.25);
+
+  const PointTree tree(cloud.points, context.stage(0.25, 0.4));
+  const Refinement refinement(cloud, tree, {&coarse, &fine});
+  for (PlaneCandidate& candidate : candidates) candidate = refinement.quick(candidate);
+  keep_distinct(candidates, alike, finalists);
+  drop_hopeless(candidates);
+  for (PlaneCandidate& candidate : candidates) candidate = refinement.thorough(candidate);
+  keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
+  context.report(0.5);
+
+  const double whole = refinement.self_explained();
+  std::vector<Result> found;
+  for (const PlaneCandidate& candidate : candidates) {
+    Result& result = found.emplace_back();
+    result.method = "plane";
+    result.mirror = std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame));
+    result.score = whole > 0 ? std::min(1.0, candidate.explained / whole) : 0;
+    result.statistics = {{"explained_share", candidate.explained}};
+  }
+  Result best = std::move(found.front());
+  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
+                         std::make_move_iterator(found.end()));
+  add_pairs(best, cloud.points, tree, *best.mirror, values.real("pair_distance") * cloud.diagonal,
+            context.stage(0.5, 1));
+  best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
+  best.statistics["mean_residual"] = best.residuals.size() ? best.residuals.mean() : 0.0;
+  return best;
 }
 
 }  // namespace
@@ -29,8 +111,8 @@ Method plane_method() {
       "the full cloud.";
   method.parameters = {
       Parameter::integer("sample_size", 1000, 100, 100000, "points",
-                         "Points that the search for the plane works on."),
-      Parameter::integer("max_candidates", 10, 0, 1000, "",
+                         "Patches of the cloud that the search for the plane works on."),
+      Parameter::integer("max_candidates", 5, 0, 5, "",
                          "Other planes to report at the most, best first."),
       Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
                       "A point whose image has no point of the cloud nearer than this has no "

@@ -1,0 +1,169 @@
+#include "candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "agreement.h"
+#include "plane_step.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index seeds = 200;  // surfels that pairs are made of
+constexpr double shortest_chord = 0.08;
+constexpr double facing_cosine = 0.88;                           // 28 degrees
+constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
+constexpr double search_tolerance = 0.03;
+constexpr double least_explained = 0.1;
+constexpr std::size_t first_count = 5000, second_count = 200;
+constexpr double least_moved = 0.35;
+
+// Two mirrors act alike where they send points to like places. Probes at the corners of a
+// tetrahedron as wide as the cloud.
+double difference(const UnitPlane& a, const UnitPlane& b) {
+  static const std::array<Vector3, 4> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
+                                             Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
+  double squared = 0;
+  for (const Vector3& x : probes) squared += (a.reflect(x) - b.reflect(x)).squaredNorm();
+  return std::sqrt(squared / probes.size());
+}
+
+// The mean of similar planes, each weighted by what it explains: Hruda et al. add the vectors
+// (a, b, c, d) of two planes, or subtract them where their normals point apart.
+struct Average {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  double weight = 0;
+
+  void add(const UnitPlane& plane, double explained) {
+    const double sign = plane.normal.dot(sum.head<3>()) < 0 ? -1 : 1;
+    sum.head<3>() += sign * explained * plane.normal;
+    sum[3] += sign * explained * plane.offset;
+    weight += explained;
+  }
+  UnitPlane plane() const {
+    const double length = sum.head<3>().norm();
+    return {sum.head<3>() / length, sum[3] / length};
+  }
+};
+
+// Planes with normals within about 10 degrees and offsets within a 25th of the size share a bin.
+std::int32_t bin(const UnitPlane& plane) {
+  constexpr double normal_bins = 6, offset_bins = 25;
+  int axis;
+  plane.normal.cwiseAbs().maxCoeff(&axis);
+  const double major = plane.normal[axis];
+  const auto cell = [](double value, double scale) {
+    return static_cast<std::int32_t>(std::lround(value * scale));
+  };
+  const std::int32_t u = cell(plane.normal[(axis + 1) % 3] / major, normal_bins) + 8;
+  const std::int32_t v = cell(plane.normal[(axis + 2) % 3] / major, normal_bins) + 8;
+  const std::int32_t w = cell(plane.offset / major * std::abs(major), offset_bins) + 64;
+  return ((axis * 16 + u) * 16 + v) * 128 + w;
+}
+
+void sort_best_first(std::vector<PlaneCandidate>& candidates) {
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.explained > b.explained; });
+}
+
+}  // namespace
+
+double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
+                       double tolerance, Index stride) {
+  double moved = 0, explained = 0;
+  Index looked = 0;
+  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
+    const Surfel& s = surfels[i];
+    const double weight = displaced(plane.distance(s.position), tolerance);
+    if (weight <= 0) continue;
+    moved += weight;
+    const Vector3 image = plane.reflect(s.position);
+    const Index j = map.nearest(image);
+    if (j < 0) continue;
+    const Agreement agreement(image - surfels[j].position, plane.reflect_direction(s.normal),
+                              s.flatness, surfels[j]);
+    explained += weight * agreement.weight(tolerance);
+  }
+  return explained / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
+                                             Index count) {
+  const Index step = std::max<Index>(1, surfels.size() / seeds);
+  const Index glancing = std::max<Index>(1, surfels.size() / glance);
+  const Index coarse = std::max<Index>(1, surfels.size() / first_look);
+  std::vector<UnitPlane> planes;
+  for (Index i = 0; i < surfels.size(); i += step)
+    for (Index j = i + step; j < surfels.size(); j += step) {
+      const Surfel &a = surfels[i], &b = surfels[j];
+      const Vector3 chord = b.position - a.position;
+      const double length = chord.norm();
+      if (length < shortest_chord) continue;
+      UnitPlane plane{chord / length, 0};
+      const double cosine = plane.reflect_direction(a.normal).dot(b.normal);
+      if (std::abs(cosine) < facing_cosine && a.flatness * b.flatness > 0.25) continue;
+      plane.offset = -plane.normal.dot(a.position + b.position) / 2;
+      planes.push_back(plane);
+    }
+
+  std::map<std::int32_t, Average> bins;
+  const std::size_t every = planes.size() / first_count + 1;
+  for (std::size_t k = 0; k < planes.size(); k += every) {
+    const UnitPlane& plane = planes[k];
+    if (explained_share(surfels, map, plane, search_tolerance, glancing) < least_explained)
+      continue;
+    const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);
+    if (explained > least_explained) bins[bin(plane)].add(plane, explained);
+  }
+
+  std::vector<PlaneCandidate> found;
+  found.reserve(bins.size());
+  for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
+  sort_best_first(found);
+  found.resize(std::min<std::size_t>(found.size(), second_count));
+  const Index fine = std::max<Index>(1, surfels.size() / second_look);
+  for (PlaneCandidate& candidate : found)
+    candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);
+  keep_distinct(found, 0.08, count);
+  return found;
+}
+
+PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
+                       double widest, double narrowest, int steps, Index stride) {
+  for (int step = 0; step < steps; ++step) {
+    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
+    PlaneStep sum(candidate.plane);
+    for (Index i = 0; i < surfels.size(); i += stride) {
+      const Surfel& s = surfels[i];
+      const double weight = displaced(candidate.plane.distance(s.position), tolerance);
+      if (weight <= 0) continue;
+      const Vector3 image = candidate.plane.reflect(s.position);
+      const Index j = map.nearest(image);
+      if (j < 0) continue;
+      const Vector3 gap = image - surfels[j].position;
+      const Agreement agreement(gap, candidate.plane.reflect_direction(s.normal), s.flatness,
+                                surfels[j]);
+      sum.add(s.position, gap, agreement.metric, weight * agreement.weight(tolerance));
+    }
+    candidate.plane = sum.taken();
+  }
+  candidate.explained = explained_share(surfels, map, candidate.plane, narrowest, stride);
+  return candidate;
+}
+
+void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
+  sort_best_first(candidates);
+  std::vector<PlaneCandidate> kept;
+  for (const PlaneCandidate& candidate : candidates) {
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const PlaneCandidate& other) {
+      return difference(other.plane, candidate.plane) < distance;
+    });
+    if (is_new && static_cast<Index>(kept.size()) < count) kept.push_back(candidate);
+  }
+  candidates = std::move(kept);
+}
+
+}  // namespace symsurf

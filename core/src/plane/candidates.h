@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "surfel_map.h"
+#include "surfels.h"
+#include "unit_plane.h"
+
+namespace symsurf {
+
+/// A plane and the share of the surfels that it explains, in [0, 1].
+struct PlaneCandidate {
+  UnitPlane plane;
+  double explained = 0;
+};
+
+/// Share of the surfels whose images agree with the cloud, out of those the plane moves (at least
+/// 35 % of all, so that a plane the cloud lies along explains nothing). `stride` k looks at every
+/// k-th surfel.
+double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
+                       double tolerance, Index stride = 1);
+
+/// Planes between pairs of surfels whose normals mirror each other, similar ones averaged, the
+/// best `count` first.
+std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
+                                             Index count);
+
+/// Moves a plane onto the surfels' images, looking less far with each step.
+PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
+                       double widest, double narrowest, int steps, Index stride);
+
+/// Drops planes that mirror the cloud nearly as a better one does; best first.
+void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count);
+
+}  // namespace symsurf

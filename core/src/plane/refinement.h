@@ -1,0 +1,59 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+#include <vector>
+
+#include "../point_tree.h"
+#include "agreement.h"
+#include "candidates.h"
+#include "surfels.h"
+
+namespace symsurf {
+
+/// Fits planes to the full cloud: samples of it are mirrored and meet the nearest of all points.
+class Refinement {
+ public:
+  /// `scales`: surfels that give the normals; at each place the flattest do.
+  Refinement(const Cloud& cloud, const PointTree& tree, std::vector<const Surfels*> scales);
+
+  /// The plane that leaves the least robust residual on every fifth sample, in a few steps.
+  PlaneCandidate quick(const PlaneCandidate& start) const;
+
+  /// The same on all samples. Where partners are exact, it converges to rounding.
+  PlaneCandidate thorough(const PlaneCandidate& start) const;
+
+  /// What a perfect mirror would explain: the share of the samples that their own nearest
+  /// neighbours explain. Below 1 where the cloud is sparse, noisy or strongly curved.
+  double self_explained() const;
+
+ private:
+  enum class Sharpness { Blunt, Sharp };
+  struct Match {
+    Index sample;
+    Vector3 gap;  // from the partner to the image
+    const Surfel* partner;
+  };
+  struct Sample {
+    Vector3 position;
+    const Surfel* surfel;
+  };
+
+  Index stride_for(Index wanted) const;
+  double closeness(const Match& match, const Surfel& own, const UnitPlane* plane) const;
+  const Surfel* surfel_at(const Vector3& x) const;
+
+  std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
+  double explained(const UnitPlane& plane, const std::vector<Match>& found, Index stride,
+                   Sharpness sharpness) const;
+  UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps) const;
+  UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
+
+  const Cloud& cloud_;
+  const PointTree& tree_;
+  std::vector<const Surfels*> scales_;
+  double spacing_;  // of the points on a sheet
+  std::vector<Sample> samples_;
+};
+
+}  // namespace symsurf

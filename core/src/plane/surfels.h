@@ -1,0 +1,53 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace symsurf {
+
+/// A patch of the cloud: the points of one grid cell, as their mean and the plane through them and
+/// the cells around. All in the principal frame.
+struct Surfel {
+  Vector3 position;
+  Vector3 normal;   ///< unit, sign arbitrary
+  double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
+  double weight;    ///< number of points
+};
+
+/// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
+/// out, density hardly counts and 10^6 points cost one pass.
+class Surfels {
+ public:
+  Surfels(const Cloud& cloud, Index count, const Context& context);
+
+  Index size() const { return static_cast<Index>(surfels_.size()); }
+  const Surfel& operator[](Index i) const { return surfels_[i]; }
+
+  /// Edge of a cell, about the distance between surfels.
+  double spacing() const { return cell_; }
+
+  /// The surfel of the cell that holds x, -1 where the cell is empty or x lies outside the grid.
+  Index containing(const Vector3& x) const;
+
+ private:
+  using Cell = Eigen::Vector3i;
+
+  void choose_cell(const Cloud& cloud, Index count, const Context& context);
+  void sum_moments(const Cloud& cloud, const Context& context);
+  Cell cell_of(const Vector3& x) const {
+    return ((x - low_) / cell_).cast<int>().cwiseMax(0).cwiseMin(size_ - Cell::Ones());
+  }
+  Index linear(const Cell& c) const {
+    return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
+  }
+
+  Vector3 low_;
+  double cell_ = 1;
+  Cell size_;
+  std::vector<Surfel> surfels_;
+  std::vector<std::int32_t> slot_;  // of each cell in surfels_, -1: empty
+};
+
+}  // namespace symsurf
