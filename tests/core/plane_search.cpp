@@ -41,7 +41,7 @@ struct Pose {
   explicit Pose(RandomCloud& random)
       : scale(std::exp(random.uniform(-5, 5))),
         rotation(random.rotation()),
-        shift(100 * scale * random.in_box()) {}
+        shift(3 * scale * random.in_box()) {}
 
   Points operator()(const Points& points) const {
     return (scale * points * rotation.transpose()).rowwise() + shift.transpose();

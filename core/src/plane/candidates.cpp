@@ -63,6 +63,13 @@ std::int32_t bin(const UnitPlane& plane) {
   return ((axis * 16 + u) * 16 + v) * 128 + w;
 }
 
+// Thins pairs evenly and each by itself, so that one pair more or less changes no other's lot.
+std::uint32_t ticket(Index i, Index j) {
+  const std::uint32_t mixed =
+      static_cast<std::uint32_t>(i) * 2654435761u ^ static_cast<std::uint32_t>(j) * 2246822519u;
+  return mixed ^ mixed >> 15;
+}
+
 void sort_best_first(std::vector<PlaneCandidate>& candidates) {
   std::stable_sort(
       candidates.begin(), candidates.end(),
@@ -95,7 +102,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   const Index step = std::max<Index>(1, surfels.size() / seeds);
   const Index glancing = std::max<Index>(1, surfels.size() / glance);
   const Index coarse = std::max<Index>(1, surfels.size() / first_look);
-  std::vector<UnitPlane> planes;
+  std::vector<std::pair<std::uint32_t, UnitPlane>> planes;
   for (Index i = 0; i < surfels.size(); i += step)
     for (Index j = i + step; j < surfels.size(); j += step) {
       const Surfel &a = surfels[i], &b = surfels[j];
@@ -106,13 +113,13 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
       const double cosine = plane.reflect_direction(a.normal).dot(b.normal);
       if (std::abs(cosine) < facing_cosine && a.flatness * b.flatness > 0.25) continue;
       plane.offset = -plane.normal.dot(a.position + b.position) / 2;
-      planes.push_back(plane);
+      planes.emplace_back(ticket(i, j), plane);
     }
 
   std::map<std::int32_t, Average> bins;
-  const std::size_t every = planes.size() / first_count + 1;
-  for (std::size_t k = 0; k < planes.size(); k += every) {
-    const UnitPlane& plane = planes[k];
+  const std::uint32_t every = static_cast<std::uint32_t>(planes.size() / first_count) + 1;
+  for (const auto& [ticket, plane] : planes) {
+    if (ticket % every != 0) continue;
     if (explained_share(surfels, map, plane, search_tolerance, glancing) < least_explained)
       continue;
     const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);

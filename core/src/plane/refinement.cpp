@@ -10,7 +10,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index all_samples = 8192, most_samples = 1200, few_samples = 300;
+constexpr Index small_cloud = 8192;  // whose every point is a sample
+constexpr Index most_samples = 1200, few_samples = 300;
 constexpr double by_chance = 0.1;  // few points look flatter than they are
 constexpr double reach = 0.06;     // how far a partner may be
 constexpr double score_tolerance = 0.01;
@@ -32,12 +33,19 @@ Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
   const Surfels& surfels = *scales_.front();
   spacing_ =
       surfels.spacing() * std::sqrt(static_cast<double>(surfels.size()) / static_cast<double>(n));
-  const Index count = std::min(n, all_samples);
-  samples_.reserve(count);
-  for (Index k = 0; k < count; ++k) {
-    const Vector3 x = cloud.frame.enter(cloud.points[tree.order()[k * n / count]]);
+
+  // Evenly spread ones first; of a small cloud the rest as well.
+  std::vector<std::uint8_t> taken(n <= small_cloud ? n : 0, 0);
+  const auto take = [&](Index i) {
+    const Vector3 x = cloud.frame.enter(cloud.points[i]);
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel});
-  }
+    if (!taken.empty()) taken[i] = 1;
+  };
+  const Surfels& finest = *scales_.back();
+  for (Index k = 0; k < finest.size(); ++k) take(finest[k].sample);
+  even_samples_ = static_cast<Index>(samples_.size());
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (!taken[i]) take(static_cast<Index>(i));
 }
 
 const Surfel* Refinement::surfel_at(const Vector3& x) const {
@@ -52,11 +60,11 @@ const Surfel* Refinement::surfel_at(const Vector3& x) const {
 }
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
-                                                   Index stride) const {
+                                                   Subset subset) const {
   const double size = cloud_.frame.size;
   std::vector<Match> found;
-  found.reserve(samples_.size() / stride + 1);
-  for (Index i = 0; i < static_cast<Index>(samples_.size()); i += stride) {
+  found.reserve(subset.end / subset.stride + 1);
+  for (Index i = 0; i < subset.end; i += subset.stride) {
     const Vector3 image = plane.reflect(samples_[i].position);
     const Neighbour nearest = tree_.nearest(cloud_.frame.leave(image), limit * limit * size * size);
     if (nearest.index < 0) continue;
@@ -82,11 +90,11 @@ double Refinement::closeness(const Match& match, const Surfel& own, const UnitPl
   return agreement.facing / (1 + residual * residual / (close * close));
 }
 
-double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found, Index stride,
+double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
                              Sharpness sharpness) const {
   double moved = 0, explained = 0;
   Index looked = 0;
-  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
+  for (Index i = 0; i < subset.end; i += subset.stride, ++looked)
     moved += displaced(plane.distance(samples_[i].position), score_tolerance);
   for (const Match& match : found) {
     const Sample& s = samples_[match.sample];
@@ -103,11 +111,11 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
 }
 
 double Refinement::self_explained() const {
-  const Index stride = stride_for(most_samples);
+  const Subset most = about(most_samples);
   double sum = 0;
   Index looked = 0;
   std::vector<Neighbour> nearest;
-  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked) {
+  for (Index i = 0; i < most.end; i += most.stride, ++looked) {
     const Sample& s = samples_[i];
     tree_.nearest(cloud_.frame.leave(s.position), 2, nearest);
     const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
@@ -117,29 +125,31 @@ double Refinement::self_explained() const {
   return sum / static_cast<double>(looked);
 }
 
-Index Refinement::stride_for(Index wanted) const {
-  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
+Refinement::Subset Refinement::about(Index wanted) const {
+  return {even_samples_, std::max<Index>(1, even_samples_ / wanted)};
 }
 
+Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_.size()), 1}; }
+
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
-  const Index stride = stride_for(few_samples);
-  const UnitPlane plane = fitted(start.plane, 0.02, stride, 2);
-  return {plane, explained(plane, matches(plane, reach, stride), stride, Sharpness::Blunt)};
+  const Subset few = about(few_samples);
+  const UnitPlane plane = fitted(start.plane, 0.02, few, 2);
+  return {plane, explained(plane, matches(plane, reach, few), few, Sharpness::Blunt)};
 }
 
 PlaneCandidate Refinement::thorough(const PlaneCandidate& start) const {
-  const Index stride = stride_for(most_samples);
-  UnitPlane plane = fitted(start.plane, 0.01, stride, 2);
-  plane = fitted(plane, 0.01, 1, 1);
+  const Subset most = about(most_samples);
+  UnitPlane plane = fitted(start.plane, 0.01, most, 2);
+  plane = fitted(plane, 0.01, all(), 1);
   plane = fitted_to_exact_pairs(plane);
-  return {plane, explained(plane, matches(plane, reach, stride), stride, Sharpness::Sharp)};
+  return {plane, explained(plane, matches(plane, reach, most), most, Sharpness::Sharp)};
 }
 
-UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps) const {
+UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const {
   for (int step = 0; step < steps; ++step) {
     PlaneStep sum(plane);
     std::vector<double> residuals;
-    for (const Match& match : matches(plane, reach, stride)) {
+    for (const Match& match : matches(plane, reach, subset)) {
       const Sample& s = samples_[match.sample];
       const double weight = displaced(plane.distance(s.position), tolerance);
       if (weight <= 0) continue;
@@ -162,11 +172,11 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
 UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
   constexpr int steps = 12;
   constexpr double worth_trying = 0.1, exact = 0.01;  // of the spacing
-  const Index stride = stride_for(most_samples);
+  const Subset most = about(most_samples);
   UnitPlane plane = start;
   double typical = 0;
   for (int step = 0; step < steps; ++step) {
-    std::vector<Match> found = matches(plane, spacing_, stride);
+    std::vector<Match> found = matches(plane, spacing_, most);
     std::erase_if(found, [&](const Match& match) {
       return displaced(plane.distance(samples_[match.sample].position), spacing_) < 1;
     });

@@ -28,6 +28,10 @@ class Refinement {
   double self_explained() const;
 
  private:
+  // Every `stride`-th of the samples before `end`.
+  struct Subset {
+    Index end, stride;
+  };
   enum class Sharpness { Blunt, Sharp };
   struct Match {
     Index sample;
@@ -39,14 +43,15 @@ class Refinement {
     const Surfel* surfel;
   };
 
-  Index stride_for(Index wanted) const;
+  Subset about(Index wanted) const;
+  Subset all() const;
   double closeness(const Match& match, const Surfel& own, const UnitPlane* plane) const;
   const Surfel* surfel_at(const Vector3& x) const;
 
-  std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
-  double explained(const UnitPlane& plane, const std::vector<Match>& found, Index stride,
+  std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
+  double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
                    Sharpness sharpness) const;
-  UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps) const;
+  UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const;
   UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 
   const Cloud& cloud_;
@@ -54,6 +59,7 @@ class Refinement {
   std::vector<const Surfels*> scales_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;
+  Index even_samples_ = 0;  // the first ones, spread evenly over the cloud
 };
 
 }  // namespace symsurf

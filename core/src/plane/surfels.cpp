@@ -6,13 +6,16 @@
 #include <limits>
 
 #include "../parallel.h"
+#include "../point_tree.h"
 
 namespace symsurf {
 
 namespace {
 
 constexpr Index grain = 1 << 16;
-constexpr int finest_cells = 128;  // along the longest side
+constexpr double lattice_shift = 0.38197;
+constexpr double line_thinness = 1e-8;  // of the squared width against the squared length
+constexpr int finest_cells = 128;       // along the longest side
 
 struct Moments {
   double count = 0;
@@ -44,10 +47,6 @@ struct Moments {
   }
 };
 
-Eigen::Vector3i cells_for(const PrincipalFrame& frame, double cell) {
-  return ((frame.high - frame.low) / cell).array().floor().cast<int>() + 1;
-}
-
 }  // namespace
 
 Surfels::Surfels(const Cloud& cloud, Index count, const Context& context) : low_(cloud.frame.low) {
@@ -63,7 +62,9 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
   constexpr int guesses = 4;
   for (int guess = 0; guess < guesses; ++guess) {
     cell_ = longest / cells;
-    size_ = cells_for(cloud.frame, cell_);
+    // Off any lattice that the points may lie on: rounding must not decide between two cells.
+    low_ = cloud.frame.low.array() - lattice_shift * cell_;
+    size_ = ((cloud.frame.high - low_) / cell_).array().floor().cast<int>() + 1;
     std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
     for (Index i = 0; i < cloud.points.size(); ++i)
       seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
@@ -79,6 +80,7 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   slot_.assign(size_.cast<Index>().prod(), -1);
   std::vector<Moments> cells;
   std::vector<Cell> places;
+  std::vector<Neighbour> samples;
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
     const Cell c = cell_of(x);
@@ -87,8 +89,12 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
       s = static_cast<std::int32_t>(cells.size());
       cells.emplace_back();
       places.push_back(c);
+      samples.emplace_back();
     }
     cells[s].add(x - low_);
+    Neighbour& sample = samples[s];
+    const Vector3 middle = low_ + cell_ * (c.cast<double>().array() + 0.5).matrix();
+    sample = std::min(sample, Neighbour{i, (x - middle).squaredNorm()});
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
@@ -109,9 +115,10 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
     Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
     eigen.computeDirect(around.covariance());
     const Vector3 spread = eigen.eigenvalues().cwiseMax(0);
-    const double flatness = spread[1] > 0 ? 1 - std::sqrt(spread[0] / spread[1]) : 0;
+    const bool has_area = spread[1] > line_thinness * spread[2];
+    const double flatness = has_area ? 1 - std::sqrt(spread[0] / spread[1]) : 0;
     surfels_.push_back(
-        {low_ + cells[s].mean(), eigen.eigenvectors().col(0), flatness, cells[s].count});
+        {low_ + cells[s].mean(), eigen.eigenvectors().col(0), flatness, samples[s].index});
   }
   std::int32_t next = 0;
   for (std::int32_t& s : slot_)

@@ -13,7 +13,7 @@ struct Surfel {
   Vector3 position;
   Vector3 normal;   ///< unit, sign arbitrary
   double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
-  double weight;    ///< number of points
+  Index sample;     ///< the cloud's point nearest to the middle of the cell
 };
 
 /// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
