@@ -144,7 +144,7 @@ TEST(PlaneSearch, DoesNotDependOnPose) {
     const Result second = detected(posed);
     const Plane expected = pose(dynamic_cast<const Plane&>(*first.mirror));
     EXPECT_LT(difference(*second.mirror, expected, posed), 1e-9);
-    EXPECT_NEAR(second.score, first.score, 1e-9);
+    EXPECT_NEAR(second.score, first.score, 1e-6);  // it holds square roots of tiny spreads
   }
 }
 

@@ -113,7 +113,7 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
           if (other >= 0) around += cells[other];
         }
     Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-    eigen.computeDirect(around.covariance());
+    eigen.compute(around.covariance());
     const Vector3 spread = eigen.eigenvalues().cwiseMax(0);
     const bool has_area = spread[1] > line_thinness * spread[2];
     const double flatness = has_area ? 1 - std::sqrt(spread[0] / spread[1]) : 0;
