@@ -35,6 +35,12 @@ void Context::report(double fraction) const {
   if (!progress_(from_ + fraction * (to_ - from_))) throw Cancelled();
 }
 
+Context Context::pairing(Rows rows) const {
+  Context part = *this;
+  part.rows_ = rows;
+  return part;
+}
+
 Context Context::stage(double from, double to) const {
   Context part = *this;
   part.from_ = from_ + from * (to_ - from_);

@@ -27,6 +27,17 @@ std::shared_ptr<const Points> outline(PointsView points) {
   return sample;
 }
 
+// For methods that cannot do with fewer pairs than all.
+void keep_pairs_of(Result& result, const Rows& rows) {
+  std::vector<Index> kept;
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    if (rows.contains(result.pairs(row, 0))) kept.push_back(row);
+  if (static_cast<Index>(kept.size()) == result.pairs.rows()) return;
+  result.pairs = Pairs(result.pairs(kept, Eigen::all));
+  result.residuals = Eigen::VectorXd(result.residuals(kept));
+  result.surface_points = Points(result.surface_points(kept, Eigen::all));
+}
+
 }  // namespace
 
 Result detect(PointsView points, const Options& options, const Context& context) {
@@ -38,6 +49,7 @@ Result detect(PointsView points, const Options& options, const Context& context)
 
   context.report(0);
   Result result = chosen.run(cloud, values, context);
+  keep_pairs_of(result, context.paired_rows());
   const std::shared_ptr<const Points> footprint = outline(points);
   if (result.mirror) result.mirror->set_footprint(footprint);
   for (Result& candidate : result.candidates)

@@ -1,25 +1,40 @@
 #include "matching.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "parallel.h"
 
 namespace symsurf {
 
+namespace {
+
+// Along the tree's curve.
+std::vector<std::int32_t> rows_to_pair(const PointTree& tree, const Rows& rows) {
+  std::vector<std::int32_t> order;
+  std::copy_if(tree.order().begin(), tree.order().end(), std::back_inserter(order),
+               [&](std::int32_t row) { return rows.contains(row); });
+  return order;
+}
+
+}  // namespace
+
 void add_pairs(Result& result, PointsView points, const PointTree& tree, const Mirror& mirror,
                double limit, const Context& context) {
   constexpr Index grain = 4096;
   std::vector<std::int32_t> partner(points.size(), -1);
-  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+  const std::vector<std::int32_t> order = rows_to_pair(tree, context.paired_rows());
+  parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     Index near = begin;
     for (Index p = begin; p < end; p += PointTree::block) {
       const Index last = end - 1;
       PointTree::Queries images;
       for (Index i = 0; i < PointTree::block; ++i)
-        images.col(i) = mirror.reflect(points[tree.order()[std::min(p + i, last)]]);
+        images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
       const auto found = tree.nearest(images, limit * limit, near);
       for (Index i = 0; i < PointTree::block && p + i < end; ++i)
-        partner[tree.order()[p + i]] = static_cast<std::int32_t>(found[i].index);
+        partner[order[p + i]] = static_cast<std::int32_t>(found[i].index);
     }
   });
 

@@ -8,9 +8,9 @@
 
 namespace symsurf {
 
-/// Fills the result's pairs, residuals and surface points: for each point the nearest of the
-/// tree's points (the same cloud) to its image, where that is no farther than `limit` (input
-/// units). In the order of the points; equally near partners: the lowest index.
+/// Fills the result's pairs, residuals and surface points: for each of the context's paired rows
+/// the nearest of the tree's points (the same cloud) to its image, where that is no farther than
+/// `limit` (input units). In the order of the points; equally near partners: the lowest index.
 void add_pairs(Result& result, PointsView points, const PointTree& tree, const Mirror& mirror,
                double limit, const Context& context);
 

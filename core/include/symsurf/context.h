@@ -1,12 +1,23 @@
 #pragma once
 
+#include <symsurf/types.h>
+
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 
 namespace symsurf {
 
-/// What a long call needs from its caller: where to report, when to stop, how many threads.
+/// Rows of the input from begin up to end, not included; all of them unless said otherwise.
+struct Rows {
+  Index begin = 0, end = std::numeric_limits<Index>::max();
+
+  bool contains(Index row) const { return row >= begin && row < end; }
+};
+
+/// What a long call needs from its caller: where to report, when to stop, how many threads, whose
+/// pairs.
 class Context {
  public:
   /// Gets the fraction done in [0, 1], on the calling thread only; returning false cancels.
@@ -21,6 +32,11 @@ class Context {
   /// Throws Cancelled when the caller wants to stop. Cheap enough for inner loops.
   void report(double fraction) const;
 
+  /// The same context for a caller that wants the pairs of these rows only. Processes that share
+  /// out a point set find the same mirror each and the pairs of their own points.
+  Context pairing(Rows rows) const;
+  const Rows& paired_rows() const { return rows_; }
+
   /// The same context for a part of the work: its 0..1 is from..to here.
   Context stage(double from, double to) const;
 
@@ -30,6 +46,7 @@ class Context {
   Progress progress_;
   int threads_ = 1;
   double from_ = 0, to_ = 1;
+  Rows rows_;
   std::shared_ptr<Clock::time_point> last_ = std::make_shared<Clock::time_point>();
 };
 
