@@ -35,6 +35,13 @@ vtk_module_build(MODULES ${symsurf_modules}
   PACKAGE symsurf-filters INSTALL_EXPORT symsurf-filters INSTALL_HEADERS ON
   HEADERS_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/symsurf-filters
   CMAKE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
+  "include(CMakeFindDependencyMacro)\n"
+  "find_dependency(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel)\n"
+  "include(\${CMAKE_CURRENT_LIST_DIR}/symsurf-filters-targets.cmake)\n")
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
+
 if(SYMSURF_VTK_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
   vtk_module_wrap_python(MODULES ${symsurf_modules} PYTHON_PACKAGE symsurf_filters

@@ -4,8 +4,12 @@
 #include <symsurf/value.h>
 
 class vtkMirrorDetectionParameters;
+class vtkMirrorSampleSourceParameters;
+class vtkPointDamageParameters;
 
 /// The parameters of what the filter is set to do, by the core's names.
 symsurf::Values chosen_parameters(vtkMirrorDetectionParameters* filter);
+symsurf::Values chosen_parameters(vtkMirrorSampleSourceParameters* filter);
+symsurf::Values chosen_parameters(vtkPointDamageParameters* filter);
 
 #endif

@@ -9,10 +9,12 @@
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
+#include "shared_points.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -32,8 +34,16 @@ vtkNew<Array> filled(const char* name, vtkIdType size, Value value) {
   return array;
 }
 
-void set_mirror(vtkPolyData* output, const symsurf::Result& result) {
+// Of several processes one shows the mirror.
+bool is_first(vtkMultiProcessController* controller) {
+  return !controller || controller->GetLocalProcessId() == 0;
+}
+
+void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
   if (result.mirror) set_triangles(output, result.mirror->mesh());
+}
+
+void set_mirror_fields(vtkPolyData* output, const symsurf::Result& result) {
   vtkFieldData* field = output->GetFieldData();
   add_field_values(field, result.statistics);
   add_field_values(field, {{"method", result.method}, {"score", result.score}});
@@ -49,19 +59,21 @@ void set_surface_points(vtkPolyData* output, const symsurf::Result& result) {
   output->GetPointData()->SetScalars(residuals);
 }
 
-void set_mapping(vtkPolyData* output, const symsurf::PointsView& points,
+void set_mapping(vtkPolyData* output, symsurf::PointsView points, const symsurf::Rows& own,
                  const symsurf::Result& result) {
-  const auto partners = filled<vtkIdTypeArray>("MirrorPartner", points.size(), -1);
-  const auto residuals = filled<vtkDoubleArray>("MirrorResidual", points.size(),
-                                                std::numeric_limits<double>::quiet_NaN());
-  const auto sides = filled<vtkSignedCharArray>("MirrorSide", points.size(), 0);
+  const vtkIdType count = own.end - own.begin;
+  const auto partners = filled<vtkIdTypeArray>("MirrorPartner", count, -1);
+  const auto residuals =
+      filled<vtkDoubleArray>("MirrorResidual", count, std::numeric_limits<double>::quiet_NaN());
+  const auto sides = filled<vtkSignedCharArray>("MirrorSide", count, 0);
   for (symsurf::Index row = 0; row < result.pairs.rows(); ++row) {
-    partners->SetValue(result.pairs(row, 0), result.pairs(row, 1));
-    residuals->SetValue(result.pairs(row, 0), result.residuals[row]);
+    const vtkIdType i = result.pairs(row, 0) - own.begin;
+    partners->SetValue(i, result.pairs(row, 1));
+    residuals->SetValue(i, result.residuals[row]);
   }
   if (result.mirror)
-    for (symsurf::Index i = 0; i < points.size(); ++i) {
-      const double distance = result.mirror->signed_distance(points[i]);
+    for (vtkIdType i = 0; i < count; ++i) {
+      const double distance = result.mirror->signed_distance(points[own.begin + i]);
       sides->SetValue(i, static_cast<signed char>((distance > 0) - (distance < 0)));
     }
   vtkPointData* data = output->GetPointData();
@@ -72,28 +84,40 @@ void set_mapping(vtkPolyData* output, const symsurf::PointsView& points,
 
 }  // namespace
 
-vtkMirrorDetection::vtkMirrorDetection() { this->SetNumberOfOutputPorts(3); }
+vtkCxxSetObjectMacro(vtkMirrorDetection, Controller, vtkMultiProcessController);
+
+vtkMirrorDetection::vtkMirrorDetection() {
+  this->SetNumberOfOutputPorts(3);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkMirrorDetection::~vtkMirrorDetection() { this->SetController(nullptr); }
 
 int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                     vtkInformationVector* outputs) {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   return core_call(this, [&] {
-    const PointArray points = points_of(input);
-    const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
+    const SharedPoints points(this->Controller, points_of(input));
+    const SharedPoints normals(
+        this->Controller,
+        PointArray(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr));
+    const symsurf::Rows own = points.own_rows();
 
     symsurf::Options options;
     options.method = this->Method;
     options.parameters = chosen_parameters(this);
-    options.normals = normals.view();
+    options.normals = normals.all();
     options.seed = this->Seed;
-    const symsurf::Result result =
-        symsurf::detect(points.view(), options, context_of(this, this->NumberOfThreads));
+    const symsurf::Result result = symsurf::detect(
+        points.all(), options, context_of(this, this->NumberOfThreads).pairing(own));
 
-    set_mirror(vtkPolyData::GetData(outputs, MIRROR), result);
+    vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);
+    if (is_first(this->Controller)) set_mirror_mesh(mirror, result);
+    set_mirror_fields(mirror, result);
     set_surface_points(vtkPolyData::GetData(outputs, SURFACE_POINTS), result);
     vtkPolyData* mapping = vtkPolyData::GetData(outputs, MAPPING);
     mapping->ShallowCopy(input);
-    set_mapping(mapping, points.view(), result);
+    set_mapping(mapping, points.all(), own, result);
   });
 }
 
@@ -102,4 +126,5 @@ void vtkMirrorDetection::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "UseNormals: " << (this->UseNormals ? "On" : "Off") << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
 }

@@ -14,6 +14,11 @@
  *   MirrorResidual (NaN for none) and MirrorSide (the sign of the point's distance from the
  * mirror).
  *
+ * Where several processes share out the input, each has its own part of outputs 1 and 2, the first
+ * has the triangles of output 0, and all have its field data. The mirror is that of the whole, and
+ * partners are sought in the whole: MirrorPartner counts through the points of all processes, in
+ * the order of their ranks. A process may have no points.
+ *
  * Points are read where they lie when they are contiguous doubles, from one copy otherwise. A
  * cloud without symmetry is no error but a mirror with a low score. Too few points, NaN, points on
  * one line, an unknown method or a value out of range are errors and leave the outputs empty.
@@ -23,6 +28,8 @@
 
 #include "vtkMirrorDetectionParameters.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
+
+class vtkMultiProcessController;
 
 class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionParameters {
  public:
@@ -58,15 +65,25 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * The processes that share out the input; null, or one process: all of it is here. Initially the
+   * global controller.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
  protected:
   vtkMirrorDetection();
-  ~vtkMirrorDetection() override = default;
+  ~vtkMirrorDetection() override;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool UseNormals = false;
   unsigned int Seed = 0;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
 
  private:
   vtkMirrorDetection(const vtkMirrorDetection&) = delete;

@@ -7,8 +7,8 @@
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
+#include "point_subset.h"
 #include "vtkCellData.h"
-#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -31,38 +31,11 @@ std::shared_ptr<symsurf::Mirror> mirror_of(vtkPolyData* data) {
   return symsurf::make_mirror(symsurf::to_string(kind->second), numbers);
 }
 
-// The rows without NaN, and the cells that use no other rows.
-vtkNew<vtkPolyData> with_images_only(vtkPolyData* input, const symsurf::Points& images) {
-  std::vector<vtkIdType> renumbered(images.rows(), -1);
-  vtkNew<vtkIdList> kept;
-  for (symsurf::Index i = 0; i < images.rows(); ++i)
-    if (images.row(i).allFinite()) renumbered[i] = kept->InsertNextId(i);
-
-  vtkNew<vtkPolyData> output;
-  symsurf::Points points(kept->GetNumberOfIds(), 3);
-  for (symsurf::Index row = 0; row < points.rows(); ++row)
-    points.row(row) = images.row(kept->GetId(row));
-  set_points(output, points);
-  output->GetFieldData()->ShallowCopy(input->GetFieldData());
-  output->GetPointData()->CopyAllocate(input->GetPointData(), points.rows());
-  output->GetPointData()->CopyData(input->GetPointData(), kept);
-
-  const vtkIdType cells = input->GetNumberOfCells();
-  output->AllocateEstimate(cells, 4);
-  output->GetCellData()->CopyAllocate(input->GetCellData(), cells);
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType cell = 0; cell < cells; ++cell) {
-    input->GetCellPoints(cell, corners);
-    bool whole = true;
-    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) {
-      corners->SetId(i, renumbered[corners->GetId(i)]);
-      whole = whole && corners->GetId(i) >= 0;
-    }
-    if (!whole) continue;
-    const vtkIdType copy = output->InsertNextCell(input->GetCellType(cell), corners);
-    output->GetCellData()->CopyData(input->GetCellData(), cell, copy);
-  }
-  return output;
+std::vector<symsurf::Index> rows_without_nan(const symsurf::Points& points) {
+  std::vector<symsurf::Index> rows;
+  for (symsurf::Index i = 0; i < points.rows(); ++i)
+    if (points.row(i).allFinite()) rows.push_back(i);
+  return rows;
 }
 
 }  // namespace
@@ -75,13 +48,9 @@ int vtkMirrorReflection::RequestData(vtkInformation*, vtkInformationVector** inp
   vtkPolyData* mirror = vtkPolyData::GetData(inputs[1]);
   return core_call(this, [&] {
     const symsurf::Points images = mirror_of(mirror)->reflect(points_of(input).view());
+    const std::vector<symsurf::Index> kept = rows_without_nan(images);
     vtkNew<vtkPolyData> reflected;
-    if (images.allFinite()) {
-      reflected->ShallowCopy(input);
-      set_points(reflected, images);
-    } else {
-      reflected->ShallowCopy(with_images_only(input, images));
-    }
+    set_subset(reflected, input, images(kept, Eigen::all), kept);
     reflected->GetPointData()->SetNormals(nullptr);
     reflected->GetCellData()->SetNormals(nullptr);
 

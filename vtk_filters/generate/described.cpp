@@ -1,11 +1,13 @@
 #include "described.h"
 
+#include <symsurf/damage.h>
 #include <symsurf/method.h>
+#include <symsurf/synthetic.h>
 
 #include <cctype>
 #include <stdexcept>
 
-namespace symsurf::generate {
+namespace symsurf::front_ends {
 
 namespace {
 
@@ -19,18 +21,28 @@ std::string camel_case(const std::string& name) {
   return text;
 }
 
-Described mirror_detection() {
-  Described d{"vtkMirrorDetection", "Method", "How the mirror is sought.", {}};
-  for (const Method& method : methods())
-    d.choices.push_back({method.name, method.summary, method.parameters});
-  return d;
+// Methods, generators and kinds of damage are described alike.
+template <typename Descriptions>
+std::vector<Choice> choices_from(const Descriptions& descriptions) {
+  std::vector<Choice> choices;
+  for (const auto& d : descriptions) choices.push_back({d.name, d.summary, d.parameters});
+  return choices;
+}
+
+std::vector<Described> all_described() {
+  return {
+      {"vtkMirrorDetection", "Method", "How the mirror is sought.", choices_from(methods())},
+      {"vtkMirrorSampleSource", "Generator", "How the points are made.",
+       choices_from(generators())},
+      {"vtkPointDamage", "Damage", "What is done to the points.", choices_from(damages())},
+  };
 }
 
 }  // namespace
 
 Described described(const std::string& vtk_class) {
   std::string names;
-  for (const Described& candidate : {mirror_detection()}) {
+  for (const Described& candidate : all_described()) {
     if (candidate.vtk_class == vtk_class) return candidate;
     names += " " + candidate.vtk_class;
   }
@@ -41,15 +53,22 @@ std::string property_name(const Choice& choice, const Parameter& parameter) {
   return camel_case(choice.name) + camel_case(parameter.name);
 }
 
+std::string components(const Parameter& parameter, const char* separator) {
+  const auto& vector = std::get<Vector3>(parameter.default_value);
+  std::string text = to_string(Value(vector[0]));
+  for (int i = 1; i < 3; ++i) text += separator + to_string(Value(vector[i]));
+  return text;
+}
+
 std::string documentation(const Parameter& parameter) {
   std::string text = parameter.doc + " Allowed: " + parameter.range();
   if (parameter.unit == "diagonal")
     text += " times the diagonal of the bounding box";
   else if (!parameter.unit.empty())
     text += " " + parameter.unit;
-  if (parameter.type == ParameterType::Direction || parameter.type == ParameterType::Position)
+  if (parameter.type == ParameterType::Direction && components(parameter) == "0 0 0")
     text += "; (0, 0, 0) means not given";
   return text + ".";
 }
 
-}  // namespace symsurf::generate
+}  // namespace symsurf::front_ends

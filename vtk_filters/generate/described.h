@@ -8,7 +8,7 @@
 // What the front ends of this folder are made from: the core's descriptions, with the names that
 // VTK and ParaView give them.
 
-namespace symsurf::generate {
+namespace symsurf::front_ends {
 
 /// One thing a filter can be asked for (a method, a generator, a kind of damage).
 struct Choice {
@@ -31,6 +31,9 @@ Described described(const std::string& vtk_class);
 /// "plane", "pair_distance" -> "PlanePairDistance": the property of one choice's parameter.
 std::string property_name(const Choice& choice, const Parameter& parameter);
 
+/// The three numbers of a vector's default value.
+std::string components(const Parameter& parameter, const char* separator = " ");
+
 /// The parameter's sentence, its unit and its range.
 std::string documentation(const Parameter& parameter);
 
@@ -41,4 +44,4 @@ std::string parameters_source(const Described& described);
 /// The server-manager XML of the selector and the properties.
 std::string server_manager_properties(const Described& described);
 
-}  // namespace symsurf::generate
+}  // namespace symsurf::front_ends

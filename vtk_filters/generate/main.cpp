@@ -9,7 +9,7 @@
 // header (.h), a VTK source (.cxx), or a server-manager XML (.xml) from the template that a third
 // argument names, in which the line with @PARAMETERS@ gives way to the properties.
 
-using namespace symsurf::generate;
+using namespace symsurf::front_ends;
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "described.h"
 
-namespace symsurf::generate {
+namespace symsurf::front_ends {
 
 namespace {
 
@@ -71,7 +71,8 @@ Kind kind_of(const Parameter& parameter) {
       return {"StringVectorProperty", 1, value, string_list(parameter.choices)};
     case ParameterType::Direction:
     case ParameterType::Position:
-      return {"DoubleVectorProperty", 3, "0 0 0", "        <DoubleRangeDomain name=\"range\"/>\n"};
+      return {"DoubleVectorProperty", 3, components(parameter),
+              "        <DoubleRangeDomain name=\"range\"/>\n"};
   }
   return {};
 }
@@ -108,4 +109,4 @@ std::string server_manager_properties(const Described& d) {
   return text;
 }
 
-}  // namespace symsurf::generate
+}  // namespace symsurf::front_ends

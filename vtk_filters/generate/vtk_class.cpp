@@ -4,7 +4,7 @@
 
 // A class of macros, as VTK programmers write them: one member, one Set and one Get a parameter.
 
-namespace symsurf::generate {
+namespace symsurf::front_ends {
 
 namespace {
 
@@ -51,7 +51,7 @@ std::string member(const Parameter& parameter, const std::string& name) {
       return "  std::string " + name + " = " + quoted(value) + ";\n";
     case ParameterType::Direction:
     case ParameterType::Position:
-      return "  double " + name + "[3] = { 0, 0, 0 };\n";
+      return "  double " + name + "[3] = {" + components(parameter, ", ") + "};\n";
   }
   return {};
 }
@@ -145,4 +145,4 @@ std::string parameters_source(const Described& d) {
   return out.str();
 }
 
-}  // namespace symsurf::generate
+}  // namespace symsurf::front_ends
