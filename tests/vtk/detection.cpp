@@ -1,0 +1,144 @@
+// What vtkMirrorDetection gives is the core's result, on ports and arrays as documented.
+
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "error_listener.h"
+#include "expect_points.h"
+#include "mirrored_shape.h"
+#include "point_arrays.h"
+#include "vtkCellArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkMirrorDetection.h"
+#include "vtkPointData.h"
+#include "vtkStringArray.h"
+
+namespace {
+
+const symsurf::Plane truth({1, 2, -0.5}, 1.3);
+
+double number(vtkDataObject* data, const char* name) {
+  return data->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+std::string text(vtkDataObject* data, const char* name) {
+  vtkFieldData* fields = data->GetFieldData();
+  return vtkStringArray::SafeDownCast(fields->GetAbstractArray(name))->GetValue(0);
+}
+
+TEST(MirrorDetection, TheKnownPlaneIsFound) {
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetInputData(polydata_of(mirrored_shape(truth, 2000)));
+  filter->SetMethod("plane");
+  filter->Update();
+  vtkPolyData* mirror = filter->GetOutput(vtkMirrorDetection::MIRROR);
+  EXPECT_GT(mirror->GetNumberOfPolys(), 0);
+  for (vtkIdType i = 0; i < mirror->GetNumberOfPoints(); ++i)
+    EXPECT_LT(std::abs(truth.signed_distance(symsurf::Vector3(mirror->GetPoint(i)))), 1e-9);
+  EXPECT_GT(number(mirror, "Score"), 0.9);
+  EXPECT_EQ(text(mirror, "Kind"), "plane");
+  EXPECT_EQ(text(mirror, "Method"), "plane");
+}
+
+class EveryMethod : public testing::TestWithParam<symsurf::Method> {
+ protected:
+  EveryMethod() {
+    symsurf::Options options;
+    options.method = GetParam().name;
+    expected = symsurf::detect(points, options);
+    filter->SetInputData(input);
+    filter->SetMethod(GetParam().name.c_str());
+    filter->Update();
+  }
+
+  const symsurf::Points points = mirrored_shape(truth, 400);
+  const vtkNew<vtkPolyData> input = polydata_of(points);
+  symsurf::Result expected;
+  vtkNew<vtkMirrorDetection> filter;
+};
+
+TEST_P(EveryMethod, GivesTheCoresMirror) {
+  vtkPolyData* mirror = filter->GetOutput(vtkMirrorDetection::MIRROR);
+  EXPECT_EQ(number(mirror, "Score"), expected.score);
+  EXPECT_EQ(text(mirror, "Method"), expected.method);
+  if (!expected.mirror) return;
+  EXPECT_EQ(text(mirror, "Kind"), expected.mirror->kind());
+  const symsurf::Mesh mesh = expected.mirror->mesh();
+  expect_points(mirror, mesh.vertices);
+  EXPECT_EQ(mirror->GetNumberOfPolys(), mesh.triangles.rows());
+}
+
+TEST_P(EveryMethod, GivesTheCoresSurfacePoints) {
+  vtkPolyData* surface = filter->GetOutput(vtkMirrorDetection::SURFACE_POINTS);
+  expect_points(surface, expected.surface_points);
+  EXPECT_EQ(surface->GetNumberOfVerts(), expected.surface_points.rows());
+  vtkDataArray* residuals = surface->GetPointData()->GetArray("Residual");
+  for (symsurf::Index i = 0; i < expected.residuals.size(); ++i)
+    EXPECT_EQ(residuals->GetComponent(i, 0), expected.residuals[i]);
+}
+
+TEST_P(EveryMethod, MapsTheInputOntoItself) {
+  vtkPolyData* mapping = filter->GetOutput(vtkMirrorDetection::MAPPING);
+  EXPECT_EQ(mapping->GetPoints(), input->GetPoints());
+  EXPECT_EQ(input->GetPointData()->GetNumberOfArrays(), 0);
+  vtkDataArray* partners = mapping->GetPointData()->GetArray("MirrorPartner");
+  vtkDataArray* distances = mapping->GetPointData()->GetArray("MirrorResidual");
+  vtkDataArray* sides = mapping->GetPointData()->GetArray("MirrorSide");
+  std::vector<bool> paired(points.rows(), false);
+  for (symsurf::Index row = 0; row < expected.pairs.rows(); ++row)
+    paired[expected.pairs(row, 0)] = true;
+  for (symsurf::Index i = 0; i < points.rows(); ++i) {
+    EXPECT_EQ(partners->GetComponent(i, 0) >= 0, paired[i]);
+    EXPECT_EQ(std::isnan(distances->GetComponent(i, 0)), !paired[i]);
+    if (!expected.mirror) continue;
+    const symsurf::Vector3 x = points.row(i);
+    EXPECT_GE(sides->GetComponent(i, 0) * expected.mirror->signed_distance(x), 0);
+    if (!paired[i]) continue;
+    const symsurf::Vector3 partner(input->GetPoint(partners->GetComponent(i, 0)));
+    EXPECT_EQ(distances->GetComponent(i, 0), (expected.mirror->reflect(x) - partner).norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(symsurf::methods()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(MirrorDetection, DoublesAreReadInPlaceAndFloatsCopiedOnce) {
+  const vtkNew<vtkPolyData> data = polydata_of(mirrored_shape(truth, 10));
+  auto* doubles = vtkDoubleArray::SafeDownCast(data->GetPoints()->GetData());
+  EXPECT_EQ(points_of(data).view().data(), doubles->GetPointer(0));
+
+  vtkNew<vtkFloatArray> floats;
+  floats->DeepCopy(doubles);
+  const PointArray copy(floats);
+  EXPECT_EQ(copy.view().size(), 20);
+  for (vtkIdType i = 0; i < 60; ++i)
+    EXPECT_EQ(copy.view().data()[i], static_cast<double>(floats->GetValue(i)));
+  EXPECT_TRUE(PointArray(nullptr).view().empty());
+}
+
+TEST(MirrorDetection, NormalsAreUsedWhenAskedFor) {
+  const vtkNew<vtkPolyData> data = polydata_of(mirrored_shape(truth, 100));
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(200);
+  normals->Fill(0);  // the core takes no normal for a direction that is none
+  data->GetPointData()->SetNormals(normals);
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetInputData(data);
+  filter->SetMethod("plane");
+  filter->Update();
+  EXPECT_GT(filter->GetOutput(0)->GetNumberOfPoints(), 0);
+  filter->UseNormalsOn();
+  const ErrorListener listener(filter);
+  filter->Update();
+  EXPECT_NE(listener.message().find("normal 0"), std::string::npos);
+  EXPECT_EQ(filter->GetOutput(0)->GetNumberOfPoints(), 0);
+}
+
+}  // namespace

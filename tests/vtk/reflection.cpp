@@ -1,0 +1,75 @@
+// A shape reflected over a mirror that was found, through the field data of the mirror alone.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "mirrored_shape.h"
+#include "vtkFloatArray.h"
+#include "vtkMirrorDetection.h"
+#include "vtkMirrorReflection.h"
+#include "vtkPointData.h"
+#include "vtkSphereSource.h"
+
+namespace {
+
+double distance(vtkPolyData* a, vtkIdType i, vtkPolyData* b, vtkIdType j) {
+  return (symsurf::Vector3(a->GetPoint(i)) - symsurf::Vector3(b->GetPoint(j))).norm();
+}
+
+// Positive where the triangles face outwards.
+double enclosed_volume(vtkPolyData* data) {
+  double volume = 0;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
+    data->GetCellPoints(cell, corners);
+    const auto corner = [&](int i) { return symsurf::Vector3(data->GetPoint(corners->GetId(i))); };
+    volume += corner(0).dot(corner(1).cross(corner(2))) / 6;
+  }
+  return volume;
+}
+
+TEST(MirrorReflection, PutsEveryPointOnItsPartnerButForTheResidual) {
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetInputData(polydata_of(mirrored_shape({{1, 2, -0.5}, 1.3}, 300)));
+  detection->SetMethod("plane");
+  vtkNew<vtkMirrorReflection> reflection;
+  reflection->SetInputConnection(detection->GetOutputPort(vtkMirrorDetection::MAPPING));
+  reflection->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
+  reflection->Update();
+
+  vtkPolyData* mapping = detection->GetOutput(vtkMirrorDetection::MAPPING);
+  vtkPolyData* reflected = reflection->GetOutput();
+  ASSERT_EQ(reflected->GetNumberOfPoints(), mapping->GetNumberOfPoints());
+  vtkDataArray* partners = reflected->GetPointData()->GetArray("MirrorPartner");
+  vtkDataArray* residuals = reflected->GetPointData()->GetArray("MirrorResidual");
+  for (vtkIdType i = 0; i < reflected->GetNumberOfPoints(); ++i) {
+    const auto partner = static_cast<vtkIdType>(partners->GetComponent(i, 0));
+    if (partner < 0) continue;
+    EXPECT_NEAR(distance(reflected, i, mapping, partner), residuals->GetComponent(i, 0), 1e-12);
+  }
+}
+
+TEST(MirrorReflection, KeepsTheOutsideOutAndDropsNormals) {
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetInputConnection(sphere->GetOutputPort());
+  detection->SetMethod("plane");
+  vtkNew<vtkMirrorReflection> once, twice;
+  once->SetInputConnection(sphere->GetOutputPort());
+  once->SetMirrorConnection(detection->GetOutputPort());
+  twice->SetInputConnection(once->GetOutputPort());
+  twice->SetMirrorConnection(detection->GetOutputPort());
+  twice->Update();
+
+  vtkPolyData* original = sphere->GetOutput();
+  EXPECT_GT(enclosed_volume(original), 0);
+  EXPECT_NEAR(enclosed_volume(once->GetOutput()), enclosed_volume(original), 1e-6);
+  EXPECT_TRUE(original->GetPointData()->GetNormals());
+  EXPECT_FALSE(once->GetOutput()->GetPointData()->GetNormals());
+  ASSERT_EQ(twice->GetOutput()->GetNumberOfPoints(), original->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < original->GetNumberOfPoints(); ++i)
+    EXPECT_LT(distance(twice->GetOutput(), i, original, i), 1e-12);
+}
+
+}  // namespace
