@@ -1,0 +1,214 @@
+"""The detection as a VTK filter, for the ``vtk`` package that pip installs.
+
+>>> from symsurf.vtk import MirrorDetection
+>>> detection = MirrorDetection()
+>>> detection.SetInputConnection(reader.GetOutputPort())
+>>> detection.SetMethod("plane")
+>>> detection.Update()
+>>> mirror = detection.GetOutput(MirrorDetection.MIRROR)
+
+Programs built on VTK or ParaView have the same filter in C++: ``vtkMirrorDetection``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkFieldData, vtkPolyData
+
+from ._core import Cancelled, InvalidInput, InvalidParameter, methods
+from .descriptions import allowed
+from .detection import detect
+from .result import Result
+
+__all__ = ["MirrorDetection"]
+
+
+class MirrorDetection(VTKPythonAlgorithmBase):
+    """Finds the mirror of a ``vtkPolyData``'s points; ``vtkMirrorDetection`` in Python.
+
+    Output 0 "Mirror": triangles over the footprint; field data Method, Kind, Score, the mirror's
+    numbers and the method's statistics. Output 1 "Surface Points": a vertex in the middle of each
+    pair; point data Residual. Output 2 "Mapping": the input; point data MirrorPartner (index, -1
+    for none), MirrorResidual (NaN for none) and MirrorSide.
+
+    Every parameter of every method has its setter and getter: ``SetPlanePairDistance`` for
+    ``pair_distance`` of ``plane``. Points are read in place when they are doubles. Bad input and
+    values out of range are errors of the filter; they leave the outputs empty.
+    """
+
+    MIRROR, SURFACE_POINTS, MAPPING = range(3)
+
+    def __init__(self) -> None:
+        super().__init__(
+            nInputPorts=1, inputType="vtkPolyData", nOutputPorts=3, outputType="vtkPolyData"
+        )
+        self._options: dict[str, Any] = {
+            "Method": next(iter(methods())),
+            "UseNormals": False,
+            "Seed": 0,
+            "NumberOfThreads": 0,
+        } | {
+            _property(method.name, parameter.name): parameter.default
+            for method in methods().values()
+            for parameter in method.parameters
+        }
+
+    def SetInputData(self, data: vtkPolyData) -> None:
+        """The shape, where no filter or reader makes it."""
+        self.SetInputDataObject(0, data)
+
+    def GetOutput(self, port: int = 0) -> vtkPolyData:
+        """The output at a port."""
+        return self.GetOutputDataObject(port)
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Runs the detection; VTK calls this."""
+        source = vtkPolyData.GetData(inputs[0])
+        try:
+            result = self._detected(source)
+        except Cancelled:
+            return 1
+        except (InvalidInput, InvalidParameter) as error:
+            self._report(str(error))
+            return 0
+        _set_mirror(vtkPolyData.GetData(outputs, self.MIRROR), result)
+        _set_surface_points(vtkPolyData.GetData(outputs, self.SURFACE_POINTS), result)
+        mapping = vtkPolyData.GetData(outputs, self.MAPPING)
+        mapping.ShallowCopy(source)
+        _set_mapping(mapping, result)
+        return 1
+
+    def _detected(self, source: vtkPolyData) -> Result:
+        method = methods().get(self._options["Method"])
+        normals = source.GetPointData().GetNormals() if self._options["UseNormals"] else None
+        return detect(
+            _rows(source.GetPoints() and source.GetPoints().GetData()),
+            self._options["Method"],
+            normals=normals and _rows(normals),
+            seed=self._options["Seed"],
+            threads=self._options["NumberOfThreads"],
+            progress=self._progress,
+            **{
+                parameter.name: self._options[_property(method.name, parameter.name)]
+                for parameter in (method.parameters if method else ())
+            },
+        )
+
+    def _progress(self, fraction: float) -> bool:
+        self.UpdateProgress(fraction)
+        return not self.GetAbortExecute()
+
+    def _report(self, message: str) -> None:
+        text = f"ERROR: {type(self).__name__}: {message}\n"
+        if self.HasObserver("ErrorEvent"):
+            self.InvokeEvent("ErrorEvent", text)
+        else:
+            vtkOutputWindow.GetInstance().DisplayErrorText(text)
+
+
+def _property(method: str, parameter: str) -> str:
+    return _camel_case(method) + _camel_case(parameter)
+
+
+def _camel_case(name: str) -> str:
+    return "".join(word[0].upper() + word[1:] for word in name.split("_"))
+
+
+def _accessors(name: str, doc: str) -> tuple[Callable[..., None], Callable[..., Any]]:
+    def set_value(self: MirrorDetection, *value: Any) -> None:
+        new = value[0] if len(value) == 1 else value
+        if not np.array_equal(self._options[name], new):
+            self._options[name] = new
+            self.Modified()
+
+    def get_value(self: MirrorDetection) -> Any:
+        return self._options[name]
+
+    set_value.__name__, get_value.__name__ = f"Set{name}", f"Get{name}"
+    set_value.__doc__ = get_value.__doc__ = doc
+    return set_value, get_value
+
+
+def _add_properties() -> None:
+    properties = {
+        "Method": "One of: " + ", ".join(methods()),
+        "UseNormals": "Whether the input's point normals are used, as lines.",
+        "Seed": "Seed of the methods that draw at random.",
+        "NumberOfThreads": "0 means as many as the machine has.",
+    }
+    for method in methods().values():
+        for parameter in method.parameters:
+            properties[_property(method.name, parameter.name)] = f"{parameter.doc} Allowed: {allowed(parameter)}."
+    for name, doc in properties.items():
+        for accessor in _accessors(name, doc):
+            setattr(MirrorDetection, accessor.__name__, accessor)
+
+
+def _rows(array: vtkDataArray | None) -> NDArray[np.float64]:
+    return np.empty((0, 3)) if array is None else vtk_to_numpy(array)
+
+
+def _points(rows: NDArray[np.float64]) -> vtkPoints:
+    points = vtkPoints()
+    points.SetData(numpyTovtkDataArray(rows))
+    return points
+
+
+def _cells(rows: NDArray[np.int64]) -> vtkCellArray:
+    cells = vtkCellArray()
+    cells.SetData(rows.shape[1], numpyTovtkDataArray(np.ascontiguousarray(rows).ravel()))
+    return cells
+
+
+def _set_mirror(output: vtkPolyData, result: Result) -> None:
+    values = result.statistics | {"method": result.method, "score": result.score}
+    if result.mirror is not None:
+        vertices, triangles = result.mirror.mesh()
+        output.SetPoints(_points(vertices))
+        output.SetPolys(_cells(triangles))
+        values |= {"kind": result.mirror.kind} | result.mirror.numbers
+    for name, value in values.items():
+        _add_field(output.GetFieldData(), _camel_case(name), value)
+
+
+def _add_field(field: vtkFieldData, name: str, value: Any) -> None:
+    if isinstance(value, str):
+        array = vtkStringArray()
+        array.InsertNextValue(value)
+    else:
+        rows = np.atleast_2d(np.asarray(value, np.int64 if isinstance(value, bool) else None))
+        array = numpyTovtkDataArray(np.ascontiguousarray(rows))
+    array.SetName(name)
+    field.AddArray(array)
+
+
+def _set_surface_points(output: vtkPolyData, result: Result) -> None:
+    output.SetPoints(_points(result.surface_points))
+    output.SetVerts(_cells(np.arange(len(result.surface_points), dtype=np.int64)[:, None]))
+    output.GetPointData().SetScalars(numpyTovtkDataArray(result.residuals, "Residual"))
+
+
+def _set_mapping(output: vtkPolyData, result: Result) -> None:
+    count = output.GetNumberOfPoints()
+    partners, residuals = np.full(count, -1, np.int64), np.full(count, np.nan)
+    partners[result.pairs[:, 0]] = result.pairs[:, 1]
+    residuals[result.pairs[:, 0]] = result.residuals
+    sides = np.zeros(count, np.int8)
+    if result.mirror is not None:
+        distances = result.mirror.signed_distance(_rows(output.GetPoints().GetData()))
+        sides = np.nan_to_num(np.sign(distances)).astype(np.int8)
+    data = output.GetPointData()
+    data.AddArray(numpyTovtkDataArray(partners, "MirrorPartner"))
+    data.AddArray(numpyTovtkDataArray(sides, "MirrorSide"))
+    data.SetScalars(numpyTovtkDataArray(residuals, "MirrorResidual"))
+
+
+_add_properties()

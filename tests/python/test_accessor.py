@@ -1,0 +1,42 @@
+"""mesh.symmetry on PyVista's data sets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symsurf
+
+pyvista = pytest.importorskip("pyvista", "0.48", reason="needs PyVista 0.48 or later")
+import symsurf.accessor  # noqa: E402, F401  (an installed symsurf needs no import)
+
+
+def test_detect_is_symsurf_detect_on_the_points() -> None:
+    mesh = pyvista.ParametricSuperEllipsoid(xradius=2, yradius=1, zradius=0.5)
+    result = mesh.symmetry.detect("plane", pair_distance=0.1)
+    expected = symsurf.detect(mesh.points, "plane", pair_distance=0.1)
+    assert np.array_equal(result.mirror.normal, expected.mirror.normal)
+    assert result.mirror.offset == expected.mirror.offset
+    assert mesh.symmetry.result is result
+
+
+@pytest.mark.parametrize("data", ["mesh", "cloud", "grid"])
+def test_plot_draws_the_data_and_its_mirror(data: str, tmp_path: Path) -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    shape = {
+        "mesh": mesh,
+        "cloud": pyvista.PolyData(mesh.points),
+        "grid": mesh.cast_to_unstructured_grid(),
+    }[data]
+    picture = tmp_path / "picture.png"
+    shape.symmetry.plot(picture)
+    pixels = np.asarray(pyvista.read(picture).active_scalars, dtype=float)
+    drawn = np.abs(pixels - pixels[0]).max(axis=1) > 20
+    assert 0.05 < drawn.mean() < 0.95
+
+
+def test_errors_are_symsurfs() -> None:
+    with pytest.raises(symsurf.InvalidInput, match="2 points"):
+        pyvista.Line(resolution=1).symmetry.detect("plane")

@@ -1,0 +1,164 @@
+"""symsurf.vtk in the vtk package that pip installs: ports, arrays, errors, pipelines."""
+
+from __future__ import annotations
+
+import gc
+
+import numpy as np
+import pytest
+
+import symsurf
+
+pytest.importorskip("vtkmodules", reason="needs the vtk package")
+
+from symsurf.vtk import MirrorDetection  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkCommonCore import vtkPoints  # noqa: E402
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid  # noqa: E402
+from vtkmodules.vtkFiltersSources import vtkSphereSource  # noqa: E402
+
+PLANE = symsurf.Plane([1, 2, -0.5], 1.3)
+
+
+def mirrored_shape(count: int = 300) -> np.ndarray:
+    x = np.random.default_rng(3).normal(size=(count, 3))
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    x *= (1 + 0.3 * np.sin(3 * x[:, 0] + x[:, 1]) + 0.2 * x[:, 1] * x[:, 2])[:, None]
+    return np.vstack([x, PLANE.reflect(x)])
+
+
+def polydata(points: np.ndarray) -> vtkPolyData:
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(points, deep=True))
+    data = vtkPolyData()
+    data.SetPoints(vtk_points)
+    return data
+
+
+def detection(points: np.ndarray, method: str = "plane") -> MirrorDetection:
+    found = MirrorDetection()
+    found.SetInputData(polydata(points))
+    found.SetMethod(method)
+    return found
+
+
+def array(data: vtkPolyData, name: str) -> np.ndarray:
+    return vtk_to_numpy(data.GetPointData().GetArray(name))
+
+
+def error_of(algorithm: MirrorDetection) -> str:
+    messages: list[str] = []
+
+    def heard(_caller, _event, text):
+        messages.append(text)
+
+    heard.CallDataType = "string0"
+    tags = [(o, o.AddObserver("ErrorEvent", heard)) for o in (algorithm, algorithm.GetExecutive())]
+    algorithm.Update()
+    for observed, tag in tags:
+        observed.RemoveObserver(tag)
+    return "".join(messages)
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
+    points = mirrored_shape()
+    found = detection(points, method)
+    found.Update()
+    gc.collect()  # the arrays own what they show
+    expected = symsurf.detect(points, method)
+
+    mirror, surface, mapping = (found.GetOutput(port) for port in range(3))
+    fields = mirror.GetFieldData()
+    assert fields.GetArray("Score").GetValue(0) == expected.score
+    assert fields.GetAbstractArray("Method").GetValue(0) == expected.method
+    if expected.mirror is not None:
+        assert fields.GetAbstractArray("Kind").GetValue(0) == expected.mirror.kind
+        vertices, triangles = expected.mirror.mesh()
+        assert np.array_equal(vtk_to_numpy(mirror.GetPoints().GetData()), vertices)
+        corners = vtk_to_numpy(mirror.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        assert np.array_equal(corners, triangles)
+        sides = array(mapping, "MirrorSide")
+        assert np.all(sides * np.nan_to_num(expected.mirror.signed_distance(points)) >= 0)
+
+    assert np.array_equal(vtk_to_numpy(surface.GetPoints().GetData()), expected.surface_points)
+    assert np.array_equal(array(surface, "Residual"), expected.residuals)
+    assert surface.GetNumberOfVerts() == len(expected.surface_points)
+    paired = np.isin(np.arange(len(points)), expected.pairs[:, 0])
+    assert np.array_equal(array(mapping, "MirrorPartner") >= 0, paired)
+    assert np.array_equal(np.isfinite(array(mapping, "MirrorResidual")), paired)
+
+
+def test_known_plane() -> None:
+    found = detection(mirrored_shape(2000))
+    found.Update()
+    vertices = vtk_to_numpy(found.GetOutput(0).GetPoints().GetData())
+    assert np.abs(PLANE.signed_distance(vertices)).max() < 1e-9
+
+
+def test_setters_are_the_descriptions() -> None:
+    found = MirrorDetection()
+    assert found.GetMethod() == "auto"
+    for method in symsurf.methods().values():
+        for parameter in method.parameters:
+            words = f"{method.name}_{parameter.name}".split("_")
+            name = "".join(word.capitalize() for word in words)
+            assert np.array_equal(getattr(found, f"Get{name}")(), parameter.default)
+            assert parameter.doc in getattr(found, f"Set{name}").__doc__
+
+
+def test_parameters_reach_the_method() -> None:
+    found = detection(mirrored_shape())
+    before = found.GetMTime()
+    found.SetPlanePairDistance(found.GetPlanePairDistance())
+    assert found.GetMTime() == before
+    found.SetPlanePairDistance(0)
+    assert found.GetMTime() > before
+    found.Update()
+    assert np.nanmax(array(found.GetOutput(2), "MirrorResidual"), initial=0) < 1e-12
+
+
+def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
+    nan = mirrored_shape(10)
+    nan[3, 1] = np.nan
+    line = np.arange(9.0)[:, None] * [1, 2, 3]
+    found = detection(mirrored_shape())
+    good = found.GetInputDataObject(0, 0)
+    for points, said in [(nan, "point 3"), (line, "line"), (line[:1], "1 points")]:
+        found.SetInputData(polydata(points))
+        assert said in error_of(found)
+        assert found.GetOutput(0).GetNumberOfPoints() == 0
+        found.SetInputData(good)
+        assert error_of(found) == ""
+        assert found.GetOutput(0).GetNumberOfPoints() > 0
+    found.SetInputData(vtkPolyData())
+    assert "0 points" in error_of(found)
+    assert "0 connections" in error_of(MirrorDetection())
+    wrong = MirrorDetection()
+    wrong.SetInputDataObject(vtkUnstructuredGrid())
+    assert "vtkPolyData" in error_of(wrong)
+
+
+def test_bad_parameters_are_errors() -> None:
+    found = detection(mirrored_shape(), "no such")
+    assert "'no such'" in error_of(found)
+    found.SetMethod("plane")
+    found.SetPlanePairDistance(-1)
+    assert "pair_distance is -1" in error_of(found)
+
+
+def test_abort_empties_the_outputs() -> None:
+    found = detection(mirrored_shape(20000))
+    found.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
+    found.Update()
+    assert [found.GetOutput(port).GetNumberOfPoints() for port in range(3)] == [0, 0, 0]
+
+
+def test_pipeline_operator() -> None:
+    sphere = vtkSphereSource()
+    if not hasattr(sphere, "__rshift__"):
+        pytest.skip("this VTK has no >> pipelines")
+    mirror, surface, mapping = (sphere >> detection(np.empty((0, 3))))()
+    assert mirror.GetNumberOfPolys() > 0
+    assert mapping.GetNumberOfPoints() == sphere.GetOutput().GetNumberOfPoints()
+    assert surface.GetNumberOfPoints() > 0
