@@ -1,0 +1,143 @@
+"""The server-manager XML, VTK's setters and getters and the core's descriptions are one."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import symsurf
+
+ELEMENTS = {
+    "boolean": ("IntVectorProperty", "1"),
+    "integer": ("IntVectorProperty", "1"),
+    "real": ("DoubleVectorProperty", "1"),
+    "choice": ("StringVectorProperty", "1"),
+    "direction": ("DoubleVectorProperty", "3"),
+    "position": ("DoubleVectorProperty", "3"),
+}
+
+
+def camel_case(*names: str) -> str:
+    return "".join(word.capitalize() for name in names for word in name.split("_"))
+
+
+def described() -> list[tuple[str, str, symsurf.Parameter]]:
+    """Property, method and description of every parameter there is."""
+    return [
+        (camel_case(method.name, parameter.name), method.name, parameter)
+        for method in symsurf.methods().values()
+        for parameter in method.parameters
+    ]
+
+
+def default(parameter: symsurf.Parameter) -> Any:
+    if parameter.type in ("direction", "position"):
+        return [0.0, 0.0, 0.0]
+    return parameter.default
+
+
+def another(parameter: symsurf.Parameter) -> Any:
+    """An allowed value that is not the default."""
+    if parameter.type == "boolean":
+        return not parameter.default
+    if parameter.type in ("direction", "position"):
+        return [1.0, -2.0, 0.5]
+    if parameter.type == "choice":
+        return parameter.range.split(" | ")[-1]
+    low, high = parameter.range.strip("[]()").split(", ")
+    return type(parameter.default)(float(low if float(low) != parameter.default else high))
+
+
+def xml_properties(path: Path) -> dict[str, ElementTree.Element]:
+    return {e.get("name"): e for e in ElementTree.parse(path).iter() if e.get("command")}
+
+
+@pytest.fixture
+def proxy(server_manager_xml: Path) -> dict[str, ElementTree.Element]:
+    return xml_properties(server_manager_xml / "MirrorDetection.xml")
+
+
+def test_no_property_is_without_a_description(proxy: dict[str, ElementTree.Element]) -> None:
+    names = {name for name, _, _ in described()}
+    assert len(names) == len(described())
+    own = {"Input", "Method", "UseNormals", "Seed", "NumberOfThreads"}
+    assert set(proxy) == names | own
+
+
+def test_method_lists_the_methods(proxy: dict[str, ElementTree.Element]) -> None:
+    offered = [item.get("value") for item in proxy["Method"].iter("String")]
+    assert offered == list(symsurf.methods())
+    assert proxy["Method"].get("default_values") == offered[0] == "auto"
+    for method in symsurf.methods().values():
+        assert method.summary in proxy["Method"].findtext("Documentation")
+
+
+@pytest.mark.parametrize(("name", "method", "parameter"), described())
+def test_xml_is_the_description(
+    proxy: dict[str, ElementTree.Element], name: str, method: str, parameter: symsurf.Parameter
+) -> None:
+    element = proxy[name]
+    assert (element.tag, element.get("number_of_elements")) == ELEMENTS[parameter.type]
+    assert element.get("command") == f"Set{name}"
+    text = element.get("default_values")
+    if parameter.type == "choice":
+        assert text == parameter.default
+        offered = [item.get("value") for item in element.iter("String")]
+        assert offered == parameter.range.split(" | ")
+    else:
+        assert [float(x) for x in text.split()] == list(
+            map(float, default(parameter) if " " in text else [parameter.default])
+        )
+    if parameter.type in ("integer", "real"):
+        domain = element.find("IntRangeDomain" if parameter.type == "integer" else "DoubleRangeDomain")
+        low, high = map(float, parameter.range.strip("[]()").split(", "))
+        assert float(domain.get("min", "-inf")) == low
+        assert float(domain.get("max", "inf")) == high
+    doc = element.findtext("Documentation")
+    assert parameter.doc in doc
+    assert parameter.unit in doc
+    decorator = element.find("Hints/PropertyWidgetDecorator")
+    assert (decorator.get("property"), decorator.get("value")) == ("Method", method)
+
+
+def test_setters_and_getters_are_the_description(run_host: Callable[..., Any]) -> None:
+    values = {name: another(parameter) for name, _, parameter in described()}
+    seen = run_host("pvpython", "properties.py", "MirrorDetection", json.dumps(values))
+    assert seen["before"] == {name: default(parameter) for name, _, parameter in described()}
+    assert seen["after"] == values
+
+
+def default_in_xml(element: ElementTree.Element) -> Any:
+    text = element.get("default_values")
+    if element.tag == "StringVectorProperty":
+        return text
+    number = float if element.tag == "DoubleVectorProperty" else int
+    numbers = [number(word) for word in text.split()]
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def another_in_xml(element: ElementTree.Element) -> Any:
+    offered = [item.get("value") for item in element.iter("String")]
+    if offered:
+        return offered[-1]
+    default = default_in_xml(element)
+    if element.find("BooleanDomain") is not None:
+        return 1 - default
+    return [1.0, 2.0, 3.0] if isinstance(default, list) else default + 1
+
+
+@pytest.mark.parametrize("name", ["MirrorDetection", "MirrorSampleSource", "PointDamage"])
+def test_xml_and_vtk_agree(
+    name: str, server_manager_xml: Path, run_host: Callable[..., Any]
+) -> None:
+    properties = xml_properties(server_manager_xml / f"{name}.xml")
+    properties.pop("Input", None)
+    values = {key: another_in_xml(element) for key, element in properties.items()}
+    seen = run_host("pvpython", "properties.py", name, json.dumps(values))
+    assert seen["before"] == {key: default_in_xml(e) for key, e in properties.items()}
+    assert seen["after"] == values

@@ -1,0 +1,65 @@
+"""ParaView's real window: from the Filters menu to the picture of a mirror."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from desktop import Desktop, screen
+
+# The render view lies to the right of the panels and below the toolbars.
+VIEW = (slice(240, 800), slice(320, 1260))
+
+
+def colourful(pixels: np.ndarray) -> np.ndarray:
+    """Pixels of a colour map's ends, red or blue; the background and white shapes are not."""
+    red, blue = pixels[..., 0], pixels[..., 2]
+    return np.abs(red - blue) > 90
+
+
+def write_shape(path: Path) -> Path:
+    """A lopsided mesh beside its reflection, as an OBJ file."""
+    s, t = np.meshgrid(np.linspace(0, np.pi, 30), np.linspace(0, 2 * np.pi, 40))
+    x = np.stack([np.sin(s) * np.cos(t), np.sin(s) * np.sin(t), np.cos(s)], -1).reshape(-1, 3)
+    x *= (1 + 0.3 * np.sin(3 * x[:, 0] + x[:, 1]) + 0.2 * x[:, 1] * x[:, 2])[:, None]
+    rows, columns = np.mgrid[:39, :29]
+    corner = (rows * 30 + columns).ravel()
+    quads = np.stack([corner, corner + 1, corner + 31, corner + 30], -1)
+    points = np.vstack([x, x * [-1, 1, 1] + [0.8, 0, 0]])
+    faces = np.vstack([quads, quads + len(x)]) + 1
+    lines = ["v {} {} {}".format(*p) for p in points] + ["f {} {} {} {}".format(*f) for f in faces]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_menu_apply_and_the_mirror_is_drawn(
+    environment: dict[str, str], plugin: Path, tmp_path: Path
+) -> None:
+    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
+    shape_file = write_shape(tmp_path / "shape.obj")
+    with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
+        empty = desktop.settle()[VIEW]
+        desktop.key("alt+a")
+        shape = desktop.settle()[VIEW]
+        assert (np.abs(shape - empty).max(-1) > 20).mean() > 0.02
+        assert colourful(shape).mean() < 0.005
+
+        # From the end of the menu: Temporal, Symmetry; its first entry is Mirror Detection.
+        desktop.key("alt+l", "Up", "Up", "Right", "Return")
+        desktop.settle()
+        desktop.key("alt+a")
+        found = desktop.settle()[VIEW]
+        assert colourful(found).mean() > 0.01
+
+
+def test_picture_of_the_mirror(
+    run_host: Callable[..., Any], environment: dict[str, str], tmp_path: Path
+) -> None:
+    with screen(environment) as seen:
+        display = f"env DISPLAY={seen['DISPLAY']} pvpython"
+        drawn = run_host(display, "picture.py", tmp_path / "picture.png")
+    assert drawn["nothing"] == 0
+    for name in ("Mirror", "Surface Points", "Mapping"):
+        assert 0.001 < drawn[name] < 0.9, name

@@ -1,0 +1,66 @@
+"""The plugin in pvpython and pvbatch: every method, errors, states and traces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import symsurf
+
+HOSTS = ["pvpython", "pvbatch"]
+
+
+def check(answer: dict[str, Any]) -> None:
+    assert answer["ports"] == ["Mirror", "Surface Points", "Mapping"]
+    assert list(answer["methods"]) == list(symsurf.methods())
+    for found in answer["methods"].values():
+        assert found["partners"] == found["points"] >= found["paired"] > 0
+        assert found["surface_points"] == found["vertices"] == found["residuals"] > 0
+        assert 0 <= found["field"]["Score"][0]
+        if "Kind" in found["field"]:
+            assert found["triangles"] > 0
+            assert set(found["sides"]) == {-1, 1}
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_every_method_on_a_known_mirror(host: str, run_host: Callable[..., Any]) -> None:
+    answer = run_host(host, "every_method.py")
+    check(answer)
+    plane = answer["methods"]["plane"]["field"]
+    assert plane["Kind"] == "plane"
+    normal, offset = np.array(plane["Normal"]), plane["Offset"][0]
+    assert abs(abs(normal[0]) - 1) < 1e-9
+    assert abs(offset + 0.25 * normal[0]) < 1e-6  # ParaView's sources are of single precision
+    assert plane["Score"][0] > 0.9
+
+
+def test_every_method_on_a_real_mesh(run_host: Callable[..., Any], shape_file: Path) -> None:
+    answer = run_host("pvpython", "every_method.py", shape_file)
+    check(answer)
+    assert abs(answer["methods"]["plane"]["field"]["Normal"][0]) > 1 - 1e-6
+
+
+def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> None:
+    points = run_host("pvpython", "bad_input.py")
+    assert points.pop("good") > 0
+    assert points.pop("good again") > 0
+    assert len(points) >= 5
+    assert set(points.values()) == {0}
+
+
+def test_state_and_trace_bring_the_same_mirror_back(run_host: Callable[..., Any], tmp_path: Path) -> None:
+    for kind in ("state.py", "trace.py"):
+        before, after = run_host("pvpython", kind, tmp_path)
+        assert before == after
+    trace = (tmp_path / "trace_made.py").read_text()
+    assert "MirrorDetection(" in trace
+    assert ".Method = 'plane'" in trace
+    assert ".PlanePairDistance = 0.125" in trace
+
+
+def test_reflection_lies_on_the_partners(run_host: Callable[..., Any]) -> None:
+    assert run_host("pvpython", "reflection.py") < 1e-6
