@@ -1,5 +1,5 @@
-# make setup | demo | test | bench: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo test bench
+# make setup | demo | paraview | test | bench: each sets up what it needs first, and only what is missing.
+.PHONY: setup demo paraview test bench
 
 setup:
 	@.ci/setup python tests
@@ -7,6 +7,12 @@ setup:
 demo:
 	@.ci/setup python
 	@build/venv/bin/symsurf demo --output build/demo
+
+paraview:
+	@.ci/setup paraview
+	@echo "The plugin: $$(ls -d $(CURDIR)/build/paraview/lib/paraview-*/plugins/SymsurfPlugin)/SymsurfPlugin.so"
+	@echo "In ParaView: Tools > Manage Plugins > Load New; in pvpython: LoadPlugin(\"...\", remote=False)"
+	@echo "Loaded at every start: PV_PLUGIN_PATH=$$(ls -d $(CURDIR)/build/paraview/lib/paraview-*/plugins/SymsurfPlugin) paraview"
 
 test:
 	@.ci/setup tests
