@@ -13,14 +13,6 @@ constexpr double apart = 0.12;  // radians between candidates
 constexpr double first_step = 0.09, last_step = 0.02;
 constexpr double pi = 3.14159265358979323846;
 
-// Evenly over the half sphere: a Fibonacci spiral.
-Vector3 spread_direction(Index i) {
-  const double z = (static_cast<double>(i) + 0.5) / tried;
-  const double angle = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
-  const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
 bool better(const DirectionCandidate& a, const DirectionCandidate& b) {
   return a.explained > b.explained;
 }
@@ -54,13 +46,20 @@ void climb(MidSheet& sheet, DirectionCandidate& candidate) {
 
 }  // namespace
 
+Vector3 spread_direction(Index i, Index count) {
+  const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+  const double angle = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
 std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinned,
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context) {
   MidSheet sheet(thinned);
   std::vector<DirectionCandidate> candidates;
   for (Index i = 0; i < tried; ++i) {
-    const Vector3 v = spread_direction(i);
+    const Vector3 v = spread_direction(i, tried);
     candidates.push_back({v, sheet.explained(v)});
     context.report(0.8 * static_cast<double>(i) / tried);
   }

@@ -18,4 +18,7 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinne
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context);
 
+/// The i-th of `count` directions spread evenly over the half sphere: a Fibonacci spiral.
+Vector3 spread_direction(Index i, Index count);
+
 }  // namespace symsurf

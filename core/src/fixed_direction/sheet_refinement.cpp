@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace symsurf {
 
@@ -54,7 +55,7 @@ FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
   }
   if (observations.size() < least_matches) return {};
   const HeightRegression regression(std::move(observations));
-  return {direction, frame.leave(regression.fitted(votes_.cells(), start_neighbours)), 0};
+  return {direction, frame.leave(regression.fitted(votes_.cells(), start_neighbours))};
 }
 
 SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate) const {
@@ -113,27 +114,41 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
   return result;
 }
 
+void SheetRefinement::refit(FieldEstimate& estimate, Matches found) const {
+  const Frame frame(estimate.direction);
+  const HeightRegression regression(std::move(found.observations));
+  estimate.nodes = frame.leave(regression.fitted(frame.enter(estimate.nodes), round_neighbours));
+  Eigen::Vector2d step = turn_gain * found.turn;
+  if (step.norm() > longest_turn) step *= longest_turn / step.norm();
+  estimate.direction = (estimate.direction + frame.across * step).normalized();
+}
+
 FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatter, int rounds) {
   FieldEstimate estimate = voted(direction, scatter);
   for (int round = 1; round <= rounds && estimate.nodes.rows() > 0; ++round) {
     Matches found = matches(estimate);
     estimate.explained = found.explained;
     if (found.observations.size() < least_matches) return {};
+    if (round < rounds) {
+      refit(estimate, std::move(found));
+      continue;
+    }
     const Frame frame(estimate.direction);
     HeightRegression regression(std::move(found.observations));
-    if (round < rounds) {
-      estimate.nodes =
-          frame.leave(regression.fitted(frame.enter(estimate.nodes), round_neighbours));
-      Eigen::Vector2d step = turn_gain * found.turn;
-      if (step.norm() > longest_turn) step *= longest_turn / step.norm();
-      estimate.direction = (estimate.direction + frame.across * step).normalized();
-    } else {
-      regression.reject_outliers(round_neighbours);
-      const Index neighbours = regression.best_neighbours(offered_neighbours);
-      estimate.nodes = frame.leave(regression.fitted(regression.places(), neighbours));
-    }
+    regression.reject_outliers(round_neighbours);
+    const Index neighbours = regression.best_neighbours(offered_neighbours);
+    estimate.nodes = frame.leave(regression.fitted(regression.places(), neighbours));
   }
   return estimate;
+}
+
+double SheetRefinement::explained_along(const Vector3& direction) {
+  FieldEstimate estimate = voted(direction, std::numeric_limits<double>::infinity());
+  if (estimate.nodes.rows() == 0) return 0;
+  Matches found = matches(estimate);
+  if (found.observations.size() < least_matches) return 0;
+  refit(estimate, std::move(found));
+  return estimate.nodes.rows() > 0 ? matches(estimate).explained : 0;
 }
 
 }  // namespace symsurf

@@ -18,6 +18,10 @@ class SheetRefinement {
   /// of partners across the direction.
   FieldEstimate operator()(const Vector3& direction, double scatter, int rounds);
 
+  /// The share of the points that a mirror along this direction explains, whatever surface the
+  /// cloud votes for.
+  double explained_along(const Vector3& direction);
+
  private:
   struct Matches {
     std::vector<HeightObservation> observations;
@@ -25,6 +29,7 @@ class SheetRefinement {
     double explained = 0;
   };
   Matches matches(const FieldEstimate& estimate) const;
+  void refit(FieldEstimate& estimate, Matches found) const;
   FieldEstimate voted(const Vector3& direction, double scatter);
 
   const WorkingCloud& cloud_;

@@ -1,3 +1,4 @@
+#include <map>
 #include <utility>
 
 #include "methods.h"
@@ -6,12 +7,29 @@ namespace symsurf {
 
 namespace {
 
-Result run_auto(const Cloud& cloud, const ParameterValues&, const Context& context) {
+// What a kind's freedom takes from its score: a surface that may bend explains more of any cloud,
+// and where two explain the same the simpler is meant.
+double freedom(std::string_view kind) {
+  static const std::map<std::string_view, double> discounts{
+      {"plane", 0},      {"sphere", 0.01},       {"cylinder", 0.02},
+      {"quadric", 0.03}, {"height field", 0.05}, {"free-form", 0.06},
+  };
+  const auto it = discounts.find(kind);
+  return it == discounts.end() ? 0 : it->second;
+}
+
+double discounted(const Result& result) {
+  return result.mirror ? result.score * (1 - freedom(result.mirror->kind())) : 0;
+}
+
+Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   std::vector<const Method*> tried;
   for (const Method& method : methods())
     if (method.automatic && cloud.points.size() >= method.minimum_points) tried.push_back(&method);
 
   Result best;
+  std::string runner_up;
+  double best_score = -1, second_score = -1;
   Values scores;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     const double share = 1.0 / static_cast<double>(tried.size());
@@ -20,9 +38,25 @@ Result run_auto(const Cloud& cloud, const ParameterValues&, const Context& conte
     const ParameterValues defaults(tried[i]->name, tried[i]->parameters, {});
     Result result = tried[i]->run(cloud, defaults, part);
     result.parameters = defaults.all();
-    scores["score_" + tried[i]->name] = result.score;
-    if (i == 0 || result.score > best.score) best = std::move(result);
+    const double score = discounted(result);
+    scores["score_" + tried[i]->name] = score;
+    if (score > best_score) {
+      second_score = std::exchange(best_score, score);
+      runner_up = best.method;
+      best = std::move(result);
+    } else if (score > second_score) {
+      second_score = score;
+      runner_up = tried[i]->name;
+    }
   }
+  best.score = best_score;
+  const double least = values.real("minimum_score");
+  scores["verdict"] = std::string(best_score >= least ? "found" : "none");
+  scores["reason"] = best.method + " scores " + to_string(Value(best_score)) +
+                     (runner_up.empty() ? std::string()
+                                        : ", " + runner_up + " " + to_string(Value(second_score))) +
+                     "; the least that counts is " + to_string(Value(least));
+  scores["minimum_score"] = least;
   best.statistics.merge(scores);
   return best;
 }
@@ -34,7 +68,13 @@ Method auto_method() {
   method.name = "auto";
   method.title = "Mirror (best of all kinds)";
   method.summary =
-      "Tries every method that needs no advice and keeps the mirror with the best score.";
+      "Tries every method that needs no advice, keeps the mirror with the best score, discounted "
+      "for its freedom, and says whether it is one.";
+  method.parameters = {
+      Parameter::real("minimum_score", 0.5, 0, 1, "",
+                      "Below it the verdict in the statistics is \"none\": the best found is no "
+                      "symmetry of the shape."),
+  };
   method.run = run_auto;
   return method;
 }

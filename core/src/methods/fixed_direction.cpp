@@ -51,7 +51,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
 
   const HeightField field(found.direction, found.nodes);
   result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
-  result.score = found.explained;
+  result.score = std::clamp(found.score, 0.0, 1.0);
+  result.statistics["explained_share"] = found.explained;
   const PointTree tree(cloud.points, context.stage(0.7, 0.8));
   add_pairs(result, cloud.points, tree, *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 1));
@@ -79,6 +80,7 @@ Method fixed_direction_method() {
                       "partner."),
   };
   method.minimum_points = 20;
+  method.automatic = true;
   method.run = run_fixed_direction;
   return method;
 }
