@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <symsurf/free_form.h>
 #include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
@@ -17,13 +18,12 @@ namespace {
 
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-// "Plane(normal=[0. 0. 1.], offset=-2.0)": the class and the numbers that define the mirror.
+// "Plane(normal=(0, 0, 1), offset=-2)": the class and the numbers that define the mirror.
 std::string repr(py::handle self) {
   std::string text;
-  for (const auto& [name, value] : to_python(self.cast<const Mirror&>().numbers()))
-    text +=
-        (text.empty() ? "" : ", ") + std::string(py::str(name)) + "=" + std::string(py::str(value));
-  return std::string(py::str(py::type::of(self).attr("__name__"))) + "(" + text + ")";
+  for (const auto& [name, value] : self.cast<const Mirror&>().numbers())
+    text += (text.empty() ? "" : ", ") + name + "=" + to_string(value);
+  return py::str(py::type::of(self).attr("__name__")).cast<std::string>() + "(" + text + ")";
 }
 
 py::tuple mesh(const Mirror& mirror, const std::optional<PointsArgument>& points, int resolution) {
@@ -143,6 +143,16 @@ void bind_mirrors(py::module_& module) {
                                                   Points(PointsView(nodes).matrix()));
            }),
            py::arg("direction"), py::arg("nodes"));
+
+  bind_kind<FreeForm>(
+      module, "FreeForm",
+      "A smooth surface of any shape, mirrored perpendicularly: a blend of k quadratic\n"
+      "patches. make_mirror makes one of its numbers.",
+      {{"centres", "(k, 3), the origins of the patches' frames."},
+       {"tangents", "(k, 3), the first axes of the frames."},
+       {"normals", "(k, 3), the third axes of the frames."},
+       {"heights", "(k, 6), the coefficients of the patches."},
+       {"radii", "(k, 1), how far the patches reach."}});
 }
 
 }  // namespace symsurf::python

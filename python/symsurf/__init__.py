@@ -9,6 +9,7 @@
 from . import detectors
 from ._core import (
     Cancelled,
+    FreeForm,
     HeightField,
     InvalidInput,
     InvalidParameter,
@@ -29,6 +30,7 @@ from .shape import Shape, read
 
 __all__ = [
     "Cancelled",
+    "FreeForm",
     "HeightField",
     "InvalidInput",
     "InvalidParameter",

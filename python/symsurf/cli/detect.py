@@ -126,7 +126,7 @@ def _median_residual(result: Result) -> float:
 def _report(path: Path, result: Result) -> str:
     lines = [str(path)]
     if result.mirror is not None:
-        numbers = [f"{name} {_exact(value)}" for name, value in result.mirror.numbers.items()]
+        numbers = [f"{name} {shown(value)}" for name, value in result.mirror.numbers.items()]
         lines.append(f"  mirror    {', '.join([result.mirror.kind, *numbers])}")
     lines.append(f"  score     {result.score:.3f} (method {result.method})")
     paired = f"{len(result.pairs)} of {len(result.points)} points"
@@ -137,7 +137,3 @@ def _report(path: Path, result: Result) -> str:
         lines.append(f"  others    {len(result.candidates)} with scores {scores}")
     lines.append(f"  time      {1000 * result.seconds:.1f} ms")
     return "\n".join(lines)
-
-
-def _exact(value: Any) -> str:
-    return f"({shown(value)})" if isinstance(value, np.ndarray) else shown(value)

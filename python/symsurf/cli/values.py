@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from .._core import Parameter
 
 _NUMBER = re.compile(r"-\.?\d")
@@ -20,10 +22,12 @@ def value_from(text: str, parameter: Parameter) -> Any:
 
 
 def shown(value: Any) -> str:
-    """The value as it would be written on the command line."""
+    """The value as it would be written on the command line; of a table only its size."""
     if isinstance(value, bool):
         return str(value).lower()
-    if hasattr(value, "tolist"):
+    if isinstance(value, np.ndarray):
+        if value.ndim > 1:
+            return f"{len(value)} x {value.shape[1]} numbers"
         return ",".join(f"{number:g}" for number in value.tolist())
     return f"{value:g}" if isinstance(value, float) else str(value)
 

@@ -1,0 +1,65 @@
+"""Pictures, looked at by their pixels."""
+
+from __future__ import annotations
+
+import builtins
+
+import numpy as np
+import pytest
+from symmetric_shapes import mirrored_surface
+
+import symsurf
+
+BACKGROUND, UNPAIRED = (255, 255, 255), (0x9A, 0xA3, 0xAD)
+
+
+@pytest.fixture(scope="module")
+def result():
+    points, truth = mirrored_surface(800, 0)
+    return symsurf.match(points, truth)
+
+
+def pixels(path):
+    pyvista = pytest.importorskip("pyvista")
+    return np.asarray(pyvista.read(path).point_data.active_scalars)[:, :3].astype(int)
+
+
+def test_picture_shows_object_and_mirror(result, tmp_path):
+    result.plot(tmp_path / "both.png")
+    both = pixels(tmp_path / "both.png")
+    drawn = (both != BACKGROUND).any(axis=1)
+    assert 0.1 < drawn.mean() < 0.9
+    bluish = (both[:, 2] > both[:, 0] + 20).mean()
+    assert bluish > 0.02
+
+
+def test_picture_of_a_mesh(tmp_path):
+    points = np.array([(x, y, 0.2 * y) for x in (-2.0, -1, 1, 2) for y in (0.0, 1, 3)])
+    faces = [
+        (3 * i + j, 3 * i + j + 1, 3 * i + j + 3 + k) for i in range(3) for j in range(2) for k in (0, 1)
+    ]
+    shape = symsurf.Shape(points, np.array(faces))
+    result = symsurf.match(points, symsurf.Plane((1, 0, 0), 0))
+    result.plot(tmp_path / "mesh.png", shape=shape)
+    result.plot(tmp_path / "points.png", points=points)
+    difference = pixels(tmp_path / "mesh.png") != pixels(tmp_path / "points.png")
+    assert difference.any(axis=1).mean() > 0.02
+
+
+def test_points_that_do_not_belong(result):
+    pytest.importorskip("pyvista")
+    with pytest.raises(symsurf.InvalidInput, match="10 points"):
+        result.plot("never.png", points=result.points[:10])
+
+
+def test_without_pyvista(result, monkeypatch):
+    real = builtins.__import__
+
+    def without(name, *arguments, **keywords):
+        if name == "pyvista":
+            raise ImportError(name)
+        return real(name, *arguments, **keywords)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(ImportError, match=r"symsurf\[plot\]"):
+        result.plot("never.png")

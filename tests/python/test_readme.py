@@ -1,0 +1,64 @@
+"""The README's opening examples run, and its table of methods is the methods' own description."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import ROOT
+from symmetric_shapes import mirrored_surface
+
+import symsurf
+
+README = (ROOT / "README.md").read_text()
+OPENING = README.split("\n## ")[0]  # the sections after it need hosts of their own
+
+
+def examples(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", OPENING, re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Where the examples find the files they name."""
+    points, _ = mirrored_surface(600, 0)
+    rows = "\n".join(" ".join(map(repr, point)) for point in points.tolist())
+    header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+    properties = "".join(f"property double {axis}\n" for axis in "xyz")
+    for name in ("scan.ply", "other.ply"):
+        (tmp_path / name).write_text(f"{header}{properties}end_header\n{rows}\n")
+    return tmp_path
+
+
+@pytest.mark.parametrize("example", examples("python"))
+def test_python_examples(example, folder):
+    pytest.importorskip("pyvista")
+    done = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def command_lines() -> list[str]:
+    lines = "".join(examples("console")).splitlines()
+    return [line[2:] for line in lines if line.startswith("$ symsurf ")]
+
+
+@pytest.mark.parametrize("line", command_lines())
+def test_command_line_examples(line, folder):
+    pytest.importorskip("pyvista")
+    words = line.split("#")[0].split()[1:]
+    command = [sys.executable, "-m", "symsurf", *words]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_there_are_examples():
+    assert examples("python") and command_lines()
+
+
+def test_table_of_methods():
+    rows = re.findall(r"^\| `\w+` \| .* \|$", README, re.MULTILINE)
+    methods = symsurf.methods().values()
+    assert rows == [f"| `{method.name}` | {method.summary} |" for method in methods]
