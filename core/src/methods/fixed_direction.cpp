@@ -80,7 +80,6 @@ Method fixed_direction_method() {
                       "partner."),
   };
   method.minimum_points = 20;
-  method.automatic = true;
   method.run = run_fixed_direction;
   return method;
 }
