@@ -18,8 +18,9 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance,
   Result result;
   result.method = "match";
   result.parameters = {{"pair_distance", pair_distance}};
-  const PointTree tree(points, context.stage(0, 0.2));
-  add_pairs(result, points, tree, mirror, pair_distance * cloud.diagonal, context.stage(0.2, 1));
+  PointTree tree(points, context.stage(0, 0.2));
+  add_pairs(result, points, std::move(tree), mirror, pair_distance * cloud.diagonal,
+            context.stage(0.2, 1));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "parallel.h"
@@ -18,10 +19,9 @@ std::vector<std::int32_t> rows_to_pair(const PointTree& tree, const Rows& rows) 
   return order;
 }
 
-}  // namespace
-
-void add_pairs(Result& result, PointsView points, const PointTree& tree, const Mirror& mirror,
-               double limit, const Context& context) {
+// The index of each point's partner, -1: none.
+std::vector<std::int32_t> partners(PointsView points, const PointTree& tree, const Mirror& mirror,
+                                   double limit, const Context& context) {
   constexpr Index grain = 4096;
   std::vector<std::int32_t> partner(points.size(), -1);
   const std::vector<std::int32_t> order = rows_to_pair(tree, context.paired_rows());
@@ -37,6 +37,18 @@ void add_pairs(Result& result, PointsView points, const PointTree& tree, const M
         partner[order[p + i]] = static_cast<std::int32_t>(found[i].index);
     }
   });
+  return partner;
+}
+
+}  // namespace
+
+void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
+               double limit, const Context& context) {
+  std::vector<std::int32_t> partner;
+  {
+    const PointTree consumed = std::move(tree);
+    partner = partners(points, consumed, mirror, limit, context);
+  }
 
   const Index found = points.size() - std::count(partner.begin(), partner.end(), -1);
   result.pairs.resize(found, 2);

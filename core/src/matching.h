@@ -11,7 +11,8 @@ namespace symsurf {
 /// Fills the result's pairs, residuals and surface points: for each of the context's paired rows
 /// the nearest of the tree's points (the same cloud) to its image, where that is no farther than
 /// `limit` (input units). In the order of the points; equally near partners: the lowest index.
-void add_pairs(Result& result, PointsView points, const PointTree& tree, const Mirror& mirror,
+/// Frees the tree as soon as partners are known: it and the pairs never need memory together.
+void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
 
 }  // namespace symsurf

@@ -53,8 +53,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
   result.score = std::clamp(found.score, 0.0, 1.0);
   result.statistics["explained_share"] = found.explained;
-  const PointTree tree(cloud.points, context.stage(0.7, 0.8));
-  add_pairs(result, cloud.points, tree, *result.mirror,
+  PointTree tree(cloud.points, context.stage(0.7, 0.8));
+  add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 1));
   drop_outlying_pairs(result, cloud.diagonal);
   result.surface_points = result.mirror->project(result.surface_points);

@@ -13,12 +13,14 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 24;         // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;    // of these, have their measure maximised
-constexpr std::size_t finalists = 6;  // of these, are fitted to the full cloud
-constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
-constexpr double alike = 0.05;        // planes closer than this are one
-constexpr Index measured = 500;       // surfels that the measure is taken over
+constexpr Index started = 24;               // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;          // of these, have their measure maximised
+constexpr std::size_t quickly_fitted = 10;  // of these, are fitted to the full cloud
+constexpr std::size_t finalists = 6;        // of these, are fitted carefully
+constexpr double convincing = 0.7;          // of what the best explains: worth the last digits
+constexpr double hopeless = 0.6;            // of what the best explains: not worth fitting
+constexpr double alike = 0.05;              // planes closer than this are one
+constexpr Index measured = 500;             // surfels that the measure is taken over
 
 Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
   const Vector3 normal = frame.axes * plane.normal;
@@ -72,12 +74,17 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   std::vector<PlaneCandidate> candidates = promising_planes(coarse);
   context.report(0.25);
 
-  const PointTree tree(cloud.points, context.stage(0.25, 0.4));
+  PointTree tree(cloud.points, context.stage(0.25, 0.4));
   const Refinement refinement(cloud, tree, {&coarse, &fine});
+  if (candidates.size() > quickly_fitted) candidates.resize(quickly_fitted);
   for (PlaneCandidate& candidate : candidates) candidate = refinement.quick(candidate);
   keep_distinct(candidates, alike, finalists);
   drop_hopeless(candidates);
-  for (PlaneCandidate& candidate : candidates) candidate = refinement.thorough(candidate);
+  for (PlaneCandidate& candidate : candidates) candidate = refinement.careful(candidate);
+  keep_distinct(candidates, alike, finalists);
+  const double good = convincing * candidates.front().explained;
+  for (PlaneCandidate& candidate : candidates)
+    if (candidate.explained >= good) candidate = refinement.final(candidate);
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
   context.report(0.5);
 
@@ -93,8 +100,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   Result best = std::move(found.front());
   best.candidates.assign(std::make_move_iterator(found.begin() + 1),
                          std::make_move_iterator(found.end()));
-  add_pairs(best, cloud.points, tree, *best.mirror, values.real("pair_distance") * cloud.diagonal,
-            context.stage(0.5, 1));
+  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.5, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
   best.statistics["mean_residual"] = best.residuals.size() ? best.residuals.mean() : 0.0;
   return best;

@@ -31,10 +31,10 @@ void drop_false_pairs(Result& result, Index size, bool mutual) {
 
 void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, const Sheet& sheet,
                double pair_distance, const Context& context) {
-  const PointTree tree(cloud.points, context.stage(0, 0.2));
+  PointTree tree(cloud.points, context.stage(0, 0.2));
   // Farther off there are only mere neighbours.
   const double limit = std::min(pair_distance, (sheet.exact ? 0.8 : 1.3) * searched.spacing);
-  symsurf::add_pairs(result, cloud.points, tree, *result.mirror, limit * cloud.diagonal,
+  symsurf::add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
                      context.stage(0.2, 1));
   drop_false_pairs(result, cloud.points.size(), sheet.exact);
   if (!sheet.exact) result.surface_points = result.mirror->project(result.surface_points);

@@ -11,7 +11,7 @@ namespace symsurf {
 namespace {
 
 constexpr Index small_cloud = 8192;  // whose every point is a sample
-constexpr Index most_samples = 1200, few_samples = 300;
+constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double by_chance = 0.1;  // few points look flatter than they are
 constexpr double reach = 0.06;     // how far a partner may be
 constexpr double score_tolerance = 0.01;
@@ -137,11 +137,15 @@ PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   return {plane, explained(plane, matches(plane, reach, few), few, Sharpness::Blunt)};
 }
 
-PlaneCandidate Refinement::thorough(const PlaneCandidate& start) const {
+PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
   const Subset most = about(most_samples);
-  UnitPlane plane = fitted(start.plane, 0.01, most, 2);
-  plane = fitted(plane, 0.01, all(), 1);
-  plane = fitted_to_exact_pairs(plane);
+  const UnitPlane plane = fitted(start.plane, 0.01, most, 2);
+  return {plane, explained(plane, matches(plane, reach, most), most, Sharpness::Sharp)};
+}
+
+PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
+  const Subset most = about(most_samples);
+  const UnitPlane plane = fitted_to_exact_pairs(fitted(start.plane, 0.01, all(), 1));
   return {plane, explained(plane, matches(plane, reach, most), most, Sharpness::Sharp)};
 }
 
@@ -172,11 +176,12 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
 UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
   constexpr int steps = 12;
   constexpr double worth_trying = 0.1, exact = 0.01;  // of the spacing
-  const Subset most = about(most_samples);
   UnitPlane plane = start;
   double typical = 0;
   for (int step = 0; step < steps; ++step) {
-    std::vector<Match> found = matches(plane, spacing_, most);
+    // A first look at few is mostly the last.
+    const Subset looked = about(step == 0 ? few_samples : most_samples);
+    std::vector<Match> found = matches(plane, spacing_, looked);
     std::erase_if(found, [&](const Match& match) {
       return displaced(plane.distance(samples_[match.sample].position), spacing_) < 1;
     });

@@ -17,11 +17,14 @@ class Refinement {
   /// `scales`: surfels that give the normals; at each place the flattest do.
   Refinement(const Cloud& cloud, const PointTree& tree, std::vector<const Surfels*> scales);
 
-  /// The plane that leaves the least robust residual on every fifth sample, in a few steps.
+  /// The plane that leaves the least robust residual on a few samples, after a few steps.
   PlaneCandidate quick(const PlaneCandidate& start) const;
 
+  /// The same on enough samples to rank planes by how closely images meet the cloud.
+  PlaneCandidate careful(const PlaneCandidate& start) const;
+
   /// The same on all samples. Where partners are exact, it converges to rounding.
-  PlaneCandidate thorough(const PlaneCandidate& start) const;
+  PlaneCandidate final(const PlaneCandidate& start) const;
 
   /// What a perfect mirror would explain: the share of the samples that their own nearest
   /// neighbours explain. Below 1 where the cloud is sparse, noisy or strongly curved.
