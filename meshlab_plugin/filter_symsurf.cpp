@@ -5,6 +5,7 @@
 
 #include "detection_filter.h"
 #include "reflection_filter.h"
+#include "sample_filter.h"
 
 using namespace symsurf;
 using namespace symsurf::meshlab;
@@ -16,6 +17,7 @@ std::vector<std::unique_ptr<Filter>> all_filters() {
   for (const Method& method : methods())
     filters.push_back(std::make_unique<DetectionFilter>(method));
   filters.push_back(std::make_unique<ReflectionFilter>());
+  filters.push_back(std::make_unique<SampleFilter>());
   return filters;
 }
 

@@ -16,10 +16,10 @@ constexpr int marked = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
 // Residuals below this share of the diagonal are rounding, which is not worth a colour.
 constexpr double least_ramp = 1e-6;
 
-MeshModel& add_layer(MeshDocument& document, const MeshModel& input, const QString& name,
+MeshModel& add_layer(MeshDocument& document, const Matrix44m& transform, const QString& name,
                      const Points& points) {
   MeshModel& layer = *document.addNewMesh("", name, false);
-  layer.cm.Tr = input.cm.Tr;
+  layer.cm.Tr = transform;
   auto vertex = Allocator::AddVertices(layer.cm, points.rows());
   for (Index i = 0; i < points.rows(); ++i, ++vertex)
     vertex->P() = Point3m(points(i, 0), points(i, 1), points(i, 2));
@@ -39,7 +39,7 @@ double sign(double x) { return (x > 0) - (x < 0); }
 
 MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
                             std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
-  MeshModel& layer = add_layer(document, input, "Mirror", mesh.vertices);
+  MeshModel& layer = add_layer(document, input.cm.Tr, "Mirror", mesh.vertices);
   auto face = Allocator::AddFaces(layer.cm, mesh.triangles.rows());
   for (Index i = 0; i < mesh.triangles.rows(); ++i, ++face)
     for (int corner = 0; corner < 3; ++corner)
@@ -56,10 +56,22 @@ std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer) {
 
 MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,
                                     const Result& result) {
-  MeshModel& layer = add_layer(document, input, "Surface points", result.surface_points);
+  MeshModel& layer = add_layer(document, input.cm.Tr, "Surface points", result.surface_points);
   for (Index i = 0; i < result.residuals.size(); ++i) layer.cm.vert[i].Q() = result.residuals[i];
   layer.updateBoxAndNormals();
   colour_by_residual(layer, result.residuals);
+  return layer;
+}
+
+MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample) {
+  MeshModel& layer = add_layer(document, Matrix44m::Identity(), "Sample", sample.points);
+  auto partner = Allocator::GetPerVertexAttribute<Scalarm>(layer.cm, "partner");
+  for (Index i = 0; i < sample.points.rows(); ++i) partner[i] = -1;
+  for (Index i = 0; i < sample.pairs.rows(); ++i) {
+    partner[sample.pairs(i, 0)] = sample.pairs(i, 1);
+    partner[sample.pairs(i, 1)] = sample.pairs(i, 0);
+  }
+  layer.updateBoxAndNormals();
   return layer;
 }
 

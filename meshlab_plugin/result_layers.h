@@ -2,6 +2,7 @@
 #pragma once
 
 #include <symsurf/result.h>
+#include <symsurf/synthetic.h>
 
 #include <memory>
 
@@ -22,6 +23,9 @@ std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer);
 /// Adds the layer "Surface points": the result's, with their residuals as quality.
 MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,
                                     const Result& result);
+
+/// Adds the layer "Sample": the points, each with its partner as attribute "partner", or -1.
+MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample);
 
 /// Marks each vertex of the layer: quality = residual, with MeshLab's colour ramp from 0 to the
 /// largest; attribute "partner" = the vertex its image falls on; attribute "side" = -1, 0 or 1, the

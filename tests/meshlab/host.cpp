@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A MeshLab without a window: loads the plugin through MeshLab's own plugin manager and does to its
+// filters what pymeshlab cannot: cancels them, throws out of the progress callback, hands them
+// layers with deleted vertices and documents without layers. Prints the mirrors of one lump, a line
+// a figure, and what fails; exit code 0: all as it should be.
+//
+//   host PLUGIN
+
+#include <common/globals.h>
+#include <common/ml_document/mesh_document.h>
+#include <common/plugins/plugin_manager.h>
+
+#include <QApplication>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <random>
+#include <sstream>
+
+namespace {
+
+using Allocator = vcg::tri::Allocator<CMeshO>;
+
+int failures = 0;
+
+void expect(bool holds, const std::string& what) {
+  if (holds) return;
+  ++failures;
+  std::cout << "FAILED: " << what << "\n";
+}
+
+// MeshLab's callback is a plain function.
+std::function<bool(int)> on_progress;
+bool callback(const int percent, const char*) { return on_progress(percent); }
+
+void add_lump(MeshDocument& document, int size) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  CMeshO& mesh = document.addNewMesh("", "lump")->cm;
+  auto vertex = Allocator::AddVertices(mesh, size);
+  for (int i = 0; i < size / 2; ++i) {
+    const double x = normal(random), y = 2 * normal(random), z = 3 * normal(random) + y * y / 3;
+    (vertex++)->P() = Point3m(x, y, z);
+    (vertex++)->P() = Point3m(-x, y, z);
+  }
+  vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
+}
+
+std::string state(const MeshDocument& document) {
+  std::ostringstream text;
+  text.precision(17);
+  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it) {
+    text << it->label().toStdString() << it->dataMask() << " " << it->cm.vert_attr.size() << "\n";
+    for (const CVertexO& v : it->cm.vert)
+      text << v.IsD() << v.cQ() << int(v.cC()[0]) << v.cP()[0] << v.cP()[1] << v.cP()[2] << "\n";
+  }
+  return text.str();
+}
+
+class Run {
+ public:
+  Run(FilterPlugin& plugin, QAction* action) : plugin_(plugin), action_(action) {}
+
+  std::string name() const { return plugin_.pythonFilterName(action_).toStdString(); }
+
+  // The message of the MLException, empty when there was none. Anything else ends the program, as
+  // it would end MeshLab.
+  std::string operator()(MeshDocument& document, vcg::CallBackPos* progress = nullptr) {
+    unsigned int mask = 0;
+    try {
+      values_ = plugin_.applyFilter(action_, plugin_.initParameterList(action_, document), document,
+                                    mask, progress);
+    } catch (const MLException& error) {
+      return error.what();
+    }
+    expect(mask == static_cast<unsigned int>(plugin_.postCondition(action_)), name() + ": mask");
+    return "";
+  }
+
+  const std::map<std::string, QVariant>& values() const { return values_; }
+
+ private:
+  FilterPlugin& plugin_;
+  QAction* action_;
+  std::map<std::string, QVariant> values_;
+};
+
+void cancels_at_every_report(Run& run) {
+  int reports = 1;
+  for (int last = 0; last < reports; ++last) {
+    MeshDocument document;
+    add_lump(document, 600);
+    const std::string before = state(document);
+    int seen = 0;
+    bool stopped = false;
+    on_progress = [&](int percent) {
+      expect(percent >= 0 && percent <= 100, run.name() + ": percent");
+      expect(!stopped, run.name() + ": reports after it was told to stop");
+      stopped = seen++ == last;
+      return !stopped;
+    };
+    const std::string message = run(document, callback);
+    reports = std::min(seen + 1, 6);
+    if (!stopped) return;
+    expect(message.find("cancelled") != std::string::npos, run.name() + ": '" + message + "'");
+    expect(state(document) == before, run.name() + ": cancelled, yet the document changed");
+  }
+}
+
+void survives_a_throwing_callback(Run& run) {
+  MeshDocument document;
+  add_lump(document, 600);
+  const std::string before = state(document);
+  on_progress = [](int) -> bool { throw std::runtime_error("the host's own trouble"); };
+  const std::string message = run(document, callback);
+  expect(message.find("the host's own trouble") != std::string::npos, run.name() + ": " + message);
+  on_progress = [](int) -> bool { throw 42; };
+  expect(!run(document, callback).empty(), run.name() + ": a thrown number passed unseen");
+  expect(state(document) == before, run.name() + ": failed, yet the document changed");
+}
+
+void refuses_what_is_not_there(Run& run) {
+  MeshDocument document;
+  expect(!run(document).empty(), run.name() + ": no layer, no error");
+  expect(document.meshNumber() == 0, run.name() + ": a layer out of nothing");
+  add_lump(document, 100);
+  for (CVertexO& vertex : document.mm()->cm.vert)
+    Allocator::DeleteVertex(document.mm()->cm, vertex);
+  const std::string before = state(document);
+  const std::string message = run(document);
+  expect(message.find("no vertices") != std::string::npos, run.name() + ": " + message);
+  expect(state(document) == before, run.name() + ": refused, yet the document changed");
+}
+
+// Deleted vertices count for nothing, and partners are numbered by vertex.
+void skips_deleted_vertices(Run& run) {
+  MeshDocument whole, holes;
+  add_lump(whole, 500);
+  add_lump(holes, 1000);
+  CMeshO& full = whole.mm()->cm;
+  CMeshO& mesh = holes.mm()->cm;
+  for (int i = 0; i < 1000; ++i) {
+    if (i % 2 == 0)
+      mesh.vert[i].P() = full.vert[i / 2].P();
+    else
+      Allocator::DeleteVertex(mesh, mesh.vert[i]);
+  }
+  vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
+  expect(run(whole).empty() && run(holes).empty(), run.name() + ": does not run");
+  auto partner = Allocator::GetPerVertexAttribute<Scalarm>(full, "partner");
+  auto sparse = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
+  for (int i = 0; i < 500; ++i) {
+    expect(full.vert[i].Q() == mesh.vert[2 * i].Q(), run.name() + ": quality");
+    expect(sparse[2 * i] == (partner[i] < 0 ? -1 : 2 * partner[i]), run.name() + ": partner");
+  }
+}
+
+void print_mirror(Run& run) {
+  MeshDocument document;
+  add_lump(document, 500);
+  expect(run(document).empty(), run.name() + ": does not run");
+  for (const auto& [name, value] : run.values()) {
+    std::cout << run.name() << " " << name;
+    if (value.canConvert<Matrix44m>())
+      for (int i = 0; i < 16; ++i) std::cout << " " << value.value<Matrix44m>()[i / 4][i % 4];
+    else if (value.canConvert<Point3m>())
+      for (int i = 0; i < 3; ++i) std::cout << " " << value.value<Point3m>()[i];
+    else
+      std::cout << " " << value.toDouble();
+    std::cout << "\n";
+  }
+}
+
+void offers_no_preview(FilterPlugin& plugin, QAction* action) {
+  const int layers = MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+  expect((plugin.postCondition(action) & layers) != 0, "a preview of a filter that adds layers");
+  expect(plugin.getClass(action) != FilterPlugin::Generic, "a filter of no class");
+  expect(action->parent() != nullptr, "an action without parent");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QCoreApplication application(argc, argv);
+  PluginManager& manager = meshlab::pluginManagerInstance();
+  manager.loadPlugin(argv[1]);
+  FilterPlugin* plugin = nullptr;
+  for (FilterPlugin* candidate : manager.filterPluginIterator()) plugin = candidate;
+  int filters = 0;
+  std::cout.precision(17);
+  for (QAction* action : plugin->actions()) {
+    offers_no_preview(*plugin, action);
+    Run run(*plugin, action);
+    if (run.name().rfind("compute_mirror_", 0) != 0) continue;
+    ++filters;
+    cancels_at_every_report(run);
+    survives_a_throwing_callback(run);
+    refuses_what_is_not_there(run);
+    skips_deleted_vertices(run);
+    print_mirror(run);
+  }
+  expect(filters > 0, "the plugin has filters");
+  std::cout << filters << " filters, " << failures << " failures" << std::endl;
+  std::_Exit(failures == 0 ? 0 : 1);
+}

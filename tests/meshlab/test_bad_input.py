@@ -1,0 +1,132 @@
+"""Every failure is a sentence; the host lives on and the document is as it was."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from shapes import cloud, mesh
+
+symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
+
+
+# An unknown choice pymeshlab itself refuses.
+REFUSALS = (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException)
+
+
+def state(mesh_set: pymeshlab.MeshSet) -> list:
+    return [
+        (
+            m.label(),
+            m.vertex_matrix().tobytes(),
+            m.face_matrix().tobytes(),
+            m.vertex_scalar_array().tobytes(),
+            m.vertex_color_matrix().tobytes(),
+            m.has_vertex_scalar(),
+            m.has_vertex_color(),
+        )
+        for m in mesh_set
+    ]
+
+
+def assert_refused(mesh_set: pymeshlab.MeshSet, filter_name: str, sentence: str, **parameters):
+    before = state(mesh_set)
+    with pytest.raises(REFUSALS, match=sentence):
+        mesh_set.apply_filter(filter_name, **parameters)
+    assert state(mesh_set) == before
+    if len(mesh_set) > 0:
+        for attribute in ("partner", "side"):
+            with pytest.raises(pymeshlab.PyMeshLabException):
+                mesh_set.current_mesh().vertex_custom_scalar_attribute_array(attribute)
+    assert cloud(9).mesh_set().apply_filter("compute_mirror_plane")["pairs"] > 0
+
+
+def layer(points) -> pymeshlab.MeshSet:
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(vertex_matrix=np.asarray(points, float)), "layer")
+    return mesh_set
+
+
+def with_number(value: float) -> np.ndarray:
+    points = cloud().points.copy()
+    points[17, 1] = value
+    return points
+
+
+LAYERS = {
+    "one vertex": ([[1, 2, 3]], "1 points given; at least"),
+    "not a number": (with_number(np.nan), "point 17 is .*nan.*; coordinates must be finite"),
+    "infinity": (with_number(-np.inf), "point 17 is .*inf.*; coordinates must be finite"),
+    "all equal": (np.ones((100, 3)), "all 100 points are equal"),
+    "on a line": (np.outer(np.arange(100), (1, 2, 3)), "all 100 points lie on one line"),
+}
+
+
+@pytest.mark.parametrize("what", LAYERS)
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_layers_that_cannot_be_used(method, what):
+    points, sentence = LAYERS[what]
+    assert_refused(layer(points), "compute_mirror_" + method, sentence)
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_no_layer(method):
+    assert_refused(pymeshlab.MeshSet(), "compute_mirror_" + method, "requires at least one mesh")
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_all_vertices_removed(method):
+    mesh_set = mesh().mesh_set()
+    mesh_set.apply_filter("set_selection_all")
+    mesh_set.apply_filter("meshing_remove_selected_vertices")
+    assert_refused(mesh_set, "compute_mirror_" + method, "'shape' has no vertices")
+
+
+def numbers_out_of_range():
+    for method in symsurf.methods().values():
+        for p in method.parameters:
+            if p.type not in ("integer", "real"):
+                continue
+            for value in (p.minimum - 1, p.maximum + 1):
+                if math.isfinite(value) and abs(value) < 2**31:
+                    yield pytest.param(method.name, p, value, id=f"{method.name}-{p.name}-{value}")
+
+
+@pytest.mark.parametrize(("method", "p", "value"), numbers_out_of_range())
+def test_numbers_out_of_range(method, p, value):
+    shape = cloud()
+    if p.type == "integer":
+        value = int(value)
+    elif p.unit == "diagonal":
+        value = pymeshlab.PureValue(value * shape.diagonal)
+    sentence = f"{p.name} is .*; allowed is {p.type} "
+    assert_refused(shape.mesh_set(), "compute_mirror_" + method, sentence, **{p.name: value})
+
+
+def choices():
+    for method in symsurf.methods().values():
+        yield from ((method.name, p.name) for p in method.parameters if p.type == "choice")
+
+
+@pytest.mark.parametrize(("method", "name"), choices())
+def test_unknown_choice(method, name):
+    filter_name = "compute_mirror_" + method
+    assert_refused(cloud().mesh_set(), filter_name, "not-there", **{name: "not-there"})
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_common_parameters(method):
+    filter_name = "compute_mirror_" + method
+    for name in ("seed", "threads"):
+        sentence = f"{name} is -1; allowed is integer"
+        assert_refused(cloud().mesh_set(), filter_name, sentence, **{name: -1})
+    assert_refused(cloud().mesh_set(), filter_name, "nothing selected", only_selected=True)
+    assert_refused(cloud().mesh_set(), filter_name, "are all zero", use_normals=True)
+
+
+def test_unknown_mirror_layer():
+    mesh_set = cloud().mesh_set()
+    assert_refused(mesh_set, "apply_mirror_reflection", "no layer 7", mirror_layer=7)

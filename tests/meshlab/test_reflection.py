@@ -1,0 +1,78 @@
+"""apply_mirror_reflection against the mirror that was found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from shapes import SHAPES, cloud, mesh
+
+symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
+
+
+@pytest.mark.parametrize("kind", SHAPES)
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_the_layer_is_mirrored_over_the_mirror_found(method, kind):
+    shape = SHAPES[kind](0)
+    mirror = symsurf.detect(shape.points, method).mirror
+    mesh_set = shape.mesh_set()
+    mesh_set.apply_filter("compute_mirror_" + method)
+    if mirror is None:
+        with pytest.raises(pymeshlab.PyMeshLabException, match="holds no mirror"):
+            mesh_set.apply_filter("apply_mirror_reflection")
+        return
+    returned = mesh_set.apply_filter("apply_mirror_reflection")
+    images = mirror.reflect(shape.points)
+    has_image = np.isfinite(images).all(axis=1)
+    reflection = mesh_set[returned["reflection_layer"]]
+    assert reflection.label() == "Reflection"
+    assert returned["vertices"] == has_image.sum()
+    atol = 1e-12 * shape.diagonal
+    assert np.allclose(reflection.vertex_matrix(), images[has_image], rtol=0, atol=atol)
+    if shape.faces is not None:
+        assert reflection.face_number() == has_image[shape.faces].all(axis=1).sum()
+
+
+def test_reflecting_turns_faces_round():
+    shape = mesh(1)
+    mesh_set = shape.mesh_set()
+    mesh_set.apply_filter("compute_mirror_plane")
+    mesh_set.apply_filter("apply_mirror_reflection")
+    before = mesh_set.apply_filter("get_geometric_measures")["mesh_volume"]
+    mesh_set.set_current_mesh(len(mesh_set) - 1)
+    after = mesh_set.apply_filter("get_geometric_measures")["mesh_volume"]
+    assert after == pytest.approx(before, rel=1e-9) and before != 0
+
+
+def test_reflecting_twice_gives_the_layer_back():
+    shape = cloud(2)
+    mesh_set = shape.mesh_set()
+    mirror = mesh_set.apply_filter("compute_mirror_plane")["mirror_layer"]
+    once = mesh_set.apply_filter("apply_mirror_reflection")["reflection_layer"]
+    mesh_set.set_current_mesh(once)
+    twice = mesh_set.apply_filter("apply_mirror_reflection", mirror_layer=mirror)
+    points = mesh_set[twice["reflection_layer"]].vertex_matrix()
+    assert np.allclose(points, shape.points, rtol=0, atol=1e-12 * shape.diagonal)
+
+
+def test_another_layer_is_mirrored_where_it_is_shown():
+    shape, other = cloud(3), cloud(4)
+    mesh_set = shape.mesh_set()
+    mirror = symsurf.detect(shape.points, "plane").mirror
+    mesh_set.apply_filter("compute_mirror_plane")
+    mesh_set.add_mesh(pymeshlab.Mesh(vertex_matrix=other.points), "other")
+    matrix = np.eye(4)
+    matrix[:3, 3] = 4, 5, 6
+    mesh_set.apply_filter("set_matrix", transformmatrix=matrix, freeze=False)
+    reflection = mesh_set[mesh_set.apply_filter("apply_mirror_reflection")["reflection_layer"]]
+    images = mirror.reflect(other.points + (4, 5, 6))
+    assert np.array_equal(reflection.transform_matrix(), np.eye(4))
+    assert np.allclose(reflection.vertex_matrix(), images, rtol=0, atol=1e-12 * shape.diagonal)
+
+
+def test_a_layer_without_mirror_is_refused():
+    mesh_set = cloud(5).mesh_set()
+    with pytest.raises(pymeshlab.PyMeshLabException, match="'shape' holds no mirror"):
+        mesh_set.apply_filter("apply_mirror_reflection")
+    assert len(mesh_set) == 1
