@@ -1,5 +1,6 @@
-# make setup | demo | paraview | test | bench: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo paraview test bench
+# make setup | demo | paraview | meshlab | meshlab-gui | test | bench: each sets up what it needs
+# first, and only what is missing.
+.PHONY: setup demo paraview meshlab meshlab-gui test bench
 
 setup:
 	@.ci/setup python tests
@@ -21,3 +22,12 @@ test:
 bench:
 	@.ci/setup benchmarks
 	@cmake --build build/benchmarks --target bench
+
+meshlab:
+	@.ci/setup meshlab
+	@meshlab_plugin/where_to_put_it.sh
+
+# Sees the plugin in MeshLab's own window, which it builds; leaves build/meshlab-gui/pictures.
+meshlab-gui:
+	@.ci/setup meshlab_gui tests
+	@build/venv/bin/python -m pytest tests/meshlab
