@@ -8,11 +8,13 @@ const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       auto_method(),
       plane_method(),
+      sphere_method(),
       fixed_direction_method(),
+      perpendicular_method(),
       separation_method(),
       separation_normals_method(),
       normals_only_method(),
-      perpendicular_method(),
+      sphere_thesis_method(),
   };
   return list;
 }

@@ -7,11 +7,13 @@
 namespace symsurf {
 
 Method auto_method();
-Method perpendicular_method();
 Method plane_method();
+Method sphere_method();
+Method fixed_direction_method();
+Method perpendicular_method();
 Method separation_method();
 Method separation_normals_method();
 Method normals_only_method();
-Method fixed_direction_method();
+Method sphere_thesis_method();
 
 }  // namespace symsurf

@@ -38,45 +38,50 @@ SymmetryMeasure::SymmetryMeasure(const Points& points) {
   for (Index i = 0; i < points.rows(); ++i) sorted_.row(next[linear(cell(i))]++) = points.row(i);
 }
 
+double SymmetryMeasure::similarity(const Vector3& image, Vector3& pull) const {
+  const double inverse_support = 1 / support_;
+  pull.setZero();
+  const Vector3 at = (image - origin_) * inverse_support;
+  if (!((at.array() > -1).all() && (at.array() < size_.cast<double>().array() + 1).all())) return 0;
+  const Eigen::Vector3i centre = at.array().floor().cast<int>();
+  const Eigen::Vector3i from = (centre.array() - 1).max(0);
+  const Eigen::Vector3i to = (centre.array() + 1).min(size_.array() - 1);
+  if (from.z() > to.z()) return 0;
+  double sum = 0;
+  for (int cx = from.x(); cx <= to.x(); ++cx)
+    for (int cy = from.y(); cy <= to.y(); ++cy) {
+      const Index row = (static_cast<Index>(cx) * size_.y() + cy) * size_.z();
+      for (std::int32_t j = start_[row + from.z()]; j < start_[row + to.z() + 1]; ++j) {
+        const Vector3 chord = image - sorted_.row(j).transpose();
+        const double uu = chord.squaredNorm() * inverse_support * inverse_support;
+        if (uu >= 1) continue;
+        const double u = std::sqrt(uu);
+        sum += wendland(u);
+        pull += wendland_slope(u) * chord;
+      }
+    }
+  pull *= inverse_support * inverse_support;
+  return sum;
+}
+
 double SymmetryMeasure::operator()(const Eigen::Vector4d& p, Eigen::Vector4d* gradient) const {
   const Vector3 n = p.head<3>();
   const double nn = n.squaredNorm();
-  const double inverse_support = 1 / support_;
   double sum = 0;
   Vector3 by_normal = Vector3::Zero();
   double by_offset = 0;
-  for (Index i = 0; i < sorted_.rows(); ++i) {
-    const Vector3 x = sorted_.row(i).transpose();
+  for (Index i = 0; i < size(); ++i) {
+    const Vector3 x = point(i);
     const double l = n.dot(x) + p[3];
-    const Vector3 image = x - 2 * l / nn * n;
-    const Vector3 at = (image - origin_) * inverse_support;
-    if (!((at.array() > -1).all() && (at.array() < size_.cast<double>().array() + 1).all()))
-      continue;
-    const Eigen::Vector3i centre = at.array().floor().cast<int>();
-    const Eigen::Vector3i from = (centre.array() - 1).max(0);
-    const Eigen::Vector3i to = (centre.array() + 1).min(size_.array() - 1);
-    Vector3 pull = Vector3::Zero();
-    for (int cx = from.x(); cx <= to.x(); ++cx)
-      for (int cy = from.y(); cy <= to.y(); ++cy) {
-        const Index row = (static_cast<Index>(cx) * size_.y() + cy) * size_.z();
-        if (from.z() > to.z()) continue;
-        for (std::int32_t j = start_[row + from.z()]; j < start_[row + to.z() + 1]; ++j) {
-          const Vector3 chord = image - sorted_.row(j).transpose();
-          const double uu = chord.squaredNorm() * inverse_support * inverse_support;
-          if (uu >= 1) continue;
-          const double u = std::sqrt(uu);
-          sum += wendland(u);
-          pull += wendland_slope(u) * chord;
-        }
-      }
+    Vector3 pull;
+    sum += similarity(x - 2 * l / nn * n, pull);
     const double along = n.dot(pull);
     by_offset += along;
     by_normal += along * x - 2 * l * along / nn * n + l * pull;
   }
   if (gradient) {
-    const double scale = -2 / nn * inverse_support * inverse_support;
-    gradient->head<3>() = scale * by_normal;
-    (*gradient)[3] = scale * by_offset;
+    gradient->head<3>() = -2 / nn * by_normal;
+    (*gradient)[3] = -2 / nn * by_offset;
   }
   return sum;
 }

@@ -20,6 +20,13 @@ class SymmetryMeasure {
 
   double alpha() const { return alpha_; }
 
+  /// The points, in an order of their own.
+  Index size() const { return sorted_.rows(); }
+  Vector3 point(Index i) const { return sorted_.row(i); }
+
+  /// Sum over all points x_j of phi(|image - x_j|), and its gradient by the image.
+  double similarity(const Vector3& image, Vector3& pull) const;
+
  private:
   double alpha_;
   double support_;

@@ -1,0 +1,136 @@
+#include <symsurf/sphere.h>
+
+#include <algorithm>
+
+#include "../matching.h"
+#include "../plane/maximise.h"
+#include "../sphere/sphere_candidates.h"
+#include "../sphere/sphere_measure.h"
+#include "../sphere/sphere_refinement.h"
+#include "methods.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index started = 48;         // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;    // of these, have their measure maximised
+constexpr std::size_t finalists = 8;  // of these, are fitted to the full cloud
+constexpr std::size_t polished = 3;   // and of these, to ever more of it
+constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
+constexpr double alike = 0.04;        // spheres closer than this are one
+constexpr Index measured = 500;       // surfels that the measure is taken over
+constexpr double largest = 3;         // radius, in diagonals
+
+Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
+  return {frame.leave(sphere.centre), frame.size * sphere.radius};
+}
+
+void drop_hopeless(std::vector<SphereCandidate>& candidates) {
+  const double least = hopeless * candidates.front().explained;
+  std::erase_if(candidates, [&](const SphereCandidate& c) { return c.explained < least; });
+}
+
+// Spheres so large that the cloud hardly tells them from planes; where there is nothing else, the
+// best of them stays.
+void drop_planes(std::vector<SphereCandidate>& candidates) {
+  const auto is_plane = [](const SphereCandidate& c) { return c.sphere.radius > largest; };
+  if (!std::all_of(candidates.begin(), candidates.end(), is_plane))
+    std::erase_if(candidates, is_plane);
+}
+
+// From each of the best candidates to the maximum next to it of Hruda's measure, where that
+// explains more.
+void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
+  const Index stride = std::max<Index>(1, surfels.size() / measured);
+  Points positions((surfels.size() + stride - 1) / stride, 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) = surfels[i * stride].position.transpose();
+  const SphereMeasure measure(positions);
+  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
+    Eigen::Vector4d s;
+    s << candidates[i].sphere.centre, candidates[i].sphere.radius;
+    s = maximise<4>(measure, s, 0.02, 8);
+    const UnitSphere sphere{s.head<3>(), s[3]};
+    const double explained = explained_share(surfels, map, sphere, 0.02, 3);
+    if (explained > candidates[i].explained) candidates[i] = {sphere, explained};
+  }
+}
+
+// On the thinned cloud alone.
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, std::uint64_t seed) {
+  const SurfelMap map(surfels);
+  std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started);
+  if (candidates.empty()) candidates.push_back({});
+  for (SphereCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  drop_planes(candidates);
+  keep_distinct(surfels, candidates, alike, started);
+  climb(surfels, map, candidates);
+  drop_hopeless(candidates);
+  for (SphereCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(surfels, candidates, alike, 2 * finalists);
+  return candidates;
+}
+
+Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
+  std::vector<SphereCandidate> candidates = promising_spheres(surfels, cloud.seed);
+  context.report(0.4);
+
+  const PointTree tree(cloud.points, context.stage(0.4, 0.5));
+  const SphereRefinement refinement(cloud, tree, surfels);
+  for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
+  keep_distinct(surfels, candidates, alike, finalists);
+  for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
+  keep_distinct(surfels, candidates, alike, finalists);
+  for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i)
+    candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 4));
+  drop_planes(candidates);
+  keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
+  context.report(0.7);
+
+  const double whole = refinement.self_explained();
+  std::vector<Result> found;
+  for (const SphereCandidate& candidate : candidates) {
+    Result& result = found.emplace_back();
+    result.method = "sphere";
+    result.mirror = std::make_shared<Sphere>(in_input_units(candidate.sphere, cloud.frame));
+    result.score = whole > 0 ? std::min(1.0, candidate.explained / whole) : 0;
+    result.statistics = {{"explained_share", candidate.explained}};
+  }
+  Result best = std::move(found.front());
+  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
+                         std::make_move_iterator(found.end()));
+  add_pairs(best, cloud.points, tree, *best.mirror, values.real("pair_distance") * cloud.diagonal,
+            context.stage(0.7, 1));
+  best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
+  return best;
+}
+
+}  // namespace
+
+Method sphere_method() {
+  Method method;
+  method.name = "sphere";
+  method.title = "Mirror sphere";
+  method.summary =
+      "Finds the sphere that mirrors the shape best, of any radius: candidates from pairs of "
+      "points, Hruda's measure over all pairs, refined on the full cloud.";
+  method.parameters = {
+      Parameter::integer("sample_size", 700, 100, 100000, "points",
+                         "Patches of the cloud that the search for the sphere works on."),
+      Parameter::integer("max_candidates", 5, 0, 7, "",
+                         "Other spheres to report at the most, best first."),
+      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
+                      "A point whose image has no point of the cloud nearer than this has no "
+                      "partner."),
+  };
+  method.minimum_points = 5;
+  method.automatic = true;
+  method.run = run_sphere;
+  return method;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+#include <symsurf/damage.h>
+#include <symsurf/detect.h>
+#include <symsurf/errors.h>
+#include <symsurf/metrics.h>
+#include <symsurf/synthetic.h>
+
+#include <cmath>
+
+#include "expect_error.h"
+#include "random_cloud.h"
+#include "sphere/sphere_measure.h"
+#include "thesis/nearest_cells.h"
+#include "thesis/nelder_mead.h"
+
+namespace symsurf {
+namespace {
+
+struct Trial {
+  Points points;
+  Sphere truth;
+};
+
+// A graph or a bumpy blob, mirrored over a sphere through its middle, turned at random.
+Trial trial(std::uint64_t seed) {
+  RandomCloud random(seed);
+  constexpr Index n = 1500;
+  Points cloud(n, 3);
+  const double bumps = random.uniform(2, 4), phase = random.uniform(0, 6);
+  for (Index i = 0; i < n; ++i) {
+    if (seed % 2) {
+      const double x = random.uniform(-2, 2), y = random.uniform(-2, 2);
+      cloud.row(i) << x, y, std::sin(x + phase) * std::cos(0.7 * y) + 0.2 * x * y;
+    } else {
+      const Vector3 u = random.direction();
+      cloud.row(i) = (1 + 0.25 * std::sin(bumps * u.x() + phase) + 0.2 * u.y() * u.z()) *
+                     Vector3(1.3 * u.x(), u.y(), 0.8 * u.z()).transpose();
+    }
+  }
+  const double diagonal = (cloud.colwise().maxCoeff() - cloud.colwise().minCoeff()).norm();
+  const Vector3 middle = cloud.colwise().mean();
+  const double radius = random.uniform(0.5, 1) * diagonal;
+  const Sphere sphere(middle + 0.8 * radius * random.direction(), radius);
+  const Sample sample = mirror_spherical(cloud, sphere);
+  const Matrix3 rotation = random.rotation();
+  const auto turned = sphere.transformed(1, rotation, Vector3(5, 6, 7));
+  return {(sample.points * rotation.transpose()).rowwise() + Eigen::RowVector3d(5, 6, 7),
+          dynamic_cast<const Sphere&>(*turned)};
+}
+
+SphereErrors found_errors(const Points& points, const Sphere& truth) {
+  Options options;
+  options.method = "sphere";
+  const Result result = detect(points, options);
+  return sphere_errors(dynamic_cast<const Sphere&>(*result.mirror), truth, points);
+}
+
+TEST(SphereMethod, FindsCleanSpheresToRounding) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Trial t = trial(seed);
+    const SphereErrors errors = found_errors(t.points, t.truth);
+    EXPECT_LE(errors.e_c, 1e-6);
+    EXPECT_LE(errors.e_r, 1e-6);
+  }
+}
+
+TEST(SphereMethod, FindsSpheresThroughOnePercentNoise) {
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 2 * seeds; ++seed) {
+    const Trial t = trial(seed);
+    const double diagonal = (t.points.colwise().maxCoeff() - t.points.colwise().minCoeff()).norm();
+    found += found_errors(add_noise(t.points, 0, 0.01 * diagonal, {}, seed), t.truth).e_c <= 1e-2;
+  }
+  EXPECT_GE(found, 15);  // of 16: nine tenths
+}
+
+TEST(SphereMeasure, HasTheGradientItSays) {
+  RandomCloud random(1);
+  const SphereMeasure measure(random.box(200));
+  for (int k = 0; k < 10; ++k) {
+    Eigen::Vector4d s;
+    s << random.in_box(), random.uniform(1, 3);
+    Eigen::Vector4d gradient;
+    measure(s, &gradient);
+    for (int i = 0; i < 4; ++i) {
+      constexpr double h = 1e-6;
+      const Eigen::Vector4d d = h * Eigen::Vector4d::Unit(i);
+      const double numeric = (measure(s + d) - measure(s - d)) / (2 * h);
+      EXPECT_NEAR(gradient[i], numeric, 1e-4 * (1 + std::abs(numeric)));
+    }
+  }
+}
+
+TEST(NearestCells, MatchBruteForceWithinReach) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = random.box(80);
+    constexpr double reach = 0.3;
+    const NearestCells cells(points, reach);
+    for (int k = 0; k < 500; ++k) {
+      const Vector3 x = 1.5 * random.in_box();
+      const double nearest = (points.rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff();
+      if (nearest >= reach * reach) continue;
+      EXPECT_DOUBLE_EQ(cells.squared(x), nearest);
+    }
+  }
+}
+
+TEST(NelderMead, ClimbsToTheMaximum) {
+  const Eigen::Vector4d top(1, -2, 3, 0.5), weights(1, 4, 0.5, 2);
+  const auto hill = [&](const Eigen::Vector4d& x) { return -(x - top).cwiseAbs2().dot(weights); };
+  int evaluations = 2000;
+  const Eigen::Vector4d start = Eigen::Vector4d::Zero();
+  const Eigen::Vector4d found = nelder_mead<4>(hill, start, 0.1, 1e-10, evaluations);
+  EXPECT_NEAR((found - top).norm(), 0, 1e-7);
+  EXPECT_LT(evaluations, 2000);
+}
+
+TEST(SphereThesis, RefusesRadiiOutOfOrder) {
+  Options options;
+  options.method = "sphere_thesis";
+  options.parameters = {{"min_radius_divisor", 3.0}, {"max_radius_divisor", 5.0}};
+  expect_error<InvalidParameter>("min_radius_divisor is 3",
+                                 [&] { detect(trial(1).points, options); });
+}
+
+}  // namespace
+}  // namespace symsurf
