@@ -4,6 +4,7 @@
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
+#include <symsurf/surface_mirror.h>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -76,6 +77,15 @@ const std::array kinds{
          [](const Values& v) -> std::shared_ptr<Mirror> {
            return std::make_shared<HeightField>(number<Vector3>(v, "direction"),
                                                 Points(number<Eigen::MatrixXd>(v, "nodes")));
+         }},
+    Kind{"surface",
+         [](const Values& v) -> std::shared_ptr<Mirror> {
+           const auto mapping = number<std::string>(v, "mapping") == "fixed"
+                                    ? Mapping::Fixed
+                                    : Mapping::Perpendicular;
+           return std::make_shared<SurfaceMirror>(
+               surface(number<std::string>(v, "surface")), mapping, number<double>(v, "scale"),
+               Matrix3(table(v, "rotation", 3, 3)), number<Vector3>(v, "translation"));
          }},
 };
 

@@ -14,5 +14,7 @@ void bind_mirrors(py::module_& module);
 void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
 void bind_reading(py::module_& module);
+void bind_synthesis(py::module_& module);
+void bind_metrics(py::module_& module);
 
 }  // namespace symsurf::python

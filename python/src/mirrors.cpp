@@ -4,6 +4,7 @@
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
+#include <symsurf/surface_mirror.h>
 
 #include <memory>
 #include <optional>
@@ -153,6 +154,16 @@ void bind_mirrors(py::module_& module) {
        {"normals", "(k, 3), the third axes of the frames."},
        {"heights", "(k, 6), the coefficients of the patches."},
        {"radii", "(k, 1), how far the patches reach."}});
+
+  bind_kind<SurfaceMirror>(
+      module, "SurfaceMirror",
+      "A known surface z = f(x, y), placed by x -> scale * rotation @ x + translation: the truth\n"
+      "of generated samples.",
+      {{"surface", "'f1' to 'f6'."},
+       {"mapping", "'fixed' (along the surface's z axis) or 'perpendicular'."},
+       {"scale", "Input units a unit of the surface's frame."},
+       {"rotation", "(3, 3)."},
+       {"translation", "(3,), in input units."}});
 }
 
 }  // namespace symsurf::python

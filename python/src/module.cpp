@@ -10,4 +10,6 @@ PYBIND11_MODULE(_core, module) {
   bind_detection(module);
   bind_sampling(module);
   bind_reading(module);
+  bind_synthesis(module);
+  bind_metrics(module);
 }

@@ -6,7 +6,7 @@
 >>> result.mirror, result.score
 """
 
-from . import detectors
+from . import detectors, metrics, synthetic
 from ._core import (
     Cancelled,
     FreeForm,
@@ -18,6 +18,7 @@ from ._core import (
     Parameter,
     Plane,
     Sphere,
+    SurfaceMirror,
     __version__,
     make_mirror,
     methods,
@@ -41,6 +42,7 @@ __all__ = [
     "Result",
     "Shape",
     "Sphere",
+    "SurfaceMirror",
     "__version__",
     "detect",
     "downsample",
@@ -48,6 +50,8 @@ __all__ = [
     "make_mirror",
     "match",
     "methods",
+    "metrics",
     "read",
+    "synthetic",
 ]
 __all__ += detectors.__all__

@@ -13,6 +13,10 @@ enum class Mapping { Fixed, Perpendicular };
 class SurfaceMirror final : public Mirror {
  public:
   SurfaceMirror(const Surface& surface, Mapping mapping);
+  /// Placed: x -> scale * rotation * x + translation from its own frame.
+  /// Throws InvalidInput unless scale > 0 and rotation is orthonormal.
+  SurfaceMirror(const Surface& surface, Mapping mapping, double scale, const Matrix3& rotation,
+                const Vector3& translation);
 
   const Surface& surface() const { return surface_; }
   Mapping mapping() const { return mapping_; }
@@ -30,11 +34,10 @@ class SurfaceMirror final : public Mirror {
   /// Input units a unit of that frame.
   double scale() const { return scale_; }
 
-  /// "height field" or "free-form".
-  std::string_view kind() const override;
+  std::string_view kind() const override { return "surface"; }
   Vector3 foot(const Vector3& x) const override;
   double signed_distance(const Vector3& x) const override;
-  /// "surface", "scale", "rotation" (3 x 3), "translation", and the "direction" of a fixed one.
+  /// "surface", "mapping", "scale", "rotation" (3 x 3) and "translation".
   Values numbers() const override;
   std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
                                       const Vector3& translation) const override;

@@ -40,8 +40,16 @@ Mesh without_holes(const Mesh& grid) {
 SurfaceMirror::SurfaceMirror(const Surface& surface, Mapping mapping)
     : surface_(symsurf::surface(surface.name)), mapping_(mapping) {}
 
-std::string_view SurfaceMirror::kind() const {
-  return mapping_ == Mapping::Fixed ? "height field" : "free-form";
+SurfaceMirror::SurfaceMirror(const Surface& surface, Mapping mapping, double scale,
+                             const Matrix3& rotation, const Vector3& translation)
+    : SurfaceMirror(surface, mapping) {
+  const Matrix3 product = rotation * rotation.transpose();
+  if (!(scale > 0) || !std::isfinite(scale) || !translation.allFinite() ||
+      !(product - Matrix3::Identity()).isZero(1e-9))
+    throw InvalidInput("a surface needs a scale above 0, a rotation and a finite translation");
+  scale_ = scale;
+  rotation_ = rotation;
+  translation_ = translation;
 }
 
 Vector3 SurfaceMirror::closest_in_frame(const Vector3& x) const {
@@ -64,12 +72,11 @@ double SurfaceMirror::signed_distance(const Vector3& x) const {
 }
 
 Values SurfaceMirror::numbers() const {
-  Values numbers{{"surface", surface_.name},
-                 {"scale", scale_},
-                 {"rotation", Eigen::MatrixXd(rotation_)},
-                 {"translation", translation_}};
-  if (mapping_ == Mapping::Fixed) numbers["direction"] = direction();
-  return numbers;
+  return {{"surface", surface_.name},
+          {"mapping", std::string(mapping_ == Mapping::Fixed ? "fixed" : "perpendicular")},
+          {"scale", scale_},
+          {"rotation", Eigen::MatrixXd(rotation_)},
+          {"translation", translation_}};
 }
 
 std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& rotation,
