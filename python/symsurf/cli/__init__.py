@@ -9,10 +9,17 @@ from collections.abc import Sequence
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter
-from . import demo, detect, methods
+from . import damage, demo, detect, evaluate, generate, methods
 from .values import attach_negative_numbers
 
-COMMANDS = {"detect": detect, "methods": methods, "demo": demo}
+COMMANDS = {
+    "detect": detect,
+    "generate": generate,
+    "damage": damage,
+    "evaluate": evaluate,
+    "methods": methods,
+    "demo": demo,
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

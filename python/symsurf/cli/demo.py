@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from ..demonstration import Finding, cases, find
+from . import demo_thesis
 
 SUMMARY = "Find the mirrors of two real meshes, whole and damaged; print a table, draw pictures"
 
@@ -14,6 +15,14 @@ ROW = "{:9} {:18} {:>7} {:>12} {:>13} {:>7} {:>9}"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "which",
+        nargs="?",
+        choices=("shapes", "thesis"),
+        default="shapes",
+        help="real meshes, or the thesis's tables beside its numbers; default %(default)s",
+    )
+    parser.add_argument("--no-pictures", action="store_true", help="print the table only")
     parser.add_argument(
         "--output",
         type=Path,
@@ -24,6 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.which == "thesis":
+        return demo_thesis.run(arguments)
     arguments.output.mkdir(parents=True, exist_ok=True)
     print(ROW.format(*HEADINGS))
     findings = []
@@ -31,6 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
         finding = find(case)
         findings.append(finding)
         print(_row(finding), flush=True)
+    if arguments.no_pictures:
+        return 0
     from .. import gallery
 
     for path in gallery.draw(findings, arguments.output):

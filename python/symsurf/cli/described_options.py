@@ -1,0 +1,49 @@
+"""The options of generators and of kinds of damage, made from their descriptions."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from .._core import Damage, Generator
+from ..descriptions import allowed
+from .values import shown, value_from
+
+Description = Generator | Damage
+
+
+def add_kinds(
+    parser: argparse.ArgumentParser,
+    kinds: Mapping[str, Description],
+    add_more: Callable[[argparse.ArgumentParser, Any], None],
+) -> None:
+    """A sub-command for each kind, with one option for each of its parameters."""
+    commands = parser.add_subparsers(required=True, metavar="KIND")
+    for name, kind in kinds.items():
+        sub = commands.add_parser(
+            name, help=kind.title, description=kind.summary, allow_abbrev=False
+        )
+        add_more(sub, kind)
+        sub.set_defaults(kind=kind)
+        group = sub.add_argument_group("parameters")
+        for parameter in kind.parameters:
+            about = f"{parameter.doc} {allowed(parameter)}, default {shown(parameter.default)}"
+            vector = parameter.type in ("direction", "position")
+            group.add_argument(
+                *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
+                dest=f"value:{parameter.name}",
+                default=argparse.SUPPRESS,
+                metavar="X,Y,Z" if vector else "VALUE",
+                help=about.replace("%", "%%"),
+            )
+
+
+def given_values(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The parameters on the command line, in the types of their descriptions."""
+    given = vars(arguments)
+    return {
+        parameter.name: value_from(given[f"value:{parameter.name}"], parameter)
+        for parameter in arguments.kind.parameters
+        if f"value:{parameter.name}" in given
+    }

@@ -1,0 +1,38 @@
+"""symsurf generate: points with a known mirror."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from .. import _core
+from .._core import Generator
+from ..saving.points_format import require_points_suffix, write_points
+from ..shape import read
+from ..synthetic import Sample
+from ..truth import Truth, truth_path, write_truth
+from .described_options import add_kinds, given_values
+
+SUMMARY = "Make points with a known mirror, and a file with the truth beside them"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_kinds(parser, _core.generators(), _add_files)
+
+
+def _add_files(parser: argparse.ArgumentParser, kind: Generator) -> None:
+    if kind.mirrors_points:
+        parser.add_argument("--points", type=Path, metavar="FILE", help="the cloud to mirror")
+    parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    require_points_suffix(arguments.output)
+    given = getattr(arguments, "points", None)
+    points = None if given is None else read(given).points
+    sample = Sample(*_core.generate(arguments.kind.name, given_values(arguments), points))
+    write_points(arguments.output, sample.points)
+    write_truth(truth_path(arguments.output), Truth(sample.truth, sample.pairs))
+    skipped = f", {sample.skipped} skipped" if sample.skipped else ""
+    print(f"{arguments.output}: {len(sample.points)} points{skipped}")
+    return 0

@@ -1,0 +1,69 @@
+"""The truth of a generated sample in a file beside it: its mirror and its pairs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import InvalidInput, Mirror, make_mirror
+from .saving import write_whole
+from .saving.json_format import mirror_record
+
+
+class Truth(NamedTuple):
+    mirror: Mirror
+    pairs: NDArray[np.int64]
+    """(m, 2): the row of a point, the row of its image."""
+
+    def moved(self, rotation: NDArray[np.float64]) -> Truth:
+        """The truth of the points turned about the origin."""
+        return self._replace(mirror=_rotated(self.mirror, rotation))
+
+    def kept(self, rows: NDArray[np.int64], count: int) -> Truth:
+        """The truth of some rows of ``count`` points: the pairs that are still whole."""
+        renamed = np.full(count, -1)
+        renamed[rows] = np.arange(len(rows))
+        pairs = renamed[self.pairs]
+        return self._replace(pairs=pairs[(pairs >= 0).all(axis=1)])
+
+
+def truth_path(points: Path) -> Path:
+    """Where the truth of a file of points is kept: "a.xyz" has "a.truth.json"."""
+    return points.with_suffix(".truth.json")
+
+
+def write_truth(path: Path, truth: Truth) -> None:
+    record = {"mirror": mirror_record(truth.mirror), "pairs": truth.pairs.tolist()}
+    write_whole(path, (json.dumps(record) + "\n").encode())
+
+
+def read_truth(path: Path) -> Truth:
+    """Raises InvalidInput, naming the file, for one that is missing or broken."""
+    try:
+        record = json.loads(path.read_text())
+        numbers = {name: _value(value) for name, value in record["mirror"].items()}
+        kind = numbers.pop("kind")
+        pairs = np.array(record["pairs"], dtype=np.int64).reshape(-1, 2)
+        return Truth(make_mirror(kind, numbers), pairs)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InvalidInput(f"{path}: not the truth of a sample ({error})") from error
+
+
+def _value(value: object) -> object:
+    return np.array(value, dtype=float) if isinstance(value, list) else value
+
+
+def _rotated(mirror: Mirror, rotation: NDArray[np.float64]) -> Mirror:
+    numbers = dict(mirror.numbers)
+    if mirror.kind == "sphere":
+        numbers["centre"] = rotation @ numbers["centre"]
+    elif mirror.kind == "surface":
+        numbers["rotation"] = rotation @ numbers["rotation"]
+        numbers["translation"] = rotation @ numbers["translation"]
+    else:
+        raise InvalidInput(f"a truth of the kind {mirror.kind} cannot be turned")
+    return make_mirror(mirror.kind, numbers)
