@@ -79,7 +79,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   std::vector<SphereCandidate> candidates = promising_spheres(surfels, cloud.seed);
   context.report(0.4);
 
-  const PointTree tree(cloud.points, context.stage(0.4, 0.5));
+  PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const SphereRefinement refinement(cloud, tree, surfels);
   for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
   keep_distinct(surfels, candidates, alike, finalists);
@@ -103,8 +103,8 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   Result best = std::move(found.front());
   best.candidates.assign(std::make_move_iterator(found.begin() + 1),
                          std::make_move_iterator(found.end()));
-  add_pairs(best, cloud.points, tree, *best.mirror, values.real("pair_distance") * cloud.diagonal,
-            context.stage(0.7, 1));
+  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.7, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
   return best;
 }
@@ -128,7 +128,6 @@ Method sphere_method() {
                       "partner."),
   };
   method.minimum_points = 5;
-  method.automatic = true;
   method.run = run_sphere;
   return method;
 }

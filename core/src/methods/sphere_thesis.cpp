@@ -119,7 +119,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   const CandidateSpheres candidates(simplified, radii);
   const Start start = candidates.best(context.stage(0, 0.8));
 
-  const PointTree tree(cloud.points);
+  PointTree tree(cloud.points);
   const double reach = support(cloud.points);
   const Context silent({}, context.threads());
   const auto measure = [&](const Eigen::Vector4d& s) {
@@ -148,7 +148,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   result.mirror = std::make_shared<Sphere>(sphere.head<3>(), std::abs(sphere[3]));
   const double found = measure(sphere);
   result.score = found / static_cast<double>(cloud.points.size());
-  add_pairs(result, cloud.points, tree, *result.mirror,
+  add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.95, 1));
   result.statistics = {{"measure", found},
                        {"start_measure", start.measure},
