@@ -1,8 +1,10 @@
+#include <symsurf/cylinder.h>
 #include <symsurf/errors.h>
 #include <symsurf/free_form.h>
 #include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
+#include <symsurf/quadric.h>
 #include <symsurf/sphere.h>
 #include <symsurf/surface_mirror.h>
 
@@ -71,6 +73,17 @@ const std::array kinds{
          [](const Values& v) -> std::shared_ptr<Mirror> {
            return std::make_shared<Sphere>(number<Vector3>(v, "centre"),
                                            number<double>(v, "radius"));
+         }},
+    Kind{"cylinder",
+         [](const Values& v) -> std::shared_ptr<Mirror> {
+           return std::make_shared<Cylinder>(number<Vector3>(v, "point"),
+                                             number<Vector3>(v, "axis"),
+                                             number<double>(v, "radius"));
+         }},
+    Kind{"quadric",
+         [](const Values& v) -> std::shared_ptr<Mirror> {
+           return std::make_shared<Quadric>(table(v, "matrix", 3, 3), number<Vector3>(v, "linear"),
+                                            number<double>(v, "constant"));
          }},
     Kind{"free-form", free_form},
     Kind{"height field",

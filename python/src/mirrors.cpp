@@ -1,8 +1,12 @@
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <symsurf/bend.h>
+#include <symsurf/cylinder.h>
 #include <symsurf/free_form.h>
 #include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
 #include <symsurf/plane.h>
+#include <symsurf/quadric.h>
 #include <symsurf/sphere.h>
 #include <symsurf/surface_mirror.h>
 
@@ -164,6 +168,49 @@ void bind_mirrors(py::module_& module) {
        {"scale", "Input units a unit of the surface's frame."},
        {"rotation", "(3, 3)."},
        {"translation", "(3,), in input units."}});
+
+  bind_kind<Cylinder>(module, "Cylinder",
+                      "The circular cylinder of a radius about an axis. Points are mirrored along "
+                      "the radius; those\n"
+                      "on the axis and those farther than 2r from it have no image.",
+                      {{"point", "A point of the axis (3,)."},
+                       {"axis", "Unit direction (3,)."},
+                       {"radius", "In input units."}})
+      .def(py::init([](const VectorArgument& point, const VectorArgument& axis, double radius) {
+             return std::make_shared<Cylinder>(point.vector, axis.vector, radius);
+           }),
+           py::arg("point"), py::arg("axis"), py::arg("radius"));
+
+  bind_kind<Quadric>(module, "Quadric", "The quadric x' A x + b . x + c = 0.",
+                     {{"matrix", "A (3, 3)."}, {"linear", "b (3,)."}, {"constant", "c."}})
+      .def(py::init([](const Matrix3& matrix, const VectorArgument& linear, double constant) {
+             return std::make_shared<Quadric>(matrix, linear.vector, constant);
+           }),
+           py::arg("matrix"), py::arg("linear"), py::arg("constant"));
+
+  module.def(
+      "bend",
+      [](const PointsArgument& points, const Mirror& mirror, bool back) {
+        return owned_array(
+            bend(PointsView(points), mirror, back ? Bend::Restore : Bend::Straighten));
+      },
+      py::arg("points"), py::arg("mirror"), py::arg("back") = false,
+      "Points (n, 3) carried along while a curved mirror flattens into its plane, or, with\n"
+      "``back``, while the plane bends into the mirror.\n\n"
+      "Each point keeps its distance from the mirror and the coordinates of its foot. A cylinder\n"
+      "unrolls; other mirrors are laid out from the middle of their footprint, true to length\n"
+      "along the two lines through it. A shape that the mirror reflects onto itself comes out\n"
+      "symmetric about ``straight_mirror(mirror)``. A mirror made by hand is laid out over the\n"
+      "points' own feet. Rows without a foot are NaN. Raises InvalidInput when no point has one.");
+  module.def(
+      "straight_mirror",
+      [](const Mirror& mirror, const std::optional<PointsArgument>& points) {
+        return std::make_shared<Plane>(
+            straight_mirror(mirror, points ? PointsView(*points) : PointsView()));
+      },
+      py::arg("mirror"), py::arg("points") = py::none(),
+      "The Plane that ``bend`` flattens the mirror into.\n\n"
+      "points: (n, 3), for a mirror made by hand.");
 }
 
 }  // namespace symsurf::python

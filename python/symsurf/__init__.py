@@ -9,6 +9,7 @@
 from . import detectors, metrics, synthetic
 from ._core import (
     Cancelled,
+    Cylinder,
     FreeForm,
     HeightField,
     InvalidInput,
@@ -17,11 +18,14 @@ from ._core import (
     Mirror,
     Parameter,
     Plane,
+    Quadric,
     Sphere,
     SurfaceMirror,
     __version__,
+    bend,
     make_mirror,
     methods,
+    straight_mirror,
 )
 from .detection import detect, match
 from .detectors import *  # noqa: F403 (detect_<method>, one for each in methods())
@@ -31,6 +35,7 @@ from .shape import Shape, read
 
 __all__ = [
     "Cancelled",
+    "Cylinder",
     "FreeForm",
     "HeightField",
     "InvalidInput",
@@ -39,11 +44,13 @@ __all__ = [
     "Mirror",
     "Parameter",
     "Plane",
+    "Quadric",
     "Result",
     "Shape",
     "Sphere",
     "SurfaceMirror",
     "__version__",
+    "bend",
     "detect",
     "downsample",
     "estimate_normals",
@@ -52,6 +59,7 @@ __all__ = [
     "methods",
     "metrics",
     "read",
+    "straight_mirror",
     "synthetic",
 ]
 __all__ += detectors.__all__

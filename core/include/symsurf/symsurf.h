@@ -1,5 +1,7 @@
 #pragma once
 
+#include <symsurf/bend.h>
+#include <symsurf/cylinder.h>
 #include <symsurf/damage.h>
 #include <symsurf/detect.h>
 #include <symsurf/downsample.h>
@@ -12,6 +14,7 @@
 #include <symsurf/metrics.h>
 #include <symsurf/normals.h>
 #include <symsurf/plane.h>
+#include <symsurf/quadric.h>
 #include <symsurf/read.h>
 #include <symsurf/result.h>
 #include <symsurf/sphere.h>

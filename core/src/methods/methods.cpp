@@ -11,6 +11,8 @@ const std::vector<Method>& methods() {
       sphere_method(),
       fixed_direction_method(),
       perpendicular_method(),
+      cylinder_method(),
+      quadric_method(),
       separation_method(),
       separation_normals_method(),
       normals_only_method(),

@@ -11,6 +11,8 @@ Method plane_method();
 Method sphere_method();
 Method fixed_direction_method();
 Method perpendicular_method();
+Method cylinder_method();
+Method quadric_method();
 Method separation_method();
 Method separation_normals_method();
 Method normals_only_method();

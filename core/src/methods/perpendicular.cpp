@@ -1,6 +1,7 @@
 #include <symsurf/free_form.h>
 
 #include "../perpendicular/pairing.h"
+#include "../perpendicular/parametric_method.h"
 #include "../perpendicular/search.h"
 #include "methods.h"
 
@@ -50,15 +51,7 @@ Method perpendicular_method() {
   method.summary =
       "Finds a curved mirror of any shape that maps points along its normals, by growing a sheet "
       "of oriented midpoints.";
-  method.parameters = {
-      Parameter::integer("sample_size", 2500, 200, 20000, "points",
-                         "Points that the search works on; larger clouds are thinned to it."),
-      Parameter::integer("max_candidates", 10, 0, 1000, "",
-                         "Other mirrors to report at the most, best first."),
-      Parameter::real("pair_distance", 0.02, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
-  };
+  method.parameters = perpendicular::search_parameters();
   method.minimum_points = 12;
   method.automatic = true;
   method.run = run_perpendicular;

@@ -1,0 +1,31 @@
+#include <symsurf/quadric.h>
+
+#include "../perpendicular/parametric_method.h"
+#include "methods.h"
+
+namespace symsurf {
+
+namespace {
+
+Result run_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
+                                        context);
+}
+
+}  // namespace
+
+Method quadric_method() {
+  Method method;
+  method.name = "quadric";
+  method.title = "Mirror quadric";
+  method.summary =
+      "Finds the quadric (ellipsoid, paraboloid, cone, saddle, ...) that mirrors the shape along "
+      "its"
+      " normals.";
+  method.parameters = perpendicular::search_parameters();
+  method.minimum_points = 12;
+  method.run = run_quadric;
+  return method;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+#include <symsurf/bend.h>
+#include <symsurf/cylinder.h>
+#include <symsurf/detect.h>
+#include <symsurf/sphere.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+// Two sheets around a piece of a surface, at a distance that varies, under a random pose.
+struct Sheets {
+  Points points;
+  Matrix3 rotation;
+  Vector3 shift;
+};
+
+template <typename SurfaceAndNormal>
+Sheets sheets_around(std::uint64_t seed, const SurfaceAndNormal& surface, double near, double far) {
+  RandomCloud random(seed);
+  constexpr int side = 22;
+  Sheets s{Points(2 * side * side, 3), random.rotation(), 5 * random.in_box()};
+  Index row = 0;
+  for (int a = 0; a < side; ++a)
+    for (int b = 0; b < side; ++b) {
+      const double u = (a + random.uniform(0.1, 0.9)) / side,
+                   v = (b + random.uniform(0.1, 0.9)) / side;
+      const auto [x, normal] = surface(2 * u - 1, 2 * v - 1);
+      const double d = near + (far - near) * u;
+      s.points.row(row++) = (s.rotation * (x + d * normal) + s.shift).transpose();
+      s.points.row(row++) = (s.rotation * (x - d * normal) + s.shift).transpose();
+    }
+  return s;
+}
+
+std::pair<Vector3, Vector3> roof_tile(double u, double v) {
+  const Vector3 normal(std::sin(u), 0, std::cos(u));
+  return {2 * normal + v * Vector3::UnitY(), normal};
+}
+
+double diagonal(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+TEST(Perpendicular, FindsTheCurvedMirrorBetweenTwoSheets) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Result result = detect(s.points, {.method = "perpendicular"});
+    ASSERT_TRUE(result.mirror) << seed;
+    EXPECT_GT(result.score, 0.8) << seed;
+    EXPECT_GT(result.pairs.rows(), 0.95 * s.points.rows()) << seed;
+    const Cylinder truth(s.shift, s.rotation * Vector3::UnitY(), 2);
+    for (Index i = 0; i < result.surface_points.rows(); ++i)
+      EXPECT_NEAR(truth.signed_distance(Vector3(result.surface_points.row(i))), 0,
+                  1e-3 * diagonal(s.points));
+    for (Index i = 0; i < result.pairs.rows(); ++i)
+      EXPECT_NE(result.pairs(i, 0), result.pairs(i, 1));
+  }
+}
+
+TEST(Perpendicular, FitsACylinderToIt) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Result result = detect(s.points, {.method = "cylinder"});
+    ASSERT_TRUE(result.mirror) << seed;
+    const auto& found = dynamic_cast<const Cylinder&>(*result.mirror);
+    EXPECT_NEAR(found.radius(), 2, 1e-6) << seed;
+    EXPECT_NEAR(found.axis().cross(s.rotation * Vector3::UnitY()).norm(), 0, 1e-6) << seed;
+  }
+}
+
+TEST(Perpendicular, FitsAQuadricToIt) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Result result = detect(s.points, {.method = "quadric"});
+    ASSERT_TRUE(result.mirror) << seed;
+    const Cylinder truth(s.shift, s.rotation * Vector3::UnitY(), 2);
+    const Points feet = result.mirror->project(s.points);
+    for (Index i = 0; i < feet.rows(); ++i)
+      EXPECT_NEAR(truth.signed_distance(Vector3(feet.row(i))), 0, 1e-5 * diagonal(s.points));
+  }
+}
+
+TEST(Bend, StraightensABentShapeAndBendsItBack) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    Cylinder cylinder(s.shift, s.rotation * Vector3::UnitY(), 2);
+    cylinder.set_footprint(std::make_shared<Points>(s.points));
+    const Points straight = bend(s.points, cylinder);
+    const Plane plane = straight_mirror(cylinder);
+    for (Index i = 0; i < straight.rows(); i += 2) {
+      const Vector3 one = straight.row(i), other = straight.row(i + 1);
+      EXPECT_NEAR((plane.reflect(one) - other).norm(), 0, 1e-12);
+    }
+    EXPECT_NEAR((bend(straight, cylinder, Bend::Restore) - s.points).rowwise().norm().maxCoeff(), 0,
+                1e-12);
+  }
+}
+
+TEST(Bend, StraightensOverAnyMirror) {
+  Sphere sphere({0, 0, -2}, 2.5);
+  const Points box = 0.5 * RandomCloud(3).box(200);
+  sphere.set_footprint(std::make_shared<Points>(box));
+  const Points straight = bend(box, sphere), images = bend(sphere.reflect(box), sphere);
+  const Plane plane = straight_mirror(sphere);
+  EXPECT_NEAR((plane.reflect(straight) - images).rowwise().norm().maxCoeff(), 0, 1e-9);
+  EXPECT_NEAR((bend(straight, sphere, Bend::Restore) - box).rowwise().norm().maxCoeff(), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace symsurf
