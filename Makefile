@@ -1,6 +1,6 @@
-# make setup | demo | paraview | meshlab | meshlab-gui | test | bench: each sets up what it needs
-# first, and only what is missing.
-.PHONY: setup demo paraview meshlab meshlab-gui test bench
+# make setup | demo | paraview | meshlab | meshlab-gui | test | bench | accuracy: each sets up what it
+# needs first, and only what is missing.
+.PHONY: setup demo paraview meshlab meshlab-gui test bench accuracy
 
 setup:
 	@.ci/setup python tests
@@ -22,6 +22,11 @@ test:
 bench:
 	@.ci/setup benchmarks
 	@cmake --build build/benchmarks --target bench
+
+# OPTIONS="--cases fixed --seeds 5" asks for less; OPTIONS=--help tells what there is.
+accuracy:
+	@.ci/setup python
+	@cd tests && ../build/venv/bin/python -m accuracy $(OPTIONS)
 
 meshlab:
 	@.ci/setup meshlab

@@ -1,0 +1,55 @@
+"""``python -m accuracy``: runs the cases over seeds and prints the table."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from concurrent.futures import ProcessPoolExecutor
+
+from . import curved, kinds, planes
+from .case import Figures
+from .table import COLUMNS, line, rows
+
+CASES = {case.name: case for case in curved.CASES + kinds.CASES + planes.CASES}
+
+
+def _trial(task: tuple[str, str, int]) -> Figures:
+    name, subject, seed = task
+    return CASES[name].trial(subject, seed)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="accuracy", description=__doc__)
+    parser.add_argument("--cases", nargs="+", default=[""], metavar="TEXT",
+                        help="cases whose name contains one of these")  # fmt: skip
+    parser.add_argument("--subjects", nargs="+", default=[""], metavar="TEXT",
+                        help="shapes whose name contains one of these")  # fmt: skip
+    parser.add_argument("--seeds", type=int, default=20, help="trials a shape")
+    parser.add_argument("--first-seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
+    parser.add_argument("--by-subject", action="store_true", help="a row for each shape too")
+    parser.add_argument("--list", action="store_true", help="name the cases and their shapes")
+    options = parser.parse_args()
+
+    chosen = [c for c in CASES.values() if any(text in c.name for text in options.cases)]
+    if options.list:
+        for case in chosen:
+            print(f"{case.name}: {', '.join(case.subjects) or 'shapes are not there'}")
+        return
+    print(line(COLUMNS), flush=True)
+    seeds = range(options.first_seed, options.first_seed + options.seeds)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        for case in chosen:
+            subjects = [s for s in case.subjects if any(text in s for text in options.subjects)]
+            tasks = [(case.name, subject, seed) for subject in subjects for seed in seeds]
+            trials = list(pool.map(_trial, tasks))
+            if options.by_subject:
+                for k, subject in enumerate(subjects):
+                    own = trials[k * len(seeds) : (k + 1) * len(seeds)]
+                    print(*rows(case, f"  {subject}", own), sep="\n", flush=True)
+            if trials:
+                print(*rows(case, case.name, trials), sep="\n", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,39 @@
+"""Damage by share of the diagonal and of the points; each gives the points and the rows kept."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .poses import Points, diagonal
+
+Rows = NDArray[np.int64]
+
+
+def noise(points: Points, share: float, rng: np.random.Generator) -> Points:
+    """Normal noise whose root mean square is that share of the diagonal."""
+    return points + rng.normal(size=points.shape) * share * diagonal(points) / np.sqrt(3)
+
+
+def hole(points: Points, share: float, rng: np.random.Generator) -> Rows:
+    """What is left when that share of the points around one of them is missing."""
+    centre = points[rng.integers(len(points))]
+    nearest_first = np.argsort(np.linalg.norm(points - centre, axis=1), kind="stable")
+    return np.sort(nearest_first[round(share * len(points)) :])
+
+
+def falling_density(points: Points, ratio: float, rng: np.random.Generator) -> Rows:
+    """Along a random direction the chance to be kept falls from 1 to 1 / ratio."""
+    along = points @ rng.normal(size=3)
+    along = (along - along.min()) / np.ptp(along)
+    return np.flatnonzero(rng.random(len(points)) < 1 - (1 - 1 / ratio) * along)
+
+
+def half(points: Points, signed: NDArray[np.float64], rng: np.random.Generator) -> Rows:
+    """One side of a mirror, and a compact piece, 30 %, of the points on the other."""
+    signed = signed * rng.choice([-1, 1])
+    other = np.flatnonzero(signed < 0)
+    centre = points[rng.choice(other)]
+    nearest_first = np.argsort(np.linalg.norm(points[other] - centre, axis=1), kind="stable")
+    piece = other[nearest_first[: round(0.3 * len(other))]]
+    return np.sort(np.concatenate([np.flatnonzero(signed >= 0), piece]))

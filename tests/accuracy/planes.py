@@ -1,0 +1,62 @@
+"""``plane`` on sampled meshes: noise, missing parts, uneven density, halves of objects."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symsurf import Plane
+
+from .case import Case, Figures, at_least, at_most, timed_detect
+from .damage import falling_density, half, hole, noise
+from .poses import Points, diagonal, random_rotation, turned
+from .solids import FOLDER, mirrored_mesh, sampled
+
+COUNT = 4096
+
+
+def difference(found: Plane, truth: Plane, points: Points) -> tuple[float, float]:
+    """The angle in degrees, and the planes' distance at the points' centre over the diagonal."""
+    cosine = found.normal @ truth.normal
+    angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(found.normal, truth.normal)), abs(cosine)))
+    centre = points.mean(axis=0, keepdims=True)
+    gap = found.signed_distance(centre) - np.sign(cosine) * truth.signed_distance(centre)
+    return float(angle), float(abs(gap[0])) / diagonal(points)
+
+
+def _damaged(points: Points, truth: Plane, damages: str, rng: np.random.Generator) -> Points:
+    if "noise" in damages:
+        points = noise(points, 0.01, rng)
+    if "missing" in damages:
+        points = points[hole(points, 0.2, rng)]
+    if "density" in damages:
+        points = points[falling_density(points, 4, rng)]
+    if "half" in damages:
+        points = points[half(points, truth.signed_distance(points), rng)]
+    return points
+
+
+def _case(name: str, damages: str, least_success: float) -> Case:
+    def run(subject: str, rng: np.random.Generator) -> Figures:
+        vertices, faces, truth = mirrored_mesh(subject)
+        points = _damaged(sampled(vertices, faces, COUNT, rng), truth, damages, rng)
+        rotation = random_rotation(rng)
+        points, truth = points @ rotation.T, turned(truth, rotation)
+        result, seconds = timed_detect(points, "plane")
+        angle, offset = difference(result.mirror, truth, points)
+        found = float(angle <= 1 and offset <= 0.005)
+        return {"angle": angle, "offset": offset, "right": found, "score": result.score,
+                "seconds": seconds}  # fmt: skip
+
+    bars = {"angle": at_most(1), "offset": at_most(0.005), "right": at_least(least_success)}
+    meshes = ("ant", "airplane") + (("cow", "face") if (FOLDER / "spot.obj").exists() else ())
+    return Case(f"plane, {name}", meshes, run, bars)
+
+
+CASES = (
+    _case("as it is", "", 0.95),
+    _case("noise 1 %", "noise", 0.95),
+    _case("20 % missing", "missing", 0.95),
+    _case("4:1 density", "density", 0.95),
+    _case("all three", "noise missing density", 0.95),
+    _case("half, 30 % of the other half", "half", 0.9),
+)
