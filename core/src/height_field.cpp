@@ -6,21 +6,13 @@
 #include <vector>
 
 #include "height_interpolant.h"
+#include "orthogonal_to.h"
 
 namespace symsurf {
 
 namespace {
 
 constexpr double footprint_margin = 1.5;  // cells around the object's points
-
-Eigen::Matrix<double, 3, 2> orthogonal_to(const Vector3& direction) {
-  Index smallest;
-  direction.cwiseAbs().minCoeff(&smallest);
-  Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = direction.cross(Vector3::Unit(smallest)).normalized();
-  across.col(1) = direction.cross(across.col(0));
-  return across;
-}
 
 }  // namespace
 

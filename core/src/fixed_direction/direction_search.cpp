@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace symsurf {
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr Index tried = 180;    // directions on the half sphere, 12 degrees apart
 constexpr double apart = 0.12;  // radians between candidates
-constexpr double first_step = 0.09, last_step = 0.02;
+constexpr double first_step = 0.09, last_step = 0.04;
 constexpr double pi = 3.14159265358979323846;
 
 bool better(const DirectionCandidate& a, const DirectionCandidate& b) {
@@ -53,18 +54,28 @@ Vector3 spread_direction(Index i, Index count) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinned,
+std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context) {
-  MidSheet sheet(thinned);
   std::vector<DirectionCandidate> candidates;
-  for (Index i = 0; i < tried; ++i) {
-    const Vector3 v = spread_direction(i, tried);
-    candidates.push_back({v, sheet.explained(v)});
-    context.report(0.8 * static_cast<double>(i) / tried);
+  for (Index i = 0; i < tried; ++i) candidates.push_back({spread_direction(i, tried)});
+  for (const ChordPeak& hint : hints) candidates.push_back({hint.direction});
+  for (DirectionCandidate& c : candidates)
+    c.explained = MidSheet::most_explained(cloud, c.direction);
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+
+  MidSheet sheet(cloud);
+  std::vector<double> best;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    context.report(0.8 * static_cast<double>(i) / static_cast<double>(candidates.size()));
+    std::sort(best.begin(), best.end(), std::greater<>());
+    if (static_cast<Index>(best.size()) > count && candidates[i].explained < best[count]) {
+      candidates.resize(i);
+      break;
+    }
+    candidates[i].explained = sheet.explained(candidates[i].direction);
+    best.push_back(candidates[i].explained);
   }
-  for (const ChordPeak& hint : hints)
-    candidates.push_back({hint.direction, sheet.explained(hint.direction)});
   candidates = distinct(std::move(candidates), count);
   for (DirectionCandidate& candidate : candidates) climb(sheet, candidate);
   return distinct(std::move(candidates), count);

@@ -12,9 +12,9 @@ struct DirectionCandidate {
 };
 
 /// Directions under which a surface half-way between the sheets explains most of the cloud, best
-/// first, some degrees apart: the half sphere is tried on a thinned cloud, and the given hints,
-/// then the best of them are moved uphill.
-std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& thinned,
+/// first, some degrees apart: the half sphere and the given hints are tried, as far as
+/// MidSheet::most_explained leaves hope, then the best of them are moved uphill.
+std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context);
 

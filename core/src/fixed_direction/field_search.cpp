@@ -12,14 +12,16 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index peaks_a_scale = 6, explaining = 6;
-constexpr Index thinned_size = 600;
-constexpr double exact_share = 0.2;       // of the points have exact partners: no chance
-constexpr double evidence_reach = 1.7;    // spacings
+constexpr Index peaks_a_scale = 6, explaining = 3;
+constexpr Index searched_size = 2000;
+constexpr double exact_share = 0.2;     // of the points have exact partners: no chance
+constexpr double evidence_reach = 1.7;  // spacings
+constexpr double suspected = 3;
 constexpr double no_evidence = 5;         // standard deviations that chance reaches
 constexpr double known_scatter = 7;       // from here on the scatter is believed
 constexpr double strong_evidence = 9;     // no need to look further
-constexpr double evidence_weight = 0.05;  // share of explained points a deviation is worth
+constexpr double evidence_weight = 0.15;  // share of explained points a deviation is worth
+constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
 constexpr Index chance_size = 600, chance_directions = 9;
 constexpr double rough_sheets = 0.1;                  // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
@@ -32,9 +34,16 @@ class Ranking {
 
   void consider(const Vector3& direction) {
     const double explained = sheet_.explained(direction);
-    const PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction);
-    const double rank =
-        explained + evidence_weight * std::max(0.0, evidence.significance - no_evidence);
+    PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction);
+    if (evidence.significance > suspected) {
+      // Partners that are there vote for better heights than chance does, and stand out more.
+      sheet_.explained(evidence.direction, evidence.scatter);
+      const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction);
+      if (again.significance > evidence.significance) evidence = again;
+    }
+    const double common = std::min(1.0, evidence.share / common_share);
+    const double rank = explained + evidence_weight * common * common *
+                                        std::max(0.0, evidence.significance - no_evidence);
     if (rank <= rank_) return;
     rank_ = rank;
     best_ = evidence;
@@ -51,7 +60,7 @@ class Ranking {
   double rank_ = -1;
 };
 
-WorkingCloud thinned(const WorkingCloud& cloud) { return {cloud.points, thinned_size}; }
+WorkingCloud searched(const WorkingCloud& cloud) { return {cloud.points, searched_size}; }
 
 // What a mirror along any direction explains of this cloud: of a closed shape nearly all, since
 // half-way between its sides there is always a surface. The upper quartile over the half sphere.
@@ -92,7 +101,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   }
   if (!given && ranking.best().significance < strong_evidence)
     for (const DirectionCandidate& candidate :
-         explaining_directions(thinned(cloud), peaks, explaining, context.stage(0.4, 0.7)))
+         explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7)))
       ranking.consider(candidate.direction);
 
   const PartnerEvidence& start = ranking.best();

@@ -26,12 +26,21 @@ Points HeightRegression::places() const {
   return places;
 }
 
-double HeightRegression::height(const Eigen::Vector2d& place, Index neighbours,
+Points HeightRegression::places_apart(double distance) const {
+  const Points all = places();
+  std::vector<char> covered(all.rows(), 0);
+  std::vector<Index> kept;
+  for (Index i = 0; i < all.rows(); ++i) {
+    if (covered[i]) continue;
+    kept.push_back(i);
+    tree_.within(all.row(i).transpose(), distance, [&](Index j, double) { covered[j] = 1; });
+  }
+  return all(kept, Eigen::all);
+}
+
+double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
                                 Index left_out) const {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  std::vector<Neighbour> near;
-  near.reserve(neighbours + 3);
-  tree_.nearest({place.x(), place.y(), 0}, neighbours + 1, near);
   const double radius = std::sqrt(near.back().squared_distance) * 1.0001;
   if (!(radius > 0)) return observations_[near.front().index].height;
 
@@ -55,11 +64,19 @@ double HeightRegression::height(const Eigen::Vector2d& place, Index neighbours,
   return level + normal.selfadjointView<Eigen::Lower>().ldlt().solve(right)[0];
 }
 
+void HeightRegression::nearest(const Eigen::Vector2d& place, Index neighbours,
+                               std::vector<Neighbour>& near) const {
+  tree_.nearest({place.x(), place.y(), 0}, neighbours + 1, near);
+}
+
 Points HeightRegression::fitted(const Points& places, Index neighbours) const {
   Points fits = places;
   std::vector<Index> kept;
+  std::vector<Neighbour> near;
   for (Index i = 0; i < places.rows(); ++i) {
-    fits(i, 2) = height({places(i, 0), places(i, 1)}, neighbours, -1);
+    const Eigen::Vector2d place(places(i, 0), places(i, 1));
+    nearest(place, neighbours, near);
+    fits(i, 2) = height(place, near, -1);
     if (std::isfinite(fits(i, 2))) kept.push_back(i);
   }
   return fits(kept, Eigen::all);
@@ -68,9 +85,11 @@ Points HeightRegression::fitted(const Points& places, Index neighbours) const {
 void HeightRegression::reject_outliers(Index neighbours) {
   const Index n = static_cast<Index>(observations_.size());
   std::vector<double> residuals(n);
-  for (Index i = 0; i < n; ++i)
-    residuals[i] =
-        std::abs(observations_[i].height - height(observations_[i].place, neighbours, i));
+  std::vector<Neighbour> near;
+  for (Index i = 0; i < n; ++i) {
+    nearest(observations_[i].place, neighbours, near);
+    residuals[i] = std::abs(observations_[i].height - height(observations_[i].place, near, i));
+  }
   for (double& r : residuals)
     if (!std::isfinite(r)) r = 0;
   const double limit = 6 * median(residuals);
@@ -84,26 +103,26 @@ void HeightRegression::reject_outliers(Index neighbours) {
 Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const {
   const Index n = static_cast<Index>(observations_.size());
   const Index step = std::max<Index>(1, n / most_left_out);
-  Index best = offered.front();
-  double least = std::numeric_limits<double>::infinity();
-  for (const Index neighbours : offered) {
-    if (neighbours > n) break;
+  struct Error {
     double sum = 0, weights = 0;
-    for (Index i = 0; i < n; i += step) {
-      const HeightObservation& o = observations_[i];
-      if (!(o.weight > 0)) continue;
-      const double residual = o.height - height(o.place, neighbours, i);
+  };
+  std::vector<Error> errors(offered.size());
+  std::vector<Neighbour> near;
+  for (Index i = 0; i < n; i += step) {
+    const HeightObservation& o = observations_[i];
+    if (!(o.weight > 0)) continue;
+    nearest(o.place, std::min(n - 1, offered.back()), near);
+    for (std::size_t k = 0; k < offered.size() && offered[k] < n; ++k) {
+      const double residual = o.height - height(o.place, std::span(near).first(offered[k] + 1), i);
       if (!std::isfinite(residual)) continue;
-      sum += o.weight * residual * residual;
-      weights += o.weight;
-    }
-    const double mean = sum / weights;
-    if (mean < least) {
-      least = mean;
-      best = neighbours;
+      errors[k].sum += o.weight * residual * residual;
+      errors[k].weights += o.weight;
     }
   }
-  return best;
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < offered.size(); ++k)
+    if (errors[k].sum * errors[best].weights < errors[best].sum * errors[k].weights) best = k;
+  return offered[best];
 }
 
 }  // namespace symsurf

@@ -2,6 +2,7 @@
 
 #include <symsurf/types.h>
 
+#include <span>
 #include <vector>
 
 #include "../point_tree.h"
@@ -31,12 +32,16 @@ class HeightRegression {
   /// The number of neighbours, of those offered, that predicts left-out observations best.
   Index best_neighbours(const std::vector<Index>& offered) const;
 
-  /// Of the observations, as rows for fitted().
-  Points places() const;
+  /// Places of observations, as rows for fitted(), no two within `distance`: heights fitted side by
+  /// side differ a little, and a surface through them all would be steep between them.
+  Points places_apart(double distance) const;
 
  private:
-  /// Height at a place, without the observation `left_out`; NaN without observations.
-  double height(const Eigen::Vector2d& place, Index neighbours, Index left_out) const;
+  Points places() const;
+  void nearest(const Eigen::Vector2d& place, Index neighbours, std::vector<Neighbour>& near) const;
+  /// Height at a place from those near it, but for `left_out`; NaN where all were rejected.
+  double height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
+                Index left_out) const;
 
   std::vector<HeightObservation> observations_;
   PointTree tree_;

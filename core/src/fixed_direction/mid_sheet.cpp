@@ -47,6 +47,10 @@ double MidSheet::explained(const Vector3& direction, double scatter) {
   return sum / weights * std::sqrt(weights / static_cast<double>(cloud_.size()));
 }
 
+double MidSheet::most_explained(const WorkingCloud& cloud, const Vector3& direction) {
+  return std::sqrt((cloud.normals * direction).cwiseAbs().mean());
+}
+
 void MidSheet::project(const Vector3& direction) {
   across_ = orthogonal_to(direction);
   flat_.leftCols<2>() = cloud_.points * across_;
@@ -74,9 +78,9 @@ void MidSheet::sort_into_cells() {
     ++start_[cell_of_[i] + 1];
   }
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
-  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+  next_.assign(start_.begin(), start_.end() - 1);
   for (Index i = 0; i < cloud_.size(); ++i)
-    sorted_[next[cell_of_[i]]++] = static_cast<std::int32_t>(i);
+    sorted_[next_[cell_of_[i]]++] = static_cast<std::int32_t>(i);
 }
 
 void MidSheet::collect_votes(double scatter) {
@@ -121,29 +125,25 @@ void MidSheet::count_votes() {
   vote_start_.assign(columns_ * rows_ + 1, 0);
   for (const Vote& vote : votes_) ++vote_start_[vote.cell + 1];
   std::partial_sum(vote_start_.begin(), vote_start_.end(), vote_start_.begin());
-  vote_order_.resize(votes_.size());
-  std::vector<std::int32_t> next(vote_start_.begin(), vote_start_.end() - 1);
-  for (std::size_t k = 0; k < votes_.size(); ++k)
-    vote_order_[next[votes_[k].cell]++] = static_cast<std::int32_t>(k);
+  by_cell_.resize(votes_.size());
+  next_.assign(vote_start_.begin(), vote_start_.end() - 1);
+  for (const Vote& vote : votes_) by_cell_[next_[vote.cell]++] = {vote.height, vote.weight};
 
   height_.assign(columns_ * rows_, 0);
   voted_.assign(columns_ * rows_, 0);
   const float width = static_cast<float>(window * cloud_.spacing);
   for (Index cell = 0; cell < columns_ * rows_; ++cell) {
-    const auto begin = vote_order_.begin() + vote_start_[cell];
-    const auto end = vote_order_.begin() + vote_start_[cell + 1];
-    if (begin == end) continue;
-    std::sort(begin, end, [&](std::int32_t a, std::int32_t b) {
-      return votes_[a].height != votes_[b].height ? votes_[a].height < votes_[b].height : a < b;
-    });
+    const auto begin = by_cell_.begin() + vote_start_[cell];
+    const auto end = by_cell_.begin() + vote_start_[cell + 1];
+    std::sort(begin, end);
     float best = 0, inside = 0, moment = 0;
     auto low = begin;
     for (auto high = begin; high != end; ++high) {
-      inside += votes_[*high].weight;
-      moment += votes_[*high].weight * votes_[*high].height;
-      for (; votes_[*high].height - votes_[*low].height > width; ++low) {
-        inside -= votes_[*low].weight;
-        moment -= votes_[*low].weight * votes_[*low].height;
+      inside += high->second;
+      moment += high->second * high->first;
+      for (; high->first - low->first > width; ++low) {
+        inside -= low->second;
+        moment -= low->second * low->first;
       }
       if (inside > best) {
         best = inside;
@@ -163,7 +163,7 @@ std::vector<MidSheet::Chord> MidSheet::chords() const {
     const Index low = upwards ? vote.first : vote.second;
     const Index high = upwards ? vote.second : vote.first;
     const Vector3 chord = (flat_.row(high) - flat_.row(low)).transpose();
-    chords.push_back({low, high, chord.head<2>(), chord.z(), vote.weight});
+    chords.push_back({low, high, chord.head<2>(), chord.z(), sheet_(low, 2) * sheet_(high, 2)});
   }
   return chords;
 }
@@ -193,15 +193,6 @@ Points MidSheet::cells() const {
   for (std::size_t i = 0; i < found.size(); ++i)
     points.row(static_cast<Index>(i)) = found[i].transpose();
   return points;
-}
-
-Eigen::Matrix<double, 3, 2> orthogonal_to(const Vector3& direction) {
-  Index smallest;
-  direction.cwiseAbs().minCoeff(&smallest);
-  Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = direction.cross(Vector3::Unit(smallest)).normalized();
-  across.col(1) = direction.cross(across.col(0));
-  return across;
 }
 
 }  // namespace symsurf

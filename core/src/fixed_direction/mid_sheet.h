@@ -1,8 +1,10 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "../orthogonal_to.h"
 #include "working_cloud.h"
 
 namespace symsurf {
@@ -23,6 +25,9 @@ class MidSheet {
   /// come the more they count.
   double explained(const Vector3& direction,
                    double scatter = std::numeric_limits<double>::infinity());
+
+  /// What explained() cannot exceed, however well the surface fits: cheap.
+  static double most_explained(const WorkingCloud& cloud, const Vector3& direction);
 
   /// Two points that the last direction's surface carries onto each other's sheet.
   struct Chord {
@@ -60,13 +65,11 @@ class MidSheet {
   Eigen::Array<double, Eigen::Dynamic, 3> sheet_;  // slope in u, in v, |normal . direction|
   std::vector<std::int32_t> start_, sorted_, cell_of_;
   std::vector<Vote> votes_;
-  std::vector<std::int32_t> vote_start_, vote_order_;
-  std::vector<float> height_;  // voted, a cell
+  std::vector<std::int32_t> vote_start_, next_;
+  std::vector<std::pair<float, float>> by_cell_;  // height, weight
+  std::vector<float> height_;                     // voted, a cell
   std::vector<char> voted_;
   std::vector<float> explained_;
 };
-
-/// Two unit vectors orthogonal to a unit direction and to each other.
-Eigen::Matrix<double, 3, 2> orthogonal_to(const Vector3& direction);
 
 }  // namespace symsurf

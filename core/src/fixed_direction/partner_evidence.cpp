@@ -34,7 +34,7 @@ struct Count {
 PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
                                  const Vector3& direction) {
   const std::vector<MidSheet::Chord> chords = sheet.chords();
-  PartnerEvidence best{direction, 0, 0};
+  PartnerEvidence best{direction, 0, 0, 0};
   if (chords.size() < 10) return best;
 
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
@@ -65,7 +65,8 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
       if (shift == shifts) {
         const double significance = count.significance();
         if (significance > best.significance)
-          best = {(direction + sheet.across() * at).normalized(), significance, scatter};
+          best = {(direction + sheet.across() * at).normalized(), significance, scatter,
+                  2 * (count.inside - count.chance()) / static_cast<double>(cloud.size())};
         break;
       }
       if (!(lever > 0)) break;

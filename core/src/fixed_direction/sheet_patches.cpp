@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mid_sheet.h"
+#include "../orthogonal_to.h"
 
 namespace symsurf {
 

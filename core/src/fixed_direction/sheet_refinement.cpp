@@ -13,12 +13,13 @@ namespace {
 constexpr double least_displacement = 1.5;  // spacings
 constexpr double reach = 3;                 // spacings from an image to its partner
 constexpr std::size_t least_matches = 12;
-constexpr double outlying = 6;  // median gaps
-constexpr double rounding = 1e-12;
-constexpr double turn_gain = 3;  // nearest neighbours see only part of a turn
+constexpr double outlying = 6;       // median gaps
+constexpr double least_limit = 0.2;  // spacings: patches of sparse sheets are wrong by as much
+constexpr double turn_gain = 3;      // nearest neighbours see only part of a turn
 constexpr double longest_turn = 0.05;
+constexpr double node_spacing = 0.6;  // spacings
 constexpr Index start_neighbours = 40, round_neighbours = 28;
-const std::vector<Index> offered_neighbours{10, 16, 28, 50, 90, 160, 280};
+const std::vector<Index> offered_neighbours{16, 28, 50, 90, 160, 280};
 
 struct Frame {
   explicit Frame(const Vector3& v) : across(orthogonal_to(v)), direction(v) {}
@@ -43,7 +44,7 @@ struct Frame {
 }  // namespace
 
 SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches)
-    : cloud_(cloud), patches_(patches), votes_(cloud, 1.5) {}
+    : cloud_(cloud), patches_(patches), rims_(cloud), votes_(cloud, 1.5) {}
 
 FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
   votes_.explained(direction, scatter);
@@ -88,11 +89,13 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
 
   Matches result;
   if (found.size() < least_matches) return result;
-  const double limit = outlying * median(gaps) + rounding;
+  const double typical = outlying * median(gaps);
   const Frame frame(v);
   Eigen::Vector2d pull = Eigen::Vector2d::Zero();
   double lever = 0;
+  RimAlignment rims(rims_, frame.across);
   for (const Match& m : found) {
+    const double limit = std::max(typical, least_limit * cloud_.spacings[m.partner]);
     const double ratio = std::min(1.0, std::abs(m.gap) / limit);
     const double robust = (1 - ratio * ratio) * (1 - ratio * ratio);
     if (!(robust > 0)) continue;
@@ -109,8 +112,13 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
     const double arm = -2 * m.distance;
     pull += robust * square * arm * (frame.across.transpose() * m.aside);
     lever += robust * square * arm * arm;
+    if (by_rims_)
+      rims.add(m.point, m.partner, frame.across.transpose() * m.aside, arm, robust * square);
   }
-  if (lever > 0) result.turn = pull / lever;
+  if (by_rims_)
+    result.turn = rims.turn(frame.across.transpose() * start_);
+  else if (lever > 0)
+    result.turn = turn_gain * pull / lever;
   return result;
 }
 
@@ -118,12 +126,14 @@ void SheetRefinement::refit(FieldEstimate& estimate, Matches found) const {
   const Frame frame(estimate.direction);
   const HeightRegression regression(std::move(found.observations));
   estimate.nodes = frame.leave(regression.fitted(frame.enter(estimate.nodes), round_neighbours));
-  Eigen::Vector2d step = turn_gain * found.turn;
+  Eigen::Vector2d step = found.turn;
   if (step.norm() > longest_turn) step *= longest_turn / step.norm();
   estimate.direction = (estimate.direction + frame.across * step).normalized();
 }
 
 FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatter, int rounds) {
+  start_ = direction;
+  by_rims_ = !std::isfinite(scatter);
   FieldEstimate estimate = voted(direction, scatter);
   for (int round = 1; round <= rounds && estimate.nodes.rows() > 0; ++round) {
     Matches found = matches(estimate);
@@ -137,7 +147,8 @@ FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatt
     HeightRegression regression(std::move(found.observations));
     regression.reject_outliers(round_neighbours);
     const Index neighbours = regression.best_neighbours(offered_neighbours);
-    estimate.nodes = frame.leave(regression.fitted(regression.places(), neighbours));
+    estimate.nodes = frame.leave(
+        regression.fitted(regression.places_apart(node_spacing * cloud_.spacing), neighbours));
   }
   return estimate;
 }

@@ -4,12 +4,13 @@
 #include "height_regression.h"
 #include "mid_sheet.h"
 #include "sheet_patches.h"
+#include "sheet_rims.h"
 
 namespace symsurf {
 
 /// Mirror, match, fit again: images over the estimate meet the sheets on the other side, half
-/// their distance along the direction is what the surface is wrong by there, and what remains
-/// across tells where the direction should turn.
+/// their distance along the direction is what the surface is wrong by there. Where partners are
+/// known, what remains across tells where the direction should turn; where not, the rims do.
 class SheetRefinement {
  public:
   SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches);
@@ -34,6 +35,9 @@ class SheetRefinement {
 
   const WorkingCloud& cloud_;
   const SheetPatches& patches_;
+  SheetRims rims_;
+  Vector3 start_ = Vector3::Zero();
+  bool by_rims_ = false;  // no partners tell the direction
   MidSheet votes_;
 };
 

@@ -1,5 +1,4 @@
 #include <symsurf/height_field.h>
-#include <symsurf/principal_frame.h>
 
 #include <algorithm>
 
@@ -15,10 +14,11 @@ namespace {
 constexpr double outlying = 6;     // median residuals: a partner by chance
 constexpr double rounding = 1e-9;  // of the diagonal
 
-Points framed(const Cloud& cloud, const PrincipalFrame& frame, const Context& context) {
+Points framed(const Cloud& cloud, const Context& context) {
   Points points(cloud.points.size(), 3);
   parallel_for(context, points.rows(), 1 << 14, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) points.row(i) = frame.enter(cloud.points[i]).transpose();
+    for (Index i = begin; i < end; ++i)
+      points.row(i) = cloud.frame.enter(cloud.points[i]).transpose();
   });
   return points;
 }
@@ -41,9 +41,9 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
                            const Context& context) {
   Result result;
   result.method = "fixed_direction";
-  const PrincipalFrame frame = principal_frame(cloud.points, context.stage(0, 0.02));
-  const WorkingCloud work(framed(cloud, frame, context.stage(0.02, 0.05)),
-                          values.integer("sample_size"), context.stage(0.05, 0.1));
+  const PrincipalFrame& frame = cloud.frame;
+  const WorkingCloud work(framed(cloud, context.stage(0, 0.05)), values.integer("sample_size"),
+                          context.stage(0.05, 0.1));
   const Vector3 given = frame.axes.transpose() * values.vector("direction");
   const FieldEstimate found =
       find_height_field(work, given, result.statistics, context.stage(0.1, 0.7));
