@@ -1,0 +1,106 @@
+"""Truth and invariance of the plane method, as Python sees it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from symmetric_shapes import diagonal, difference, mirrored_surface, random_rotation
+
+import symsurf
+
+SEEDS = range(5)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("count", [400, 4000])
+def test_exact_plane_is_found(count, seed):
+    points, truth = mirrored_surface(count, seed)
+    result = symsurf.detect_plane(points)
+    angle, offset = difference(result.mirror, truth, points)
+    assert angle <= 0.05 and offset <= 1e-4
+    assert np.median(result.residuals) <= 1e-6 * diagonal(points)
+    assert 0.9 < result.score <= 1
+
+
+def test_pairs_are_mirror_images():
+    points, _ = mirrored_surface(2000, 1)
+    result = symsurf.detect_plane(points)
+    first, second = points[result.pairs.T]
+    np.testing.assert_allclose(result.surface_points, (first + second) / 2, atol=1e-12)
+    np.testing.assert_allclose(
+        result.residuals, np.linalg.norm(result.mirror.reflect(first) - second, axis=1), atol=1e-12
+    )
+    assert len(result.pairs) == len(points)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_rigid_motion_and_scale(seed):
+    points, _ = mirrored_surface(1500, seed)
+    rng = np.random.default_rng(seed + 100)
+    rotation, shift, scale = random_rotation(rng), 10 * rng.normal(size=3), 1e-3 * 10**seed
+    moved = scale * points @ rotation.T + shift
+    plain, other = symsurf.detect_plane(points), symsurf.detect_plane(moved)
+    normal = rotation @ plain.mirror.normal
+    expected = symsurf.Plane(normal, scale * plain.mirror.offset - normal @ shift)
+    angle, offset = difference(other.mirror, expected, moved)
+    # The shift is up to 10^4 diagonals away, which costs the coordinates as many digits.
+    lost = np.linalg.norm(shift) / diagonal(moved) + 1
+    assert np.radians(angle) <= 1e-9 * lost and offset <= 1e-9 * lost
+    assert other.score == pytest.approx(plain.score, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_permutation(seed):
+    points, _ = mirrored_surface(1500, seed)
+    order = np.random.default_rng(seed).permutation(len(points))
+    plain, other = symsurf.detect_plane(points), symsurf.detect_plane(points[order])
+    angle, offset = difference(other.mirror, plain.mirror, points)
+    assert np.radians(angle) <= 1e-9 and offset <= 1e-9
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_threads_give_the_same_bits(method, blob):
+    one = symsurf.detect(blob, method, threads=1)
+    for threads in (2, 3, 0):
+        other = symsurf.detect(blob, method, threads=threads)
+        assert repr(other.mirror) == repr(one.mirror)
+        assert other.score == one.score
+        for name in ("pairs", "residuals", "surface_points"):
+            np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_float32_is_its_own_double(method, blob):
+    single = blob.astype(np.float32)
+    one = symsurf.detect(single, method)
+    other = symsurf.detect(single.astype(np.float64), method)
+    assert repr(one.mirror) == repr(other.mirror)
+    np.testing.assert_array_equal(one.pairs, other.pairs)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_candidates_are_ranked_and_can_be_matched(seed):
+    rng = np.random.default_rng(seed)
+    eighth = np.abs(rng.normal(size=(250, 3)))
+    eighth /= np.linalg.norm(eighth, axis=1, keepdims=True)
+    signs = np.stack(np.meshgrid(*[[-1, 1]] * 3), axis=-1).reshape(-1, 1, 3)
+    ellipsoid = (eighth * (1, 1.5, 2.2) * signs).reshape(-1, 3)  # mirrored in x, y and z = 0
+    result = symsurf.detect_plane(ellipsoid)
+    scores = [result.score, *(candidate.score for candidate in result.candidates)]
+    assert scores == sorted(scores, reverse=True)
+    found = [result.mirror, *(candidate.mirror for candidate in result.candidates[:2])]
+    assert {int(np.abs(plane.normal).argmax()) for plane in found} == {0, 1, 2}
+    for plane in found:
+        axis = np.eye(3)[np.abs(plane.normal).argmax()]
+        angle, offset = difference(plane, symsurf.Plane(axis, 0), ellipsoid)
+        assert angle <= 0.05 and offset <= 1e-4
+        match = symsurf.match(ellipsoid, plane)
+        assert len(match.pairs) == len(ellipsoid) and match.mirror is plane
+
+
+def test_sample_shapes(shapes):
+    points = symsurf.read(shapes / "spot.obj").points
+    angle, offset = difference(
+        symsurf.detect_plane(points).mirror, symsurf.Plane((1, 0, 0), 0), points
+    )
+    assert angle <= 0.05 and offset <= 1e-4
