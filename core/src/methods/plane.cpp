@@ -14,13 +14,13 @@ namespace symsurf {
 namespace {
 
 constexpr Index started = 24;               // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;          // of these, have their measure maximised
+constexpr std::size_t climbed = 2;          // of these, have their measure maximised
 constexpr std::size_t quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr std::size_t finalists = 6;        // of these, are fitted carefully
 constexpr double convincing = 0.7;          // of what the best explains: worth the last digits
 constexpr double hopeless = 0.6;            // of what the best explains: not worth fitting
 constexpr double alike = 0.05;              // planes closer than this are one
-constexpr Index measured = 500;             // surfels that the measure is taken over
+constexpr Index measured = 300;             // surfels that the measure is taken over
 
 Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
   const Vector3 normal = frame.axes * plane.normal;
@@ -82,7 +82,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   drop_hopeless(candidates);
   for (PlaneCandidate& candidate : candidates) candidate = refinement.careful(candidate);
   keep_distinct(candidates, alike, finalists);
-  const double good = convincing * candidates.front().explained;
+  const double best_explained = candidates.front().explained;
+  const double good = std::min(best_explained, convincing * best_explained);
   for (PlaneCandidate& candidate : candidates)
     if (candidate.explained >= good) candidate = refinement.final(candidate);
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
@@ -94,8 +95,9 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     Result& result = found.emplace_back();
     result.method = "plane";
     result.mirror = std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame));
-    result.score = whole > 0 ? std::min(1.0, candidate.explained / whole) : 0;
-    result.statistics = {{"explained_share", candidate.explained}};
+    const double explained = refinement.explained_share(candidate.plane);
+    result.score = whole > 0 ? std::min(1.0, explained / whole) : 0;
+    result.statistics = {{"explained_share", explained}};
   }
   Result best = std::move(found.front());
   best.candidates.assign(std::make_move_iterator(found.begin() + 1),

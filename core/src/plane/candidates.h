@@ -8,7 +8,8 @@
 
 namespace symsurf {
 
-/// A plane and the share of the surfels that it explains, in [0, 1].
+/// A plane and what speaks for it: the share of the cloud that it explains, less what contradicts
+/// it once it meets the full cloud.
 struct PlaneCandidate {
   UnitPlane plane;
   double explained = 0;

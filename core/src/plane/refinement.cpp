@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "../score.h"
 #include "agreement.h"
 #include "plane_step.h"
 
@@ -15,13 +17,23 @@ constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double by_chance = 0.1;  // few points look flatter than they are
 constexpr double reach = 0.06;     // how far a partner may be
 constexpr double score_tolerance = 0.01;
-constexpr double close = 0.002;
 
 double quantile(std::vector<double>& values, double share) {
   const auto place =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), place, values.end());
   return *place;
+}
+
+// Along the Z-order curve of the principal frame, not of the input's: pose must not show.
+std::uint32_t place_on_curve(const Vector3& x) {
+  constexpr int bits = 8;
+  constexpr double shift = 0.038197;  // off any lattice, as the surfels' grid
+  const Eigen::Vector3i cell = ((x.array() + 1 + shift) * (1 << (bits - 1)) / 1.1).cast<int>();
+  std::uint32_t place = 0;
+  for (int bit = bits - 1; bit >= 0; --bit)
+    for (int axis = 0; axis < 3; ++axis) place = place << 1 | (cell[axis] >> bit & 1);
+  return place;
 }
 
 }  // namespace
@@ -46,6 +58,11 @@ Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
   even_samples_ = static_cast<Index>(samples_.size());
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (!taken[i]) take(static_cast<Index>(i));
+  const auto along_curve = [](const Sample& a, const Sample& b) {
+    return place_on_curve(a.position) < place_on_curve(b.position);
+  };
+  std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
+  std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
 }
 
 const Surfel* Refinement::surfel_at(const Vector3& x) const {
@@ -61,22 +78,34 @@ const Surfel* Refinement::surfel_at(const Vector3& x) const {
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
                                                    Subset subset) const {
+  constexpr Index block = PointTree::block;
   const double size = cloud_.frame.size;
   std::vector<Match> found;
   found.reserve(subset.end / subset.stride + 1);
-  for (Index i = 0; i < subset.end; i += subset.stride) {
-    const Vector3 image = plane.reflect(samples_[i].position);
-    const Neighbour nearest = tree_.nearest(cloud_.frame.leave(image), limit * limit * size * size);
-    if (nearest.index < 0) continue;
-    const Vector3 partner = cloud_.frame.enter(cloud_.points[nearest.index]);
-    if (const Surfel* surfel = surfel_at(partner)) found.push_back({i, image - partner, surfel});
+  Index near = 0;
+  for (Index begin = 0; begin < subset.end; begin += block * subset.stride) {
+    std::array<Vector3, block> images;
+    PointTree::Queries queries;
+    queries.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const Index count = std::min(block, (subset.end - begin + subset.stride - 1) / subset.stride);
+    for (Index k = 0; k < count; ++k) {
+      images[k] = plane.reflect(samples_[begin + k * subset.stride].position);
+      queries.col(k) = cloud_.frame.leave(images[k]);
+    }
+    const auto nearest = tree_.nearest(queries, limit * limit * size * size, near);
+    for (Index k = 0; k < count; ++k) {
+      if (nearest[k].index < 0) continue;
+      const Vector3 partner = cloud_.frame.enter(cloud_.points[nearest[k].index]);
+      if (const Surfel* surfel = surfel_at(partner))
+        found.push_back({begin + k * subset.stride, images[k] - partner, surfel});
+    }
   }
   return found;
 }
 
 // Along a sheet, or inside a blob, a partner is as near as the spacing allows: only what exceeds it
 // counts.
-double Refinement::closeness(const Match& match, const Surfel& own, const UnitPlane* plane) const {
+double Refinement::residual(const Match& match) const {
   const Surfel& partner = *match.partner;
   const double length = match.gap.norm();
   const double off_sheet = std::abs(match.gap.dot(partner.normal));
@@ -84,14 +113,11 @@ double Refinement::closeness(const Match& match, const Surfel& own, const UnitPl
   const double sheet = std::hypot(off_sheet, 0.3 * std::max(0.0, along_sheet - spacing_));
   const double blob = 0.6 * std::max(0.0, length - spacing_);
   const double flat = partner.flatness;
-  const double residual = std::min(std::hypot(flat * sheet, (1 - flat) * blob), 3 * length);
-  const Vector3 normal = plane ? plane->reflect_direction(own.normal) : own.normal;
-  const Agreement agreement(match.gap, normal, own.flatness, partner);
-  return agreement.facing / (1 + residual * residual / (close * close));
+  return std::min(std::hypot(flat * sheet, (1 - flat) * blob), 3 * length);
 }
 
 double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
-                             Sharpness sharpness) const {
+                             Merit merit) const {
   double moved = 0, explained = 0;
   Index looked = 0;
   for (Index i = 0; i < subset.end; i += subset.stride, ++looked)
@@ -99,28 +125,41 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
   for (const Match& match : found) {
     const Sample& s = samples_[match.sample];
     const double weight = displaced(plane.distance(s.position), score_tolerance);
-    if (sharpness == Sharpness::Sharp) {
-      explained += weight * closeness(match, *s.surfel, &plane);
-    } else {
-      const Agreement agreement(match.gap, plane.reflect_direction(s.surfel->normal),
-                                s.surfel->flatness, *match.partner);
-      explained += weight * agreement.weight(score_tolerance);
+    const Agreement agreement(match.gap, plane.reflect_direction(s.surfel->normal),
+                              s.surfel->flatness, *match.partner);
+    switch (merit) {
+      case Merit::Rough:
+        explained += weight * agreement.weight(score_tolerance);
+        break;
+      case Merit::Testimony:
+        explained += weight * testimony(residual(match), agreement.facing);
+        break;
+      case Merit::Closeness:
+        explained += weight * closeness(residual(match), agreement.facing);
     }
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
 }
 
-double Refinement::self_explained() const {
+double Refinement::explained_share(const UnitPlane& plane) const {
   const Subset most = about(most_samples);
+  return explained(plane, matches(plane, reach, most), most, Merit::Closeness);
+}
+
+double Refinement::self_explained() const {
+  const Subset few = about(few_samples);
   double sum = 0;
   Index looked = 0;
   std::vector<Neighbour> nearest;
-  for (Index i = 0; i < most.end; i += most.stride, ++looked) {
+  for (Index i = 0; i < few.end; i += few.stride, ++looked) {
     const Sample& s = samples_[i];
     tree_.nearest(cloud_.frame.leave(s.position), 2, nearest);
     const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
-    if (const Surfel* surfel = surfel_at(other))
-      sum += closeness({static_cast<Index>(i), s.position - other, surfel}, *s.surfel, nullptr);
+    const Surfel* surfel = surfel_at(other);
+    if (!surfel) continue;
+    const Match match{i, s.position - other, surfel};
+    const Agreement agreement(match.gap, s.surfel->normal, s.surfel->flatness, *surfel);
+    sum += closeness(residual(match), agreement.facing);
   }
   return sum / static_cast<double>(looked);
 }
@@ -134,38 +173,61 @@ Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   const Subset few = about(few_samples);
   const UnitPlane plane = fitted(start.plane, 0.02, few, 2);
-  return {plane, explained(plane, matches(plane, reach, few), few, Sharpness::Blunt)};
+  return {plane, explained(plane, matches(plane, reach, few), few, Merit::Rough)};
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  const Subset most = about(most_samples);
-  const UnitPlane plane = fitted(start.plane, 0.01, most, 2);
-  return {plane, explained(plane, matches(plane, reach, most), most, Sharpness::Sharp)};
+  return rated(fitted(start.plane, 0.01, about(most_samples), 2));
 }
 
+// What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
+// what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
+  constexpr double wide = 0.01, narrow = 0.003;
   const Subset most = about(most_samples);
-  const UnitPlane plane = fitted_to_exact_pairs(fitted(start.plane, 0.01, all(), 1));
-  return {plane, explained(plane, matches(plane, reach, most), most, Sharpness::Sharp)};
+  PlaneCandidate best = rated(fitted(start.plane, wide, most, 4));
+  const PlaneCandidate closer = rated(fitted(best.plane, narrow, most, 4));
+  const bool close = closer.explained > best.explained;
+  if (close) best = closer;
+  return rated(fitted_to_exact_pairs(fitted(best.plane, close ? narrow : wide / 2, all(), 1)));
 }
 
+PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
+  const Subset most = about(most_samples);
+  return {plane, explained(plane, matches(plane, reach, most), most, Merit::Testimony)};
+}
+
+// Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
+// the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
+// nothing mirrors them, stop pulling. Where noise is left, partners stand on the plane through the
+// cells around them, which has averaged it out.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const {
+  constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004;
   for (int step = 0; step < steps; ++step) {
     PlaneStep sum(plane);
-    std::vector<double> residuals;
-    for (const Match& match : matches(plane, reach, subset)) {
+    double squares = 0, weights = 0;
+    for (Match match : matches(plane, reach, subset)) {
       const Sample& s = samples_[match.sample];
       const double weight = displaced(plane.distance(s.position), tolerance);
       if (weight <= 0) continue;
+      if (tolerance > noisy) {
+        const Surfel& p = *match.partner;
+        const double off = plane.reflect(s.position).dot(p.normal) - p.height;
+        match.gap += (off - match.gap.dot(p.normal)) * p.flatness * p.normal;
+      }
       const Agreement agreement(match.gap, plane.reflect_direction(s.surfel->normal),
                                 s.surfel->flatness, *match.partner);
-      residuals.push_back(agreement.squared);
-      sum.add(s.position, match.gap, agreement.metric, weight * agreement.weight(tolerance));
+      const double r = residual(match) / tolerance;
+      const double trusted = weight * agreement.facing * std::exp(-r * r / 2);
+      squares += trusted * r * r;
+      weights += trusted;
+      sum.add(s.position, match.gap, agreement.metric, trusted);
     }
-    if (residuals.size() < 4) return plane;
+    if (weights < 4) return plane;
     double moved;
     plane = sum.taken(&moved);
-    tolerance = std::clamp(2.5 * std::sqrt(quantile(residuals, 0.5)), 0.003, tolerance);
+    tolerance =
+        std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
     if (moved < 1e-4) return plane;
   }
   return plane;

@@ -26,6 +26,9 @@ class Refinement {
   /// The same on all samples. Where partners are exact, it converges to rounding.
   PlaneCandidate final(const PlaneCandidate& start) const;
 
+  /// The share of the samples whose images meet the cloud.
+  double explained_share(const UnitPlane& plane) const;
+
   /// What a perfect mirror would explain: the share of the samples that their own nearest
   /// neighbours explain. Below 1 where the cloud is sparse, noisy or strongly curved.
   double self_explained() const;
@@ -35,7 +38,7 @@ class Refinement {
   struct Subset {
     Index end, stride;
   };
-  enum class Sharpness { Blunt, Sharp };
+  enum class Merit { Rough, Testimony, Closeness };
   struct Match {
     Index sample;
     Vector3 gap;  // from the partner to the image
@@ -48,12 +51,13 @@ class Refinement {
 
   Subset about(Index wanted) const;
   Subset all() const;
-  double closeness(const Match& match, const Surfel& own, const UnitPlane* plane) const;
+  double residual(const Match& match) const;
+  PlaneCandidate rated(const UnitPlane& plane) const;
   const Surfel* surfel_at(const Vector3& x) const;
 
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
   double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
-                   Sharpness sharpness) const;
+                   Merit merit) const;
   UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const;
   UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 

@@ -135,8 +135,9 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
           if (other >= 0) around += cells[other];
         }
     const Thinnest thinnest = thinnest_direction(around.covariance());
-    surfels_.push_back(
-        {low_ + cells[s].mean(), thinnest.direction, thinnest.flatness, samples[s].index});
+    surfels_.push_back({low_ + cells[s].mean(), thinnest.direction,
+                        thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
+                        samples[s].index});
   }
   std::int32_t next = 0;
   for (std::int32_t& s : slot_)

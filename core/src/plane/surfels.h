@@ -12,6 +12,7 @@ namespace symsurf {
 struct Surfel {
   Vector3 position;
   Vector3 normal;   ///< unit, sign arbitrary
+  double height;    ///< of the plane through the cells around, along the normal: a' normal = height
   double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
   Index sample;     ///< the cloud's point nearest to the middle of the cell
 };
