@@ -12,6 +12,7 @@
 #include <symsurf/match.h>
 #include <symsurf/method.h>
 #include <symsurf/metrics.h>
+#include <symsurf/mirror_through.h>
 #include <symsurf/normals.h>
 #include <symsurf/plane.h>
 #include <symsurf/quadric.h>
