@@ -1,6 +1,6 @@
 # make setup | demo | paraview | meshlab | meshlab-gui | test | bench | accuracy: each sets up what it
 # needs first, and only what is missing.
-.PHONY: setup demo paraview meshlab meshlab-gui test bench accuracy
+.PHONY: setup demo paraview meshlab meshlab-gui test bench bench-meshlab accuracy
 
 setup:
 	@.ci/setup python tests
@@ -36,3 +36,10 @@ meshlab:
 meshlab-gui:
 	@.ci/setup meshlab_gui tests
 	@build/venv/bin/python -m pytest tests/meshlab
+
+# What MeshLab costs, how long it takes to cancel, and its own plane detector beside ours.
+bench-meshlab:
+	@.ci/setup meshlab
+	@cmake --build build/meshlab --target meshlab_plane_detector meshlab_cancel
+	@build/meshlab/meshlab/meshlab_plane_detector
+	@tests/benchmarks/meshlab.sh

@@ -15,23 +15,32 @@ using Allocator = vcg::tri::Allocator<CMeshO>;
 
 constexpr const char* mirror_layer = "mirror_layer";
 
-// The layer last found with a mirror, which is the one most people mean.
+// The layer of the mirror last found, which is the one most people mean.
 int default_mirror_layer(const MeshDocument& document) {
   int id = document.mm() ? document.mm()->id() : 0;
   for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
-    if (mirror_of(*it)) id = it->id();
+    if (is_mirror_layer(*it)) id = it->id();
   return id;
 }
 
 const MeshModel& chosen_layer(const MeshDocument& document, int id) {
   for (auto it = document.meshBegin(); it != document.meshEnd(); ++it) {
-    if (it->id() != id) continue;
-    if (mirror_of(*it)) return *it;
-    throw InvalidParameter("the layer '" + it->label().toStdString() +
-                           "' holds no mirror; choose a layer that a mirror filter made since the "
-                           "document was opened");
+    if (it->id() == id) return *it;
   }
   throw InvalidParameter("there is no layer " + std::to_string(id) + " to take the mirror from");
+}
+
+std::shared_ptr<const Mirror> mirror_in(const MeshModel& layer) {
+  if (auto mirror = mirror_of(layer)) return mirror;
+  throw InvalidParameter(
+      "the layer '" + layer.label().toStdString() +
+      "' holds no mirror: its vertices lie neither on a plane nor on a sphere, and a curved mirror "
+      "must be as its filter left it; find the mirror again, or choose another layer");
+}
+
+// Images keep no normals where faces do not give new ones: all zero says so to MeshLab.
+void drop_normals(CMeshO& mesh) {
+  for (CVertexO& vertex : mesh.vert) vertex.N() = Point3m(0, 0, 0);
 }
 
 // The points where MeshLab shows them beside the mirror: from one layer's coordinates to another's.
@@ -65,7 +74,7 @@ std::string ReflectionFilter::info() const {
   return "Mirrors the current layer over a mirror found before and puts the image into a new layer."
          "<br>Each vertex x becomes x + 2 (foot - x), where foot is the point of the mirror that x "
          "maps through; vertices that have no image, and their faces, are left out. Faces are "
-         "turned round, so that their fronts stay outside.";
+         "turned round, so that their fronts stay outside; a cloud loses its normals.";
 }
 
 FilterPlugin::FilterClass ReflectionFilter::menus() const {
@@ -75,7 +84,8 @@ FilterPlugin::FilterClass ReflectionFilter::menus() const {
 RichParameterList ReflectionFilter::parameters(const MeshDocument& document) const {
   RichParameterList dialog;
   dialog.addParam(RichMesh(mirror_layer, default_mirror_layer(document), &document, "Mirror layer",
-                           "A layer made by one of the mirror filters."));
+                           "A layer made by one of the mirror filters, or any layer whose vertices "
+                           "lie on a plane or a sphere."));
   return dialog;
 }
 
@@ -85,9 +95,10 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
   MeshModel& layer = current_layer(document);
   const MeshModel& mirror =
       chosen_layer(document, static_cast<int>(parameters.getMeshId(mirror_layer)));
+  const std::shared_ptr<const Mirror> over = mirror_in(mirror);
   context.report(0);
   const Points points = in_coordinates_of(mirror, layer, read_cloud(layer, false, false).points);
-  const Points images = mirror_of(mirror)->reflect(PointsView(points));
+  const Points images = over->reflect(points);
   std::vector<char> doomed(images.rows());
   Index left = 0;
   for (Index i = 0; i < images.rows(); ++i) {
@@ -104,6 +115,7 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
     image.cm.vert[i].P() = Point3m(images(i, 0), images(i, 1), images(i, 2));
   if (left < images.rows()) remove_vertices(image.cm, doomed);
   vcg::tri::Clean<CMeshO>::FlipMesh(image.cm);
+  if (image.cm.fn == 0) drop_normals(image.cm);
   for (const auto& [name, texture] : layer.getTextures()) image.addTexture(name, texture);
   image.updateBoxAndNormals();
   return {{{"reflection_layer", image.id()}, {"vertices", static_cast<int>(left)}},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "result_layers.h"
 
+#include <symsurf/mirror_through.h>
+
 #include <algorithm>
 
 namespace symsurf::meshlab {
@@ -8,21 +10,30 @@ namespace symsurf::meshlab {
 namespace {
 
 using Allocator = vcg::tri::Allocator<CMeshO>;
-using MirrorHandle = std::shared_ptr<const Mirror>;
 
+// The mirror, and the vertices drawn for it: when they are moved it is no longer theirs.
+struct DrawnMirror {
+  std::shared_ptr<const Mirror> mirror;
+  Points vertices;
+};
+
+constexpr const char* mirror_layer_name = "Mirror";
 constexpr const char* mirror_attribute = "symsurf mirror";
 constexpr int marked = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
 
 // Residuals below this share of the diagonal are rounding, which is not worth a colour.
 constexpr double least_ramp = 1e-6;
 
+Point3m point(const Points& points, Index row) {
+  return Point3m(points(row, 0), points(row, 1), points(row, 2));
+}
+
 MeshModel& add_layer(MeshDocument& document, const Matrix44m& transform, const QString& name,
                      const Points& points) {
   MeshModel& layer = *document.addNewMesh("", name, false);
   layer.cm.Tr = transform;
   auto vertex = Allocator::AddVertices(layer.cm, points.rows());
-  for (Index i = 0; i < points.rows(); ++i, ++vertex)
-    vertex->P() = Point3m(points(i, 0), points(i, 1), points(i, 2));
+  for (Index i = 0; i < points.rows(); ++i, ++vertex) vertex->P() = point(points, i);
   return layer;
 }
 
@@ -33,25 +44,41 @@ void colour_by_residual(MeshModel& layer, const Eigen::VectorXd& residuals) {
   layer.updateDataMask(marked);
 }
 
+bool is_as_drawn(const CMeshO& mesh, const Points& vertices) {
+  if (mesh.vn != vertices.rows() || mesh.vert.size() != static_cast<std::size_t>(mesh.vn))
+    return false;
+  for (Index i = 0; i < vertices.rows(); ++i)
+    if (mesh.vert[i].cP() != point(vertices, i)) return false;
+  return true;
+}
+
 double sign(double x) { return (x > 0) - (x < 0); }
 
 }  // namespace
 
 MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
                             std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
-  MeshModel& layer = add_layer(document, input.cm.Tr, "Mirror", mesh.vertices);
+  MeshModel& layer = add_layer(document, input.cm.Tr, mirror_layer_name, mesh.vertices);
   auto face = Allocator::AddFaces(layer.cm, mesh.triangles.rows());
   for (Index i = 0; i < mesh.triangles.rows(); ++i, ++face)
     for (int corner = 0; corner < 3; ++corner)
       face->V(corner) = &layer.cm.vert[mesh.triangles(i, corner)];
-  Allocator::AddPerMeshAttribute<MirrorHandle>(layer.cm, mirror_attribute)() = std::move(mirror);
+  Allocator::AddPerMeshAttribute<DrawnMirror>(layer.cm, mirror_attribute)() = {std::move(mirror),
+                                                                               mesh.vertices};
   layer.updateBoxAndNormals();
   return layer;
 }
 
 std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer) {
-  auto handle = Allocator::FindPerMeshAttribute<MirrorHandle>(layer.cm, mirror_attribute);
-  return Allocator::IsValidHandle(layer.cm, handle) ? handle() : nullptr;
+  auto drawn = Allocator::FindPerMeshAttribute<DrawnMirror>(layer.cm, mirror_attribute);
+  if (Allocator::IsValidHandle(layer.cm, drawn) && is_as_drawn(layer.cm, drawn().vertices))
+    return drawn().mirror;
+  if (layer.cm.vn == 0) return nullptr;
+  return mirror_through(read_cloud(layer, false, false).points);
+}
+
+bool is_mirror_layer(const MeshModel& layer) {
+  return layer.label().startsWith(mirror_layer_name) && layer.cm.fn > 0;
 }
 
 MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,

@@ -12,13 +12,16 @@
 namespace symsurf::meshlab {
 
 /// Adds the layer "Mirror": the mirror's triangles, placed like `input`, and the mirror itself for
-/// mirror_of().
+/// mirror_of(). The numbers are the mirror's until somebody moves a vertex.
 MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
                             std::shared_ptr<const Mirror> mirror, const Mesh& mesh);
 
-/// The mirror that add_mirror_layer() left in a layer; null in any other layer, and in one that was
-/// saved and read again.
+/// The mirror that add_mirror_layer() left in a layer. In any other layer, such as one that was
+/// saved and read again, the plane or the sphere that its vertices lie on, or null.
 std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer);
+
+/// Whether it looks like a layer of add_mirror_layer(), the one to offer first.
+bool is_mirror_layer(const MeshModel& layer);
 
 /// Adds the layer "Surface points": the result's, with their residuals as quality.
 MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,

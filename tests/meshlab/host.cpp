@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A MeshLab without a window: loads the plugin through MeshLab's own plugin manager and does to its
-// filters what pymeshlab cannot: cancels them, throws out of the progress callback, hands them
-// layers with deleted vertices and documents without layers. Prints the mirrors of one lump, a line
-// a figure, and what fails; exit code 0: all as it should be.
+// Does to the plugin's filters what pymeshlab cannot: cancels them, throws out of the progress
+// callback, hands them layers with deleted vertices and documents without layers. Prints the
+// mirrors of one lump, a line a figure, and what fails; exit code 0: all as it should be.
 //
 //   host PLUGIN
 
-#include <common/globals.h>
-#include <common/ml_document/mesh_document.h>
-#include <common/plugins/plugin_manager.h>
-
 #include <QApplication>
-#include <cmath>
-#include <functional>
 #include <iostream>
-#include <random>
 #include <sstream>
+
+#include "plugin_host.h"
 
 namespace {
 
@@ -30,23 +24,6 @@ void expect(bool holds, const std::string& what) {
   std::cout << "FAILED: " << what << "\n";
 }
 
-// MeshLab's callback is a plain function.
-std::function<bool(int)> on_progress;
-bool callback(const int percent, const char*) { return on_progress(percent); }
-
-void add_lump(MeshDocument& document, int size) {
-  std::mt19937 random(7);
-  std::normal_distribution<double> normal;
-  CMeshO& mesh = document.addNewMesh("", "lump")->cm;
-  auto vertex = Allocator::AddVertices(mesh, size);
-  for (int i = 0; i < size / 2; ++i) {
-    const double x = normal(random), y = 2 * normal(random), z = 3 * normal(random) + y * y / 3;
-    (vertex++)->P() = Point3m(x, y, z);
-    (vertex++)->P() = Point3m(-x, y, z);
-  }
-  vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
-}
-
 std::string state(const MeshDocument& document) {
   std::ostringstream text;
   text.precision(17);
@@ -57,34 +34,6 @@ std::string state(const MeshDocument& document) {
   }
   return text.str();
 }
-
-class Run {
- public:
-  Run(FilterPlugin& plugin, QAction* action) : plugin_(plugin), action_(action) {}
-
-  std::string name() const { return plugin_.pythonFilterName(action_).toStdString(); }
-
-  // The message of the MLException, empty when there was none. Anything else ends the program, as
-  // it would end MeshLab.
-  std::string operator()(MeshDocument& document, vcg::CallBackPos* progress = nullptr) {
-    unsigned int mask = 0;
-    try {
-      values_ = plugin_.applyFilter(action_, plugin_.initParameterList(action_, document), document,
-                                    mask, progress);
-    } catch (const MLException& error) {
-      return error.what();
-    }
-    expect(mask == static_cast<unsigned int>(plugin_.postCondition(action_)), name() + ": mask");
-    return "";
-  }
-
-  const std::map<std::string, QVariant>& values() const { return values_; }
-
- private:
-  FilterPlugin& plugin_;
-  QAction* action_;
-  std::map<std::string, QVariant> values_;
-};
 
 void cancels_at_every_report(Run& run) {
   int reports = 1;
@@ -100,7 +49,7 @@ void cancels_at_every_report(Run& run) {
       stopped = seen++ == last;
       return !stopped;
     };
-    const std::string message = run(document, callback);
+    const std::string message = run(document, progress_callback);
     reports = std::min(seen + 1, 6);
     if (!stopped) return;
     expect(message.find("cancelled") != std::string::npos, run.name() + ": '" + message + "'");
@@ -113,10 +62,10 @@ void survives_a_throwing_callback(Run& run) {
   add_lump(document, 600);
   const std::string before = state(document);
   on_progress = [](int) -> bool { throw std::runtime_error("the host's own trouble"); };
-  const std::string message = run(document, callback);
+  const std::string message = run(document, progress_callback);
   expect(message.find("the host's own trouble") != std::string::npos, run.name() + ": " + message);
   on_progress = [](int) -> bool { throw 42; };
-  expect(!run(document, callback).empty(), run.name() + ": a thrown number passed unseen");
+  expect(!run(document, progress_callback).empty(), run.name() + ": a thrown number passed unseen");
   expect(state(document) == before, run.name() + ": failed, yet the document changed");
 }
 
@@ -156,10 +105,11 @@ void skips_deleted_vertices(Run& run) {
   }
 }
 
-void print_mirror(Run& run) {
+void print_mirror(Run& run, unsigned int mask) {
   MeshDocument document;
   add_lump(document, 500);
   expect(run(document).empty(), run.name() + ": does not run");
+  expect(run.mask() == mask, run.name() + ": says that it changed something else");
   for (const auto& [name, value] : run.values()) {
     std::cout << run.name() << " " << name;
     if (value.canConvert<Matrix44m>())
@@ -183,22 +133,19 @@ void offers_no_preview(FilterPlugin& plugin, QAction* action) {
 
 int main(int argc, char** argv) {
   QCoreApplication application(argc, argv);
-  PluginManager& manager = meshlab::pluginManagerInstance();
-  manager.loadPlugin(argv[1]);
-  FilterPlugin* plugin = nullptr;
-  for (FilterPlugin* candidate : manager.filterPluginIterator()) plugin = candidate;
+  FilterPlugin& plugin = load_plugin(argv[1]);
   int filters = 0;
   std::cout.precision(17);
-  for (QAction* action : plugin->actions()) {
-    offers_no_preview(*plugin, action);
-    Run run(*plugin, action);
+  for (QAction* action : plugin.actions()) {
+    offers_no_preview(plugin, action);
+    Run run(plugin, action);
     if (run.name().rfind("compute_mirror_", 0) != 0) continue;
     ++filters;
     cancels_at_every_report(run);
     survives_a_throwing_callback(run);
     refuses_what_is_not_there(run);
     skips_deleted_vertices(run);
-    print_mirror(run);
+    print_mirror(run, static_cast<unsigned int>(plugin.postCondition(action)));
   }
   expect(filters > 0, "the plugin has filters");
   std::cout << filters << " filters, " << failures << " failures" << std::endl;

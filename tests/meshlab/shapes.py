@@ -53,4 +53,26 @@ def mesh(seed: int = 0, around: int = 32, across: int = 16) -> Shape:
     return Shape(points.reshape(-1, 3), faces, seed)
 
 
+def lump(seed: int = 0, around: int = 64, up: int = 32) -> Shape:
+    """A dented ball, its left and right mirror images of each other."""
+    u, v = np.meshgrid(np.arange(around), np.arange(up), indexing="ij")
+    a, b = 2 * np.pi * u / around, np.pi * (v + 0.5) / up
+    ball = np.stack([np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.cos(b)], -1).reshape(-1, 3)
+    _, y, z = ball.T
+    points = ball * (1 + 0.3 * np.sin(2 * y + z) + 0.25 * y * z**2)[:, None] * (1, 1.3, 1.7)
+    right, above = (u + 1) % around, v + 1
+    corners = ((u, v), (u, above), (right, above), (right, v))
+    corner = [np.ravel((i * up + j)[:, :-1]) for i, j in corners]
+    faces = np.vstack([np.stack(corner[:3], 1), np.stack([corner[0], *corner[2:]], 1)])
+    return Shape(points, faces, seed)
+
+
+def lump_cloud(seed: int = 0) -> Shape:
+    """The vertices of the lump in no order."""
+    shape = lump(seed)
+    shape.points, shape.faces = np.random.default_rng(seed).permutation(shape.points), None
+    return shape
+
+
 SHAPES = {"cloud": cloud, "mesh": mesh}
+SURFACES = {"cloud": lump_cloud, "mesh": lump}

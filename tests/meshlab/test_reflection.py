@@ -6,7 +6,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from shapes import SHAPES, cloud, mesh
+from shapes import SHAPES, cloud, lump, lump_cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
 
@@ -76,3 +76,57 @@ def test_a_layer_without_mirror_is_refused():
     with pytest.raises(pymeshlab.PyMeshLabException, match="'shape' holds no mirror"):
         mesh_set.apply_filter("apply_mirror_reflection")
     assert len(mesh_set) == 1
+
+
+def saved_and_read_again(mesh_set: pymeshlab.MeshSet, layer: int, file) -> None:
+    mesh_set.set_current_mesh(layer)
+    mesh_set.save_current_mesh(str(file))
+    mesh_set.load_new_mesh(str(file))
+
+
+@pytest.mark.parametrize(("method", "near"), [("plane", 1e-5), ("sphere", 1e-3)])
+def test_a_mirror_that_was_saved_serves_again(method, near, tmp_path):
+    shape = lump(6)
+    mesh_set = shape.mesh_set()
+    mirror = mesh_set.apply_filter("compute_mirror_" + method)["mirror_layer"]
+    images = symsurf.detect(shape.points, method).mirror.reflect(shape.points)
+    saved_and_read_again(mesh_set, mirror, tmp_path / "mirror.ply")
+    again = mesh_set.current_mesh().id()
+    mesh_set.set_current_mesh(0)
+    returned = mesh_set.apply_filter("apply_mirror_reflection", mirror_layer=again)
+    reflected = mesh_set[returned["reflection_layer"]].vertex_matrix()
+    images = images[np.isfinite(images).all(axis=1)]
+    assert np.allclose(reflected, images, rtol=0, atol=near * shape.diagonal)
+
+
+def test_a_mirror_that_was_moved_is_where_it_was_moved_to():
+    shape = cloud(7)
+    mesh_set = shape.mesh_set()
+    mesh_set.set_current_mesh(mesh_set.apply_filter("compute_mirror_plane")["mirror_layer"])
+    mirror = symsurf.detect(shape.points, "plane").mirror
+    matrix = np.eye(4)
+    matrix[:3, 3] = 2 * mirror.normal
+    mesh_set.apply_filter("set_matrix", transformmatrix=matrix, freeze=True)
+    mesh_set.set_current_mesh(0)
+    returned = mesh_set.apply_filter("apply_mirror_reflection")
+    reflected = mesh_set[returned["reflection_layer"]].vertex_matrix()
+    images = mirror.reflect(shape.points) + 4 * mirror.normal
+    assert np.allclose(reflected, images, rtol=0, atol=1e-9 * shape.diagonal)
+
+
+def test_normals_of_a_reflected_cloud_are_none_and_of_a_mesh_its_own():
+    for shape, has_normals in ((lump_cloud(8), False), (lump(8), True)):
+        mesh_set = pymeshlab.MeshSet()
+        faces = {} if shape.faces is None else {"face_matrix": shape.faces}
+        normals = np.tile(shape.normal, (len(shape.points), 1))
+        mesh = pymeshlab.Mesh(vertex_matrix=shape.points, v_normals_matrix=normals, **faces)
+        mesh_set.add_mesh(mesh)
+        mesh_set.apply_filter("compute_mirror_plane")
+        returned = mesh_set.apply_filter("apply_mirror_reflection")
+        reflected = mesh_set[returned["reflection_layer"]]
+        if not has_normals:
+            assert not reflected.vertex_normal_matrix().any()
+            continue
+        outward = reflected.vertex_matrix() - reflected.vertex_matrix().mean(axis=0)
+        normals = reflected.vertex_normal_matrix()
+        assert ((normals * outward).sum(axis=1) > 0).mean() > 0.9

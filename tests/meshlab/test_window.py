@@ -1,0 +1,151 @@
+"""MeshLab's own window on a virtual screen: the menu, the dialog and the result.
+
+Needs the MeshLab that `make meshlab-gui` builds. The pictures are left beside it, in `pictures`,
+to be looked at.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from conftest import BUILD, plugin_file
+from shapes import lump
+
+symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
+
+PROGRAM = BUILD.parent / "meshlab-gui" / "src" / "distrib" / "meshlab"
+SCREEN = ":93"
+PATIENCE = 60
+
+pytestmark = pytest.mark.skipif(
+    not PROGRAM.exists(), reason="MeshLab's window is not built: make meshlab-gui"
+)
+
+
+class Window:
+    """MeshLab with one mesh open; clicks and pictures at places of a 1280 x 800 screen."""
+
+    def __init__(self, folder: Path, mesh_file: Path):
+        self.pictures = PROGRAM.parents[2] / "pictures"
+        self.pictures.mkdir(exist_ok=True)
+        self.log = folder / "log"
+        self.environment = os.environ | {
+            "DISPLAY": SCREEN,
+            "HOME": str(folder),
+            "XDG_RUNTIME_DIR": str(folder),
+            "LIBGL_ALWAYS_SOFTWARE": "1",
+        }
+        self.processes = [self._start("Xvfb", SCREEN, "-screen", "0", "1280x800x24")]
+        self._wait(lambda: self._xdotool("getdisplaygeometry").returncode == 0)
+        self.processes.append(self._start("openbox"))
+        self.processes.append(self._start(PROGRAM, mesh_file, log=self.log))
+        self._wait(lambda: self.has("Send Anonymous Statistics"))
+        self.press("n")
+        self._wait(lambda: "All files opened" in self.log.read_text())
+
+    def close(self) -> None:
+        for process in reversed(self.processes):
+            process.send_signal(signal.SIGTERM)
+            process.wait(PATIENCE)
+
+    def alive(self) -> bool:
+        return self.processes[-1].poll() is None
+
+    def has(self, title: str) -> bool:
+        return self._xdotool("search", "--onlyvisible", "--name", title).returncode == 0
+
+    def click(self, x: int, y: int) -> None:
+        self._xdotool("mousemove", x, y, "click", 1)
+        time.sleep(1)
+
+    def drag(self, start: tuple[int, int], end: tuple[int, int]) -> None:
+        self._xdotool("mousemove", *start, "mousedown", 1)
+        self._xdotool("mousemove", *end, "mouseup", 1)
+        time.sleep(2)
+
+    def press(self, *keys: str) -> None:
+        self._xdotool("key", "--delay", 300, *keys)
+
+    def wait_for_log(self, text: str) -> str:
+        self._wait(lambda: text in self.log.read_text())
+        time.sleep(2)
+        return self.log.read_text()
+
+    def picture(self, name: str) -> np.ndarray:
+        """A picture of the screen, (rows, columns, 3), also left in the folder of pictures."""
+        file = self.pictures / f"{name}.png"
+        subprocess.run(["import", "-window", "root", file], env=self.environment, check=True)
+        raw = subprocess.run(["convert", file, "rgb:-"], check=True, capture_output=True).stdout
+        return np.frombuffer(raw, np.uint8).reshape(800, 1280, 3).astype(int)
+
+    def _start(self, *command: object, log: Path | None = None) -> subprocess.Popen:
+        sink = subprocess.DEVNULL if log is None else log.open("w")
+        words = [str(word) for word in command]
+        return subprocess.Popen(words, env=self.environment, stdout=sink, stderr=sink)
+
+    def _xdotool(self, *words: object) -> subprocess.CompletedProcess:
+        command = ["xdotool", *map(str, words)]
+        return subprocess.run(command, env=self.environment, capture_output=True)
+
+    def _wait(self, condition) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, f"no answer for {PATIENCE} s"
+            time.sleep(0.5)
+        time.sleep(1)
+
+
+@pytest.fixture
+def window(tmp_path):
+    loaded = PROGRAM.parent / "plugins" / "filter_symsurf.so"
+    loaded.unlink(missing_ok=True)
+    shutil.copy(plugin_file("float"), loaded)
+    shape = lump(0, around=192, up=96)
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(shape.points, shape.faces))
+    mesh_set.save_current_mesh(str(tmp_path / "lump.ply"))
+    opened = Window(tmp_path, tmp_path / "lump.ply")
+    yield opened
+    opened.close()
+
+
+def reds(picture: np.ndarray) -> int:
+    """Pixels in the 3D view of the colour that MeshLab's ramp gives to a quality of 0."""
+    view = picture[95:660, 5:800]
+    return int(np.sum((view[..., 0] > 100) & (view[..., 1:] < 40).all(axis=-1)))
+
+
+def place_in_submenu(title: str) -> tuple[int, int]:
+    """Where the entry stands: by the alphabet, among those of the plugin for selecting."""
+    others = ["Select by Face Quality", "Select by Vertex Quality"]
+    titles = [method.title for method in symsurf.methods().values()] + others
+    return 580, 281 + 25 * sorted(titles, key=str.lower).index(title)
+
+
+def test_menu_dialog_and_result(window):
+    filters, quality, apply, close = (120, 30), (240, 280), (860, 708), (606, 708)
+    window.click(*filters)
+    window.click(*quality)
+    before = window.picture("menu")
+    window.click(*place_in_submenu("Mirror plane"))
+    assert window.has("Mirror plane")
+    window.picture("dialog")
+    window.click(*apply)
+    log = window.wait_for_log("Applied filter: Mirror plane")
+    window.click(*close)
+    window.drag((300, 500), (480, 420))
+    after = window.picture("result")
+    assert window.alive()
+    assert float(re.search(r"Mirror plane: score: (\S+)", log)[1]) > 0.9
+    # Exact symmetry: no residual anywhere.
+    assert reds(before) == 0 and reds(after) > 10000
