@@ -114,6 +114,8 @@ void print_mirror(Run& run, unsigned int mask) {
     std::cout << run.name() << " " << name;
     if (value.canConvert<Matrix44m>())
       for (int i = 0; i < 16; ++i) std::cout << " " << value.value<Matrix44m>()[i / 4][i % 4];
+    else if (value.canConvert<Matrix33m>())
+      for (int i = 0; i < 9; ++i) std::cout << " " << value.value<Matrix33m>()[i / 3][i % 3];
     else if (value.canConvert<Point3m>())
       for (int i = 0; i < 3; ++i) std::cout << " " << value.value<Point3m>()[i];
     else
