@@ -52,18 +52,20 @@ void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
 }
 
 // On the thinned cloud alone.
-std::vector<PlaneCandidate> promising_planes(const Surfels& surfels) {
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Context& context) {
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
   keep_distinct(candidates, alike, started);
+  context.report(0.5);
   climb(surfels, map, candidates);
   drop_hopeless(candidates);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
   keep_distinct(candidates, alike, started);
+  context.report(1);
   return candidates;
 }
 
@@ -71,23 +73,28 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
   const Surfels fine(cloud, 4 * sample_size, context.stage(0.1, 0.2));
-  std::vector<PlaneCandidate> candidates = promising_planes(coarse);
-  context.report(0.25);
+  std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
   PointTree tree(cloud.points, context.stage(0.25, 0.4));
   const Refinement refinement(cloud, tree, {&coarse, &fine});
+  const auto refine = [&](double from, double to, const auto& step) {
+    const Context part = context.stage(from, to);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      candidates[i] = step(candidates[i]);
+      part.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
+    }
+  };
   if (candidates.size() > quickly_fitted) candidates.resize(quickly_fitted);
-  for (PlaneCandidate& candidate : candidates) candidate = refinement.quick(candidate);
+  refine(0.4, 0.43, [&](const PlaneCandidate& c) { return refinement.quick(c); });
   keep_distinct(candidates, alike, finalists);
   drop_hopeless(candidates);
-  for (PlaneCandidate& candidate : candidates) candidate = refinement.careful(candidate);
+  refine(0.43, 0.46, [&](const PlaneCandidate& c) { return refinement.careful(c); });
   keep_distinct(candidates, alike, finalists);
   const double best_explained = candidates.front().explained;
   const double good = std::min(best_explained, convincing * best_explained);
-  for (PlaneCandidate& candidate : candidates)
-    if (candidate.explained >= good) candidate = refinement.final(candidate);
+  refine(0.46, 0.5,
+         [&](const PlaneCandidate& c) { return c.explained >= good ? refinement.final(c) : c; });
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
-  context.report(0.5);
 
   const double whole = refinement.self_explained();
   std::vector<Result> found;

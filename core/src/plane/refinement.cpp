@@ -76,6 +76,18 @@ const Surfel* Refinement::surfel_at(const Vector3& x) const {
   return flattest;
 }
 
+// The nearest points to a block of images. Of a small cloud every point is a sample, and images
+// that follow each other along the curve lie close together; those of a big one have many points
+// between them.
+std::array<Neighbour, PointTree::block> Refinement::nearest(const PointTree::Queries& images,
+                                                            double limit, Index& near) const {
+  if (tree_.size() <= small_cloud) return tree_.nearest(images, limit, near);
+  std::array<Neighbour, PointTree::block> found;
+  for (int k = 0; k < PointTree::block; ++k)
+    if (!std::isnan(images(0, k))) found[k] = tree_.nearest(Vector3(images.col(k)), limit);
+  return found;
+}
+
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
                                                    Subset subset) const {
   constexpr Index block = PointTree::block;
@@ -92,10 +104,10 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
       images[k] = plane.reflect(samples_[begin + k * subset.stride].position);
       queries.col(k) = cloud_.frame.leave(images[k]);
     }
-    const auto nearest = tree_.nearest(queries, limit * limit * size * size, near);
+    const auto partners = nearest(queries, limit * limit * size * size, near);
     for (Index k = 0; k < count; ++k) {
-      if (nearest[k].index < 0) continue;
-      const Vector3 partner = cloud_.frame.enter(cloud_.points[nearest[k].index]);
+      if (partners[k].index < 0) continue;
+      const Vector3 partner = cloud_.frame.enter(cloud_.points[partners[k].index]);
       if (const Surfel* surfel = surfel_at(partner))
         found.push_back({begin + k * subset.stride, images[k] - partner, surfel});
     }

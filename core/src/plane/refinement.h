@@ -55,6 +55,8 @@ class Refinement {
   PlaneCandidate rated(const UnitPlane& plane) const;
   const Surfel* surfel_at(const Vector3& x) const;
 
+  std::array<Neighbour, PointTree::block> nearest(const PointTree::Queries& images, double limit,
+                                                  Index& near) const;
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
   double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
                    Merit merit) const;
