@@ -10,28 +10,36 @@ namespace symsurf {
 /// How well an image lands on its partner: its offset from the partner's tangent plane counts in
 /// full, along the plane hardly, because partners are samples of a sheet.
 struct Agreement {
-  Matrix3 metric;  ///< squared residual = offset' metric offset
-  double squared;  ///< that residual
-  double gap;      ///< squared, in all directions alike
-  double facing;   ///< 0..1: do the normals mirror each other?
+  const Surfel& partner;
+  double isotropic;  ///< how much an offset in any direction counts
+  double gap;        ///< squared, in all directions alike
+  double squared;    ///< squared residual = offset' metric offset
+  double facing;     ///< 0..1: do the normals mirror each other?
 
   Agreement(const Vector3& offset, const Vector3& image_normal, double image_flatness,
-            const Surfel& partner) {
+            const Surfel& partner)
+      : partner(partner), gap(offset.squaredNorm()) {
     constexpr double along_sheet = 0.08, inside_blob = 0.4;
-    const double flat = partner.flatness;
-    metric = flat * partner.normal * partner.normal.transpose();
-    metric.diagonal().array() += along_sheet * flat + inside_blob * (1 - flat);
-    squared = offset.dot(metric * offset);
-    gap = offset.squaredNorm();
+    const double flat = partner.flatness, off_sheet = offset.dot(partner.normal);
+    isotropic = along_sheet * flat + inside_blob * (1 - flat);
+    squared = flat * off_sheet * off_sheet + isotropic * gap;
     const double cosine = image_normal.dot(partner.normal);
     const double turned = image_flatness * flat * (1 - cosine * cosine);
     facing = (1 - turned) * (1 - turned);
   }
 
+  Matrix3 metric() const {
+    Matrix3 m = partner.flatness * partner.normal * partner.normal.transpose();
+    m.diagonal().array() += isotropic;
+    return m;
+  }
+
   /// 0..1. Where the gap is small in every direction, nobody asks for normals.
   double weight(double tolerance) const {
+    constexpr double negligible = 14;  // e^-14
     const double scale = 1 / (2 * tolerance * tolerance);
-    return std::max(facing * std::exp(-squared * scale), std::exp(-9 * gap * scale));
+    const double r = squared * scale, g = 9 * gap * scale;
+    return std::max(r < negligible ? facing * std::exp(-r) : 0, g < negligible ? std::exp(-g) : 0);
   }
 };
 

@@ -153,7 +153,7 @@ PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandid
       const Vector3 gap = image - surfels[j].position;
       const Agreement agreement(gap, candidate.plane.reflect_direction(s.normal), s.flatness,
                                 surfels[j]);
-      sum.add(s.position, gap, agreement.metric, weight * agreement.weight(tolerance));
+      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
     }
     candidate.plane = sum.taken();
   }

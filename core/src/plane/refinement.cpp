@@ -50,7 +50,7 @@ Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
   std::vector<std::uint8_t> taken(n <= small_cloud ? n : 0, 0);
   const auto take = [&](Index i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
-    if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel});
+    if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
     if (!taken.empty()) taken[i] = 1;
   };
   const Surfels& finest = *scales_.back();
@@ -58,9 +58,7 @@ Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
   even_samples_ = static_cast<Index>(samples_.size());
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (!taken[i]) take(static_cast<Index>(i));
-  const auto along_curve = [](const Sample& a, const Sample& b) {
-    return place_on_curve(a.position) < place_on_curve(b.position);
-  };
+  const auto along_curve = [](const Sample& a, const Sample& b) { return a.place < b.place; };
   std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
   std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
 }
@@ -96,20 +94,19 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   found.reserve(subset.end / subset.stride + 1);
   Index near = 0;
   for (Index begin = 0; begin < subset.end; begin += block * subset.stride) {
-    std::array<Vector3, block> images;
     PointTree::Queries queries;
     queries.setConstant(std::numeric_limits<double>::quiet_NaN());
     const Index count = std::min(block, (subset.end - begin + subset.stride - 1) / subset.stride);
     for (Index k = 0; k < count; ++k) {
-      images[k] = plane.reflect(samples_[begin + k * subset.stride].position);
-      queries.col(k) = cloud_.frame.leave(images[k]);
+      const Vector3 image = plane.reflect(samples_[begin + k * subset.stride].position);
+      queries.col(k) = cloud_.frame.leave(image);
     }
     const auto partners = nearest(queries, limit * limit * size * size, near);
     for (Index k = 0; k < count; ++k) {
       if (partners[k].index < 0) continue;
       const Vector3 partner = cloud_.frame.enter(cloud_.points[partners[k].index]);
       if (const Surfel* surfel = surfel_at(partner))
-        found.push_back({begin + k * subset.stride, images[k] - partner, surfel});
+        found.push_back({begin + k * subset.stride, partner, surfel});
     }
   }
   return found;
@@ -117,10 +114,9 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
 
 // Along a sheet, or inside a blob, a partner is as near as the spacing allows: only what exceeds it
 // counts.
-double Refinement::residual(const Match& match) const {
-  const Surfel& partner = *match.partner;
-  const double length = match.gap.norm();
-  const double off_sheet = std::abs(match.gap.dot(partner.normal));
+double Refinement::residual(const Vector3& gap, const Surfel& partner) const {
+  const double length = gap.norm();
+  const double off_sheet = std::abs(gap.dot(partner.normal));
   const double along_sheet = std::sqrt(std::max(0.0, length * length - off_sheet * off_sheet));
   const double sheet = std::hypot(off_sheet, 0.3 * std::max(0.0, along_sheet - spacing_));
   const double blob = 0.6 * std::max(0.0, length - spacing_);
@@ -137,17 +133,18 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
   for (const Match& match : found) {
     const Sample& s = samples_[match.sample];
     const double weight = displaced(plane.distance(s.position), score_tolerance);
-    const Agreement agreement(match.gap, plane.reflect_direction(s.surfel->normal),
-                              s.surfel->flatness, *match.partner);
+    const Vector3 gap = plane.reflect(s.position) - match.partner;
+    const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
+                              *match.surfel);
     switch (merit) {
       case Merit::Rough:
         explained += weight * agreement.weight(score_tolerance);
         break;
       case Merit::Testimony:
-        explained += weight * testimony(residual(match), agreement.facing);
+        explained += weight * testimony(residual(gap, *match.surfel), agreement.facing);
         break;
       case Merit::Closeness:
-        explained += weight * closeness(residual(match), agreement.facing);
+        explained += weight * closeness(residual(gap, *match.surfel), agreement.facing);
     }
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
@@ -169,9 +166,9 @@ double Refinement::self_explained() const {
     const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
     const Surfel* surfel = surfel_at(other);
     if (!surfel) continue;
-    const Match match{i, s.position - other, surfel};
-    const Agreement agreement(match.gap, s.surfel->normal, s.surfel->flatness, *surfel);
-    sum += closeness(residual(match), agreement.facing);
+    const Vector3 gap = s.position - other;
+    const Agreement agreement(gap, s.surfel->normal, s.surfel->flatness, *surfel);
+    sum += closeness(residual(gap, *surfel), agreement.facing);
   }
   return sum / static_cast<double>(looked);
 }
@@ -196,12 +193,14 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 // what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   constexpr double wide = 0.01, narrow = 0.003;
+  constexpr int steps = 8;
   const Subset most = about(most_samples);
-  PlaneCandidate best = rated(fitted(start.plane, wide, most, 4));
-  const PlaneCandidate closer = rated(fitted(best.plane, narrow, most, 4));
-  const bool close = closer.explained > best.explained;
-  if (close) best = closer;
-  return rated(fitted_to_exact_pairs(fitted(best.plane, close ? narrow : wide / 2, all(), 1)));
+  const PlaneCandidate roughly = rated(fitted(start.plane, wide, most, steps));
+  const PlaneCandidate closely = rated(fitted(roughly.plane, narrow, most, steps));
+  const bool close = closely.explained > roughly.explained;
+  const UnitPlane plane = close ? fitted(closely.plane, narrow, all(), 2)
+                                : fitted(roughly.plane, wide / 2, all(), 2);
+  return rated(fitted_to_exact_pairs(plane));
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
@@ -215,32 +214,37 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
 // cells around them, which has averaged it out.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const {
   constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004;
+  const double stale = 0.1 * spacing_;
+  std::vector<Match> found;
+  double moved = 2 * stale;
   for (int step = 0; step < steps; ++step) {
+    if (moved > stale) { found = matches(plane, std::min(reach, 4*tolerance+spacing_), subset); moved = 0; }
     PlaneStep sum(plane);
     double squares = 0, weights = 0;
-    for (Match match : matches(plane, reach, subset)) {
+    for (const Match& match : found) {
       const Sample& s = samples_[match.sample];
       const double weight = displaced(plane.distance(s.position), tolerance);
       if (weight <= 0) continue;
-      if (tolerance > noisy) {
-        const Surfel& p = *match.partner;
-        const double off = plane.reflect(s.position).dot(p.normal) - p.height;
-        match.gap += (off - match.gap.dot(p.normal)) * p.flatness * p.normal;
-      }
-      const Agreement agreement(match.gap, plane.reflect_direction(s.surfel->normal),
-                                s.surfel->flatness, *match.partner);
-      const double r = residual(match) / tolerance;
+      const Vector3 image = plane.reflect(s.position);
+      const Surfel& p = *match.surfel;
+      Vector3 gap = image - match.partner;
+      if (tolerance > noisy)
+        gap += (image.dot(p.normal) - p.height - gap.dot(p.normal)) * p.flatness * p.normal;
+      const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal),
+                                s.surfel->flatness, p);
+      const double r = residual(gap, p) / tolerance;
       const double trusted = weight * agreement.facing * std::exp(-r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
-      sum.add(s.position, match.gap, agreement.metric, trusted);
+      sum.add(s.position, gap, agreement.metric(), trusted);
     }
     if (weights < 4) return plane;
-    double moved;
-    plane = sum.taken(&moved);
+    double change;
+    plane = sum.taken(&change);
+    moved += change;
     tolerance =
         std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
-    if (moved < 1e-4) return plane;
+    if (change < 1e-4) return plane;
   }
   return plane;
 }
@@ -260,14 +264,17 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
       return displaced(plane.distance(samples_[match.sample].position), spacing_) < 1;
     });
     if (found.size() < 10) return start;
-    std::vector<double> gaps;
-    for (const Match& match : found) gaps.push_back(match.gap.norm());
-    typical = quantile(gaps, 0.1);
+    const auto gap = [&](const Match& match) -> Vector3 {
+      return plane.reflect(samples_[match.sample].position) - match.partner;
+    };
+    std::vector<double> lengths;
+    for (const Match& match : found) lengths.push_back(gap(match).norm());
+    typical = quantile(lengths, 0.1);
     if (typical > worth_trying * spacing_) return start;
     PlaneStep sum(plane);
     for (const Match& match : found)
-      if (match.gap.norm() <= 3 * typical)
-        sum.add(samples_[match.sample].position, match.gap, Matrix3::Identity(), 1);
+      if (gap(match).norm() <= 3 * typical)
+        sum.add(samples_[match.sample].position, gap(match), Matrix3::Identity(), 1);
     double moved;
     plane = sum.taken(&moved);
     if (moved < 1e-15) break;

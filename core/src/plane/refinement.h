@@ -2,6 +2,7 @@
 
 #include <symsurf/method.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "../point_tree.h"
@@ -41,17 +42,18 @@ class Refinement {
   enum class Merit { Rough, Testimony, Closeness };
   struct Match {
     Index sample;
-    Vector3 gap;  // from the partner to the image
-    const Surfel* partner;
+    Vector3 partner;
+    const Surfel* surfel;  // the partner's
   };
   struct Sample {
     Vector3 position;
     const Surfel* surfel;
+    std::uint32_t place;  // along a curve that fills space
   };
 
   Subset about(Index wanted) const;
   Subset all() const;
-  double residual(const Match& match) const;
+  double residual(const Vector3& gap, const Surfel& partner) const;
   PlaneCandidate rated(const UnitPlane& plane) const;
   const Surfel* surfel_at(const Vector3& x) const;
 

@@ -128,7 +128,7 @@ SphereCandidate settled(const Surfels& surfels, const SurfelMap& map, SphereCand
       const Vector3 gap = image - surfels[j].position;
       const Agreement agreement(gap, candidate.sphere.reflect_direction(s.position, s.normal),
                                 s.flatness, surfels[j]);
-      sum.add(s.position, gap, agreement.metric, weight * agreement.weight(tolerance));
+      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
     }
     candidate.sphere = sum.taken();
   }

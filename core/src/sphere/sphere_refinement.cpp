@@ -76,7 +76,7 @@ SphereCandidate SphereRefinement::fitted(const SphereCandidate& start, Index wan
                                 candidate.sphere.reflect_direction(s.position, s.surfel->normal),
                                 s.surfel->flatness, *match.partner);
       residuals.push_back(agreement.squared);
-      sum.add(s.position, match.gap, agreement.metric, weight * agreement.weight(tolerance));
+      sum.add(s.position, match.gap, agreement.metric(), weight * agreement.weight(tolerance));
     }
     if (residuals.size() < 5) break;
     double moved;
