@@ -13,7 +13,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 24;               // candidates that are settled on the surfels
+constexpr Index started = 30;               // candidates that are settled on the surfels
 constexpr std::size_t climbed = 2;          // of these, have their measure maximised
 constexpr std::size_t quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr std::size_t finalists = 6;        // of these, are fitted carefully
@@ -47,7 +47,7 @@ void climb(const Surfels& surfels, const SurfelMap& map, std::vector<PlaneCandid
 }
 
 void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
-  const double least = hopeless * candidates.front().explained;
+  const double most = candidates.front().explained, least = std::min(most, hopeless * most);
   std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
 }
 

@@ -12,12 +12,13 @@ namespace symsurf {
 namespace {
 
 constexpr Index seeds = 200;  // surfels that pairs are made of
-constexpr double shortest_chord = 0.08;
+constexpr double shortest_chord = 0.04;
 constexpr double facing_cosine = 0.88;                           // 28 degrees
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
-constexpr double search_tolerance = 0.03;
+constexpr double search_tolerance = 0.015;
+constexpr double contradiction = 0.6;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr std::size_t first_count = 5000, second_count = 200;
+constexpr std::size_t first_count = 7000, second_count = 200;
 constexpr double least_moved = 0.35;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
@@ -92,7 +93,8 @@ double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitP
     if (j < 0) continue;
     const Agreement agreement(image - surfels[j].position, plane.reflect_direction(s.normal),
                               s.flatness, surfels[j]);
-    explained += weight * agreement.weight(tolerance);
+    const double agrees = agreement.weight(tolerance);
+    explained += weight * (agrees - contradiction * (1 - agrees));
   }
   return explained / std::max(moved, least_moved * static_cast<double>(looked));
 }

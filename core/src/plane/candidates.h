@@ -9,15 +9,16 @@
 namespace symsurf {
 
 /// A plane and what speaks for it: the share of the cloud that it explains, less what contradicts
-/// it once it meets the full cloud.
+/// it.
 struct PlaneCandidate {
   UnitPlane plane;
   double explained = 0;
 };
 
-/// Share of the surfels whose images agree with the cloud, out of those the plane moves (at least
-/// 35 % of all, so that a plane the cloud lies along explains nothing). `stride` k looks at every
-/// k-th surfel.
+/// Share of the surfels whose images agree with the cloud, less some of those whose images come
+/// beside it, out of those the plane moves (at least 35 % of all, so that a plane the cloud lies
+/// along explains nothing). An image in the void says nothing: that part may be missing. `stride` k
+/// looks at every k-th surfel.
 double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
                        double tolerance, Index stride = 1);
 

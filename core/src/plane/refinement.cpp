@@ -198,8 +198,8 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   const PlaneCandidate roughly = rated(fitted(start.plane, wide, most, steps));
   const PlaneCandidate closely = rated(fitted(roughly.plane, narrow, most, steps));
   const bool close = closely.explained > roughly.explained;
-  const UnitPlane plane = close ? fitted(closely.plane, narrow, all(), 2)
-                                : fitted(roughly.plane, wide / 2, all(), 2);
+  const UnitPlane plane =
+      close ? fitted(closely.plane, narrow, all(), 2) : fitted(roughly.plane, wide / 2, all(), 2);
   return rated(fitted_to_exact_pairs(plane));
 }
 
@@ -211,14 +211,18 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
 // nothing mirrors them, stop pulling. Where noise is left, partners stand on the plane through the
-// cells around them, which has averaged it out.
+// cells around them, which has averaged it out. Looking for partners is most of the work: they stay
+// until the plane has moved by a part of the spacing.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const {
   constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004;
   const double stale = 0.1 * spacing_;
   std::vector<Match> found;
-  double moved = 2 * stale;
+  double moved = std::numeric_limits<double>::infinity();
   for (int step = 0; step < steps; ++step) {
-    if (moved > stale) { found = matches(plane, std::min(reach, 4*tolerance+spacing_), subset); moved = 0; }
+    if (moved > stale) {
+      found = matches(plane, std::min(reach, 4 * tolerance + spacing_), subset);
+      moved = 0;
+    }
     PlaneStep sum(plane);
     double squares = 0, weights = 0;
     for (const Match& match : found) {
@@ -230,8 +234,8 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
       Vector3 gap = image - match.partner;
       if (tolerance > noisy)
         gap += (image.dot(p.normal) - p.height - gap.dot(p.normal)) * p.flatness * p.normal;
-      const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal),
-                                s.surfel->flatness, p);
+      const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
+                                p);
       const double r = residual(gap, p) / tolerance;
       const double trusted = weight * agreement.facing * std::exp(-r * r / 2);
       squares += trusted * r * r;
