@@ -2,6 +2,8 @@
 #include <symsurf/normals.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -56,16 +58,21 @@ Points estimate_normals(PointsView points, Index neighbours, std::string_view me
   Points normals(points.size(), 3);
   constexpr Index grain = 2048;
   parallel_for(context.stage(0.1, 1), points.size(), grain, [&](Index begin, Index end) {
-    std::vector<Neighbour> found;
+    std::array<std::vector<Neighbour>, PointTree::block> found;
     Patch patch(neighbours, 3);
-    for (Index p = begin; p < end; ++p) {
-      const Index i = tree.order()[p];
-      tree.nearest(points[i], neighbours, found);
-      for (Index n = 0; n < neighbours; ++n)
-        patch.row(n) = (points[found[n].index] - points[i]).transpose();
-      const double reach = patch.cwiseAbs().maxCoeff();
-      if (reach > 0) patch /= reach;
-      normals.row(i) = normal_of(patch).transpose();
+    for (Index p = begin; p < end; p += PointTree::block) {
+      PointTree::Queries queries;
+      for (Index k = 0; k < PointTree::block; ++k)
+        queries.col(k) = points[tree.order()[std::min(p + k, end - 1)]];
+      tree.nearest(queries, neighbours, p, found);
+      for (Index k = 0; k < PointTree::block && p + k < end; ++k) {
+        const Index i = tree.order()[p + k];
+        for (Index n = 0; n < neighbours; ++n)
+          patch.row(n) = (points[found[k][n].index] - points[i]).transpose();
+        const double reach = patch.cwiseAbs().maxCoeff();
+        if (reach > 0) patch /= reach;
+        normals.row(i) = normal_of(patch).transpose();
+      }
     }
   });
   return normals;

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "k_best.h"
 #include "parallel.h"
 #include "radix_sort.h"
+#include "vectorised.h"
 
 namespace symsurf {
 
@@ -22,18 +24,11 @@ std::uint64_t spread(std::uint64_t v) {
   return (v | v << 2) & 0x1249249249249249;
 }
 
-}  // namespace
-
-namespace {
-
 // A run of points against a block of queries, one lane a query: x, y, z, then the best so far as
 // squared distance, index and position. All are doubles, so that a lane has one width throughout
 // and the inner loop becomes vector instructions.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-__attribute__((target_clones("avx2", "default")))
-#endif
-void scan(const double* coordinates, const std::int32_t* order, Index begin, Index end,
-          double* __restrict lanes) {
+SYMSURF_VECTORISED void scan(const double* coordinates, const std::int32_t* order, Index begin,
+                             Index end, double* __restrict lanes) {
   constexpr int n = PointTree::block;
   const double *x = lanes, *y = lanes + n, *z = lanes + 2 * n;
   double *squared = lanes + 3 * n, *index = lanes + 4 * n, *position = lanes + 5 * n;
@@ -49,6 +44,26 @@ void scan(const double* coordinates, const std::int32_t* order, Index begin, Ind
       position[i] = nearer ? at : position[i];
     }
   }
+}
+
+// Squared distances of a run of points from a block of queries, query by query for each point.
+SYMSURF_VECTORISED void measure(const double* coordinates, Index begin, Index end,
+                                const double* queries, double* __restrict squared) {
+  constexpr int n = PointTree::block;
+  const double *x = queries, *y = queries + n, *z = queries + 2 * n;
+  for (Index p = begin; p < end; ++p, squared += n) {
+    const double px = coordinates[3 * p], py = coordinates[3 * p + 1], pz = coordinates[3 * p + 2];
+    for (int i = 0; i < n; ++i) {
+      const double dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
+      squared[i] = dx * dx + dy * dy + dz * dz;
+    }
+  }
+}
+
+// How far a neighbour may be once these are found.
+double limit_of(const std::vector<Neighbour>& found, std::size_t k) {
+  return found.size() == k ? found.back().squared_distance
+                           : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -95,6 +110,47 @@ std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& querie
     found[i] = {static_cast<Index>(lanes[4 * block + i]), squared[i]};
   }
   return found;
+}
+
+void PointTree::nearest(const Queries& queries, Index k, Index near,
+                        std::array<std::vector<Neighbour>, block>& found) const {
+  std::array<double, 3 * block> lanes;
+  std::array<double, block * fan> squared;
+  std::array<double, block> limits;
+  limits.fill(std::numeric_limits<double>::infinity());
+  for (int i = 0; i < block; ++i) {
+    found[i].clear();
+    for (int axis = 0; axis < 3; ++axis) lanes[axis * block + i] = queries(axis, i) - origin_[axis];
+  }
+  const auto wanted = static_cast<std::size_t>(k);
+  const auto scan_leaf = [&](Index leaf) {
+    const Index begin = leaf * fan, end = std::min(begin + fan, size());
+    measure(coordinates_.data(), begin, end, lanes.data(), squared.data());
+    const double* d = squared.data();
+    for (Index p = begin; p < end; ++p)
+      for (int i = 0; i < block; ++i, ++d)
+        if (*d <= limits[i] && keep_best(found[i], wanted, Neighbour{order_[p], *d}))
+          limits[i] = limit_of(found[i], wanted);
+  };
+  // The runs around the guess make a limit at once.
+  const Index leaves = (size() + fan - 1) / fan, reach = (k + fan) / fan;
+  const Index first = std::max<Index>(0, near / fan - reach / 2);
+  const Index last = std::min(leaves, first + reach);
+  for (Index leaf = first; leaf < last; ++leaf) scan_leaf(leaf);
+
+  std::array<float, 3> low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto begin = lanes.begin() + axis * block;
+    const auto [least, most] = std::minmax_element(begin, begin + block);
+    low[axis] = static_cast<float>(*least);
+    high[axis] = static_cast<float>(*most);
+  }
+  double bound = *std::max_element(limits.begin(), limits.end());
+  descend(low, high, bound, [&](Index leaf) {
+    if (leaf >= first && leaf < last) return;
+    scan_leaf(leaf);
+    bound = *std::max_element(limits.begin(), limits.end());
+  });
 }
 
 PointTree::PointTree(PointsView points, const Context& context) {
@@ -177,14 +233,11 @@ Neighbour PointTree::nearest(const Vector3& query, double limit) const {
 
 void PointTree::nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const {
   found.clear();
+  const auto wanted = static_cast<std::size_t>(k);
   double limit = std::numeric_limits<double>::infinity();
   search(query, limit, [&](Index position, double squared) {
-    const Neighbour candidate{order_[position], squared};
-    const bool full = static_cast<Index>(found.size()) == k;
-    if (full && !(candidate < found.back())) return;
-    if (full) found.pop_back();
-    found.insert(std::upper_bound(found.begin(), found.end(), candidate), candidate);
-    if (static_cast<Index>(found.size()) == k) limit = found.back().squared_distance;
+    if (keep_best(found, wanted, Neighbour{order_[position], squared}))
+      limit = limit_of(found, wanted);
   });
 }
 

@@ -53,6 +53,10 @@ class PointTree {
   using Queries = Eigen::Matrix<double, 3, block>;
   std::array<Neighbour, block> nearest(const Queries& queries, double limit, Index& near) const;
 
+  /// The same for the k nearest points of each: column by column what nearest() with k gives.
+  void nearest(const Queries& queries, Index k, Index near,
+               std::array<std::vector<Neighbour>, block>& found) const;
+
   /// visit(index, squared distance) for all points no farther than radius.
   template <typename Visit>
   void within(const Vector3& query, double radius, const Visit& visit) const {

@@ -1,22 +1,63 @@
 #include "along_normals.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "../box_tree.h"
 #include "../parallel.h"
 #include "../point_tree.h"
+#include "../vectorised.h"
 
 namespace symsurf {
 
 namespace {
 
-double squared_from_line(const Vector3& w, const Vector3& unit) {
-  const double along = w.x() * unit.x() + w.y() * unit.y() + w.z() * unit.z();
-  const double x = w.x() - along * unit.x(), y = w.y() - along * unit.y(),
-               z = w.z() - along * unit.z();
-  return x * x + y * y + z * z;
+constexpr int fan = BoxTree::fan;
+
+// A run of points: their x, their y, their z.
+using Run = std::array<double, 3 * fan>;
+
+// Squared distances of a run of points from the line through the origin along `unit`; in the order
+// of operations that an oracle would choose.
+SYMSURF_VECTORISED void squared_from_line(const double* run, const double* start,
+                                          const double* unit, double* __restrict squared) {
+  const double sx = start[0], sy = start[1], sz = start[2];
+  const double ux = unit[0], uy = unit[1], uz = unit[2];
+  for (int i = 0; i < fan; ++i) {
+    const double wx = run[i] - sx, wy = run[fan + i] - sy, wz = run[2 * fan + i] - sz;
+    const double along = wx * ux + wy * uy + wz * uz;
+    const double x = wx - along * ux, y = wy - along * uy, z = wz - along * uz;
+    squared[i] = x * x + y * y + z * z;
+  }
+}
+
+// An axis across a line, and where the line lies on it.
+struct AxisAcross {
+  std::array<float, 3> half;  // of the axis
+  float at;
+};
+
+// A box lies no nearer to a line than its shadow on two axes across the line.
+SYMSURF_VECTORISED void bound_from_line(const float* low, const float* high,
+                                        const AxisAcross* across, float slack,
+                                        float* __restrict squared) {
+  for (int i = 0; i < fan; ++i) squared[i] = 0;
+  for (int k = 0; k < 2; ++k) {
+    const float ax = across[k].half[0], ay = across[k].half[1], az = across[k].half[2];
+    const float bx = std::abs(ax), by = std::abs(ay), bz = std::abs(az), at = across[k].at;
+    for (int i = 0; i < fan; ++i) {
+      const float gap = ax * (high[i] + low[i]) + ay * (high[fan + i] + low[fan + i]) +
+                        az * (high[2 * fan + i] + low[2 * fan + i]) - at;
+      const float reach = bx * (high[i] - low[i]) + by * (high[fan + i] - low[fan + i]) +
+                          bz * (high[2 * fan + i] - low[2 * fan + i]) + slack;
+      const float beyond = std::abs(gap) - reach;
+      const float outside = beyond > 0 ? beyond : 0;
+      squared[i] += outside * outside;
+    }
+  }
 }
 
 /// Points sorted so that the nearest to a line is found by branch and bound over boxes.
@@ -24,69 +65,67 @@ class LineSearch {
  public:
   explicit LineSearch(PointsView points)
       : centre_((points.matrix().colwise().minCoeff() + points.matrix().colwise().maxCoeff()) / 2),
-        places_(points.size()),
-        sorted_(points.size()) {
-    for (Index i = 0; i < points.size(); ++i) places_[i] = points[i] - centre_;
-    indices_ = z_order(places_);
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-      places_[p] = points[indices_[p]] - centre_;
-      sorted_[p] = points[indices_[p]];
+        runs_((points.size() + fan - 1) / fan) {
+    std::vector<Vector3> places(points.size());
+    for (Index i = 0; i < points.size(); ++i) places[i] = points[i] - centre_;
+    indices_ = z_order(places);
+    for (Index p = 0; p < points.size(); ++p) {
+      const Vector3 x = points[indices_[p]];
+      places[p] = x - centre_;
+      for (int axis = 0; axis < 3; ++axis) runs_[p / fan][axis * fan + p % fan] = x[axis];
     }
-    boxes_.emplace(places_, indices_);
+    boxes_.emplace(places, indices_);
   }
 
   const std::vector<std::int32_t>& order() const { return indices_; }
 
   /// The nearest to the line along `unit` through the point at `position` of the order, not itself.
-  Neighbour nearest(Index position, const Vector3& unit) const {
-    const Vector3 x = sorted_[position];
+  /// `near` is a guess at the answer's position, and becomes it.
+  Neighbour nearest(Index position, const Vector3& unit, Index& near) const {
+    const Vector3 x = place(position);
     Neighbour best;
-    const auto consider = [&](Index p) {
-      if (p == position) return;
-      const Neighbour found{indices_[p], squared_from_line(sorted_[p] - x, unit)};
-      if (found < best) best = found;
-    };
-    consider(position > 0 ? position - 1 : position + 1);
-
-    // A box lies no nearer to the line than its rectangle in two axes across the line.
-    const Vector3 e1 = unit.unitOrthogonal(), e2 = unit.cross(e1);
-    const std::array<Eigen::Vector3f, 2> axes{e1.cast<float>(), e2.cast<float>()};
-    const std::array<float, 2> at{static_cast<float>(e1.dot(places_[position])),
-                                  static_cast<float>(e2.dot(places_[position]))};
-    const float slack = 4 * boxes_->slack();
-    const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& squared) {
-      squared.fill(0);
-      for (int k = 0; k < 2; ++k) {
-        std::array<float, 8> gap;
-        gap.fill(-at[k]);
-        std::array<float, 8> reach;
-        reach.fill(slack);
-        for (int axis = 0; axis < 3; ++axis) {
-          const float along = axes[k][axis] / 2, half = std::abs(along);
-          for (int i = 0; i < 8; ++i) {
-            gap[i] += along * (boxes.high[axis][i] + boxes.low[axis][i]);
-            reach[i] += half * (boxes.high[axis][i] - boxes.low[axis][i]);
-          }
-        }
-        for (int i = 0; i < 8; ++i) {
-          const float outside = std::max(std::abs(gap[i]) - reach[i], 0.0f);
-          squared[i] += outside * outside;
-        }
+    std::array<double, fan> squared;
+    const auto scan = [&](Index begin, Index end) {
+      squared_from_line(runs_[begin / fan].data(), x.data(), unit.data(), squared.data());
+      for (Index p = begin; p < end; ++p) {
+        if (squared[p - begin] > best.squared_distance || p == position) continue;
+        const Neighbour found{indices_[p], squared[p - begin]};
+        if (!(found < best)) continue;
+        best = found;
+        near = p;
       }
+    };
+    const Index size = static_cast<Index>(indices_.size());
+    const Index guess = near / fan * fan;
+    scan(guess, std::min(guess + fan, size));
+
+    const Vector3 e1 = unit.unitOrthogonal(), e2 = unit.cross(e1), w = x - centre_;
+    const auto across = [&](const Vector3& e) -> AxisAcross {
+      const Eigen::Vector3f half = e.cast<float>() / 2;
+      return {{half[0], half[1], half[2]}, static_cast<float>(e.dot(w))};
+    };
+    const std::array<AxisAcross, 2> axes{across(e1), across(e2)};
+    const float slack = 4 * boxes_->slack();
+    const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& least) {
+      bound_from_line(boxes.low[0].data(), boxes.high[0].data(), axes.data(), slack, least.data());
       if (best.squared_distance == 0)
-        for (int i = 0; i < 8; ++i)
-          if (boxes.first[i] > best.index) squared[i] = std::numeric_limits<float>::infinity();
+        for (int i = 0; i < fan; ++i)
+          if (boxes.first[i] > best.index) least[i] = std::numeric_limits<float>::infinity();
     };
     boxes_->descend(bound, best.squared_distance, [&](Index begin, Index end) {
-      for (Index p = begin; p < end; ++p) consider(p);
+      if (begin != guess) scan(begin, end);
     });
     return best;
   }
 
  private:
+  Vector3 place(Index p) const {
+    const Run& run = runs_[p / fan];
+    return {run[p % fan], run[fan + p % fan], run[2 * fan + p % fan]};
+  }
+
   Vector3 centre_;
-  std::vector<Vector3> places_;  // from centre_
-  std::vector<Vector3> sorted_;  // as given
+  std::vector<Run> runs_;  // as given
   std::vector<std::int32_t> indices_;
   std::optional<BoxTree> boxes_;
 };
@@ -101,9 +140,10 @@ Result pairs_along_normals(PointsView points, PointsView normals, const Context&
   result.residuals.resize(points.size());
   result.surface_points.resize(points.size(), 3);
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    Index near = begin;
     for (Index p = begin; p < end; ++p) {
       const Index i = search.order()[p];
-      const Neighbour partner = search.nearest(p, normals[i]);
+      const Neighbour partner = search.nearest(p, normals[i], near);
       result.pairs.row(i) << i, partner.index;
       result.residuals[i] = std::sqrt(partner.squared_distance);
       result.surface_points.row(i) = (points[i] + points[partner.index]).transpose() / 2;

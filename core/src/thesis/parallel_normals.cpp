@@ -1,89 +1,160 @@
 #include "parallel_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
+
+#include "../box_tree.h"
+#include "../k_best.h"
+#include "../parallel.h"
+#include "../vectorised.h"
 
 namespace symsurf {
 
 namespace {
 
-/// The normals of X2.
+constexpr int fan = BoxTree::fan;
+constexpr Index listed = 16;
+
+using Run = std::array<double, 3 * fan>;
+
+// Cosines above 1 are rounding: all these angles are 0.
+SYMSURF_VECTORISED void cosines_with(const double* run, const double* normal, bool as_lines,
+                                     double* __restrict cosine) {
+  const double nx = normal[0], ny = normal[1], nz = normal[2];
+  for (int i = 0; i < fan; ++i) {
+    const double c = nx * run[i] + ny * run[fan + i] + nz * run[2 * fan + i];
+    const double magnitude = c < 0 && as_lines ? -c : c;
+    cosine[i] = magnitude < 1 ? magnitude : 1;
+  }
+}
+
+// Of boxes from a point of the unit sphere, or from it and the point opposite.
+SYMSURF_VECTORISED void bound_from_point(const float* low, const float* high, const float* at,
+                                         bool as_lines, float slack, float* __restrict squared) {
+  std::array<float, fan> here{}, opposite{};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < fan; ++i) {
+      const float l = low[axis * fan + i] - slack, h = high[axis * fan + i] + slack, q = at[axis];
+      const float a = l - q > q - h ? l - q : q - h, b = l + q > -q - h ? l + q : -q - h;
+      here[i] += a > 0 ? a * a : 0;
+      opposite[i] += b > 0 ? b * b : 0;
+    }
+  for (int i = 0; i < fan; ++i)
+    squared[i] = as_lines && opposite[i] < here[i] ? opposite[i] : here[i];
+}
+
+struct Parallel {
+  double cosine;
+  std::int32_t index;
+
+  /// The smaller angle first, ties by index.
+  bool operator<(const Parallel& other) const {
+    return cosine != other.cosine ? cosine > other.cosine : index < other.index;
+  }
+};
+
+/// Some of the normals, for searches among them.
 class NormalSearch {
  public:
-  NormalSearch(PointsView normals, const std::vector<std::int32_t>& order,
-               const std::vector<char>& excluded, bool as_lines)
-      : as_lines_(as_lines) {
-    for (const std::int32_t i : order)
-      if (!excluded[i]) {
-        indices_.push_back(i);
-        normals_.push_back(normals[i]);
+  template <typename Belongs>
+  NormalSearch(PointsView normals, const std::vector<std::int32_t>& order, bool as_lines,
+               const Belongs& belongs)
+      : NormalSearch(normals, chosen(order, belongs), as_lines) {}
+
+  /// The k most parallel, best first, without the point `itself`. `near` is a guess at the place
+  /// of the best, and becomes it.
+  void most_parallel(const Vector3& normal, std::size_t k, Index itself, Index& near,
+                     std::vector<Parallel>& found) const {
+    found.clear();
+    double limit = std::numeric_limits<double>::infinity();
+    std::array<double, fan> cosine;
+    const auto scan = [&](Index begin, Index end) {
+      cosines_with(runs_[begin / fan].data(), normal.data(), as_lines_, cosine.data());
+      for (Index p = begin; p < end; ++p) {
+        if (indices_[p] == itself) continue;
+        if (!keep_best(found, k, Parallel{cosine[p - begin], indices_[p]})) continue;
+        if (found.front().index == indices_[p]) near = p;
+        if (found.size() == k) limit = 2 - 2 * found.back().cosine + 4e-15;
       }
-    boxes_.emplace(normals_, indices_);
-  }
+    };
+    const Index guess = near / fan * fan;
+    scan(guess, std::min<Index>(guess + fan, static_cast<Index>(indices_.size())));
 
-  Index most_parallel(const Vector3& normal, Index guess_position) {
-    best_ = -2;
-    index_ = -1;
-    consider(guess_position, normal);
-    search(normal, normal);
-    if (as_lines_) search(-normal, normal);
-    return index_;
+    const std::array<float, 3> at{static_cast<float>(normal[0]), static_cast<float>(normal[1]),
+                                  static_cast<float>(normal[2])};
+    const float slack = 2 * boxes_.slack();
+    const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& squared) {
+      bound_from_point(boxes.low[0].data(), boxes.high[0].data(), at.data(), as_lines_, slack,
+                       squared.data());
+      // Among parallel normals only a lower index is better: flat patches cost no more.
+      if (found.size() == k && found.back().cosine == 1)
+        for (int i = 0; i < fan; ++i)
+          if (boxes.first[i] > found.back().index)
+            squared[i] = std::numeric_limits<float>::infinity();
+    };
+    boxes_.descend(bound, limit, [&](Index begin, Index end) {
+      if (begin != guess) scan(begin, end);
+    });
   }
-
-  Index position() const { return position_; }
 
  private:
-  // Cosines above 1 are rounding: all these angles are 0.
-  void consider(Index p, const Vector3& normal) {
-    const Vector3& m = normals_[p];
-    double cosine = normal.x() * m.x() + normal.y() * m.y() + normal.z() * m.z();
-    cosine = std::min(as_lines_ ? std::abs(cosine) : cosine, 1.0);
-    if (cosine > best_ || (cosine == best_ && indices_[p] < index_)) {
-      best_ = cosine;
-      index_ = indices_[p];
-      position_ = p;
-      limit_ = 2 - 2 * best_ + 4e-15;
-    }
+  NormalSearch(PointsView normals, std::vector<std::int32_t> indices, bool as_lines)
+      : as_lines_(as_lines),
+        indices_(std::move(indices)),
+        runs_((indices_.size() + fan - 1) / fan),
+        boxes_(places(normals, indices_), indices_) {
+    for (std::size_t p = 0; p < indices_.size(); ++p)
+      for (int axis = 0; axis < 3; ++axis)
+        runs_[p / fan][axis * fan + p % fan] = normals[indices_[p]][axis];
   }
 
-  void search(const Vector3& at, const Vector3& normal) {
-    const Eigen::Vector3f q = at.cast<float>();
-    const float slack = 2 * boxes_->slack();
-    const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& squared) {
-      squared.fill(0);
-      for (int axis = 0; axis < 3; ++axis)
-        for (int i = 0; i < 8; ++i) {
-          const float outside =
-              std::max(boxes.low[axis][i] - q[axis], q[axis] - boxes.high[axis][i]) - slack;
-          squared[i] += std::max(outside, 0.0f) * std::max(outside, 0.0f);
-        }
-      // Among parallel normals only a lower index is better: flat patches cost no more.
-      if (best_ == 1)
-        for (int i = 0; i < 8; ++i)
-          if (boxes.first[i] > index_) squared[i] = std::numeric_limits<float>::infinity();
-    };
-    boxes_->descend(bound, limit_, [&](Index begin, Index end) {
-      for (Index p = begin; p < end; ++p) consider(p, normal);
-    });
+  template <typename Belongs>
+  static std::vector<std::int32_t> chosen(const std::vector<std::int32_t>& order,
+                                          const Belongs& belongs) {
+    std::vector<std::int32_t> indices;
+    std::copy_if(order.begin(), order.end(), std::back_inserter(indices), belongs);
+    return indices;
+  }
+  static std::vector<Vector3> places(PointsView normals, const std::vector<std::int32_t>& indices) {
+    std::vector<Vector3> found(indices.size());
+    for (std::size_t p = 0; p < indices.size(); ++p) found[p] = normals[indices[p]];
+    return found;
   }
 
   bool as_lines_;
   std::vector<std::int32_t> indices_;
-  std::vector<Vector3> normals_;
-  std::optional<BoxTree> boxes_;
-
-  double best_ = 0, limit_ = 0;
-  Index index_ = -1, position_ = 0;
+  std::vector<Run> runs_;
+  BoxTree boxes_;
 };
+
+std::vector<std::int32_t> curve_order(PointsView normals) {
+  std::vector<Vector3> places(normals.size());
+  for (Index i = 0; i < normals.size(); ++i) places[i] = normals[i];
+  return z_order(places);
+}
 
 }  // namespace
 
-ParallelNormals::ParallelNormals(PointsView points, PointsView normals, bool as_lines)
-    : points_(points), normals_(normals), as_lines_(as_lines) {
-  std::vector<Vector3> places(normals.size());
-  for (Index i = 0; i < normals.size(); ++i) places[i] = normals[i];
-  order_ = z_order(places);
+ParallelNormals::ParallelNormals(PointsView points, PointsView normals, bool as_lines,
+                                 const Context& context)
+    : points_(points),
+      normals_(normals),
+      as_lines_(as_lines),
+      order_(curve_order(normals)),
+      most_parallel_(order_.size() * listed, -1) {
+  constexpr Index grain = 2048;
+  const NormalSearch search(normals_, order_, as_lines_, [](std::int32_t) { return true; });
+  parallel_for(context, static_cast<Index>(order_.size()), grain, [&](Index begin, Index end) {
+    std::vector<Parallel> found;
+    Index near = begin;
+    for (Index p = begin; p < end; ++p) {
+      search.most_parallel(normals_[order_[p]], listed, order_[p], near, found);
+      std::transform(found.begin(), found.end(), most_parallel_.begin() + p * listed,
+                     [](const Parallel& parallel) { return parallel.index; });
+    }
+  });
 }
 
 double ParallelNormals::projection_error(const Separation& separation) const {
@@ -91,14 +162,20 @@ double ParallelNormals::projection_error(const Separation& separation) const {
   for (std::size_t k = 0; k < separation.upper.size(); ++k)
     partner[separation.upper[k]] = separation.partner[k];
 
-  NormalSearch search(normals_, order_, separation.is_upper, as_lines_);
+  const auto is_lower = [&](std::int32_t i) { return !separation.is_upper[i]; };
+  const NormalSearch lower(normals_, order_, as_lines_, is_lower);
   double sum = 0;
-  Index guess = 0;
-  for (const std::int32_t i : order_) {
+  std::vector<Parallel> found;
+  Index near = 0;
+  for (std::size_t p = 0; p < order_.size(); ++p) {
+    const std::int32_t i = order_[p];
     if (partner[i] < 0) continue;
-    const Index q = search.most_parallel(normals_[i], guess);
-    guess = search.position();
-    sum += (points_[partner[i]] - points_[q]).squaredNorm();
+    const auto begin = most_parallel_.begin() + static_cast<Index>(p) * listed;
+    const auto q =
+        std::find_if(begin, begin + listed, [&](std::int32_t j) { return j < 0 || is_lower(j); });
+    const bool is_listed = q != begin + listed && *q >= 0;
+    if (!is_listed) lower.most_parallel(normals_[i], 1, i, near, found);
+    sum += (points_[partner[i]] - points_[is_listed ? *q : found.front().index]).squaredNorm();
   }
   return sum / static_cast<double>(separation.upper.size());
 }
