@@ -6,15 +6,15 @@ import argparse
 
 from ..thesis_tables import Outcome, measure, rows
 
-ROW = "{:4} {:19} {:17} {:9} {:>10} {:>10}"
-
 
 def run(arguments: argparse.Namespace) -> int:
     arguments.output.mkdir(parents=True, exist_ok=True)
-    print(ROW.format("tab.", "method", "experiment", "figure", "found", "thesis"))
+    heading = ""
     for row in rows():
         outcome = measure(row)
-        print("\n".join(_lines(outcome)), flush=True)
+        if heading != (heading := _heading(outcome)):
+            print(f"\n{heading}")
+        print(_line(outcome), flush=True)
         if not arguments.no_pictures:
             from ..thesis_pictures import draw
 
@@ -22,12 +22,23 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _lines(outcome: Outcome) -> list[str]:
-    row = outcome.row
-    printed = dict(zip(outcome.figures, row.printed))
-    lines = []
-    for name, value in outcome.figures.items():
-        thesis = printed.get(name)
-        shown = "-" if thesis is None else f"{thesis:.3g}"
-        lines.append(ROW.format(row.table, row.method, row.name, name, f"{value:.3g}", shown))
-    return lines
+def _heading(outcome: Outcome) -> str:
+    """Each error's column is followed by the thesis's."""
+    columns = "".join(f"{name:>11}    thesis" for name in _errors(outcome))
+    rest = "   coverage" if "coverage" in outcome.figures else ""
+    return f"table {outcome.row.table}  {outcome.row.method:19}{columns}{rest}"
+
+
+def _line(outcome: Outcome) -> str:
+    printed = outcome.row.printed or [None] * len(_errors(outcome))
+    columns = "".join(
+        f"{value:11.3g}{'-' if thesis is None else format(thesis, '.3g'):>10}"
+        for value, thesis in zip(_errors(outcome).values(), printed)
+    )
+    coverage = outcome.figures.get("coverage")
+    rest = "" if coverage is None else f"{coverage:11.2f}"
+    return f"           {outcome.row.name:19}{columns}{rest}"
+
+
+def _errors(outcome: Outcome) -> dict[str, float]:
+    return {name: value for name, value in outcome.figures.items() if name != "coverage"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 from .. import detection
 from .._core import InvalidInput, InvalidParameter
 from ..result import Result
+from ..sampling import downsample
 from ..saving import FORMATS
 from ..saving.json_format import plain, summary
 from ..shape import read
@@ -45,6 +47,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--ignore-normals", action="store_true", help="do not use the normals in the files"
     )
+    parser.add_argument(
+        "--downsample",
+        metavar="DIVISOR",
+        help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
+        "are then pairs of these",
+    )
     add_method_options(parser)
 
 
@@ -68,16 +76,31 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _detect(path: Path, arguments: argparse.Namespace) -> Result:
     shape = read(path)
+    points = shape.points
+    normals = None if arguments.ignore_normals else shape.normals
+    if arguments.downsample is not None:
+        points = downsample(points, math.ceil(len(points) / _divisor(arguments.downsample)))
+        normals = None
     with ProgressBar(path.name) as bar:
         return detection.detect(
-            shape.points,
+            points,
             arguments.method,
-            normals=None if arguments.ignore_normals else shape.normals,
+            normals=normals,
             seed=_whole(arguments.seed),
             threads=_whole(arguments.threads),
             progress=bar,
             **given_parameters(arguments),
         )
+
+
+def _divisor(text: str) -> float:
+    try:
+        divisor = float(text)
+    except ValueError:
+        divisor = math.nan
+    if not 1 <= divisor < math.inf:
+        raise InvalidParameter(f"downsample is {text}; allowed is [1, inf)")
+    return divisor
 
 
 def _whole(text: str) -> int | str:
