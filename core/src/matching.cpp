@@ -19,12 +19,15 @@ std::vector<std::int32_t> rows_to_pair(const PointTree& tree, const Rows& rows) 
   return order;
 }
 
-// The index of each point's partner, -1: none.
-std::vector<std::int32_t> partners(PointsView points, const PointTree& tree, const Mirror& mirror,
-                                   double limit, const Context& context) {
+// Writes each point's partner beside it, -1: none.
+void find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                   const Context& context, Pairs& pairs) {
   constexpr Index grain = 4096;
-  std::vector<std::int32_t> partner(points.size(), -1);
-  const std::vector<std::int32_t> order = rows_to_pair(tree, context.paired_rows());
+  const Rows rows = context.paired_rows();
+  const bool all = rows.begin <= 0 && rows.end >= points.size();
+  const std::vector<std::int32_t> some =
+      all ? std::vector<std::int32_t>() : rows_to_pair(tree, rows);
+  const std::vector<std::int32_t>& order = all ? tree.order() : some;
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     Index near = begin;
     for (Index p = begin; p < end; p += PointTree::block) {
@@ -34,33 +37,33 @@ std::vector<std::int32_t> partners(PointsView points, const PointTree& tree, con
         images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
       const auto found = tree.nearest(images, limit * limit, near);
       for (Index i = 0; i < PointTree::block && p + i < end; ++i)
-        partner[order[p + i]] = static_cast<std::int32_t>(found[i].index);
+        pairs(order[p + i], 1) = found[i].index;
     }
   });
-  return partner;
 }
 
 }  // namespace
 
+// Little is held beside the tree, and beside the result: at a million points that is what counts.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context) {
-  std::vector<std::int32_t> partner;
+  Pairs& pairs = result.pairs;
+  pairs.setConstant(points.size(), 2, -1);
   {
     const PointTree consumed = std::move(tree);
-    partner = partners(points, consumed, mirror, limit, context);
+    find_partners(points, consumed, mirror, limit, context, pairs);
   }
+  Index found = 0;
+  for (Index i = 0; i < points.size(); ++i)
+    if (const Index partner = pairs(i, 1); partner >= 0) pairs.row(found++) << i, partner;
+  pairs.conservativeResize(found, 2);
 
-  const Index found = points.size() - std::count(partner.begin(), partner.end(), -1);
-  result.pairs.resize(found, 2);
   result.residuals.resize(found);
   result.surface_points.resize(found, 3);
-  for (Index i = 0, row = 0; i < points.size(); ++i) {
-    if (partner[i] < 0) continue;
-    const Vector3 x = points[i], y = points[partner[i]];
-    result.pairs.row(row) << i, partner[i];
+  for (Index row = 0; row < found; ++row) {
+    const Vector3 x = points[pairs(row, 0)], y = points[pairs(row, 1)];
     result.residuals[row] = (mirror.reflect(x) - y).norm();
     result.surface_points.row(row) = (x + y).transpose() / 2;
-    ++row;
   }
 }
 
