@@ -195,12 +195,14 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   constexpr double wide = 0.01, narrow = 0.003;
   constexpr int steps = 8;
   const Subset most = about(most_samples);
-  const PlaneCandidate roughly = rated(fitted(start.plane, wide, most, steps));
-  const PlaneCandidate closely = rated(fitted(roughly.plane, narrow, most, steps));
-  const bool close = closely.explained > roughly.explained;
+  const UnitPlane rough = fitted(start.plane, wide, most, steps);
+  const std::vector<Match> around = matches(rough, reach, most);
+  const double roughly = explained(rough, around, most, Merit::Testimony);
+  const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around));
+  const bool close = closely.explained > roughly;
   const UnitPlane plane =
-      close ? fitted(closely.plane, narrow, all(), 2) : fitted(roughly.plane, wide / 2, all(), 2);
-  return rated(fitted_to_exact_pairs(plane));
+      fitted(close ? closely.plane : rough, close ? narrow : wide / 2, all(), 2);
+  return {fitted_to_exact_pairs(plane), std::max(closely.explained, roughly)};
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
@@ -213,11 +215,11 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
 // nothing mirrors them, stop pulling. Where noise is left, partners stand on the plane through the
 // cells around them, which has averaged it out. Looking for partners is most of the work: they stay
 // until the plane has moved by a part of the spacing.
-UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const {
+UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
+                             std::vector<Match> found) const {
   constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004;
   const double stale = 0.1 * spacing_;
-  std::vector<Match> found;
-  double moved = std::numeric_limits<double>::infinity();
+  double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
       found = matches(plane, std::min(reach, 4 * tolerance + spacing_), subset);

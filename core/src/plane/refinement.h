@@ -62,7 +62,9 @@ class Refinement {
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
   double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
                    Merit merit) const;
-  UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps) const;
+  // `found`: the plane's partners, where they are known.
+  UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
+                   std::vector<Match> found = {}) const;
   UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 
   const Cloud& cloud_;
