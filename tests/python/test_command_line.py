@@ -55,6 +55,14 @@ def test_the_same_as_in_python(clouds):
     assert record["pairs"] == len(result.pairs) and record["score"] == result.score
 
 
+def test_a_reader_that_has_seen_enough_is_no_failure():
+    command = [sys.executable, "-m", "symsurf", "methods"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 128 + 13
+
+
 def test_one_failed_file_does_not_stop_the_rest(clouds, tmp_path):
     first, second, third = clouds
     second.write_text("not a cloud")
