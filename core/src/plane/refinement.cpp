@@ -137,9 +137,6 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
     switch (merit) {
-      case Merit::Rough:
-        explained += weight * agreement.weight(score_tolerance);
-        break;
       case Merit::Testimony:
         explained += weight * testimony(residual(gap, *match.surfel), agreement.facing);
         break;
@@ -182,7 +179,7 @@ Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   const Subset few = about(few_samples);
   const UnitPlane plane = fitted(start.plane, 0.02, few, 2);
-  return {plane, explained(plane, matches(plane, reach, few), few, Merit::Rough)};
+  return {plane, explained(plane, matches(plane, reach, few), few, Merit::Testimony)};
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {

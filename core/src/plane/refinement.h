@@ -18,10 +18,10 @@ class Refinement {
   /// `scales`: surfels that give the normals; at each place the flattest do.
   Refinement(const Cloud& cloud, const PointTree& tree, std::vector<const Surfels*> scales);
 
-  /// The plane that leaves the least robust residual on a few samples, after a few steps.
+  /// The plane after a few steps on a few samples, with what then speaks for it.
   PlaneCandidate quick(const PlaneCandidate& start) const;
 
-  /// The same on enough samples to rank planes by how closely images meet the cloud.
+  /// The same on enough samples to rank planes.
   PlaneCandidate careful(const PlaneCandidate& start) const;
 
   /// The same on all samples. Where partners are exact, it converges to rounding.
@@ -39,7 +39,7 @@ class Refinement {
   struct Subset {
     Index end, stride;
   };
-  enum class Merit { Rough, Testimony, Closeness };
+  enum class Merit { Testimony, Closeness };
   struct Match {
     Index sample;
     Vector3 partner;
