@@ -57,7 +57,7 @@ def _straight_mesh(share: float):
 def _blob(subject: str, rng: np.random.Generator) -> Figures:
     points = asymmetric(subject, int(rng.choice((1000, 2000, 4000))), rng)
     result, seconds = timed_detect(points, "auto")
-    scores = {k[6:]: v for k, v in result.statistics.items() if k.startswith("score_")}
+    scores = {k: v for k, v in result.statistics.items() if k.startswith("score_")}
     verdict = float(result.statistics["verdict"] == "none")
     return {"verdict none": verdict, "score": result.score, **scores, "seconds": seconds}
 

@@ -85,6 +85,54 @@ TEST(Perpendicular, FitsAQuadricToIt) {
   }
 }
 
+// A bumpy closed surface without a mirror but x = 0, where each side has points of its own; bent.
+Points bent_object(std::uint64_t seed, const Cylinder& cylinder) {
+  RandomCloud random(seed);
+  constexpr Index n = 1500;
+  Points straight(2 * n, 3);
+  const double phase = random.uniform(0, 6);
+  for (Index i = 0; i < 2 * n; ++i) {
+    Vector3 u = random.direction();
+    u.x() = std::abs(u.x());
+    const double radius =
+        1 + 0.2 * std::sin(3 * u.y() + phase) + 0.3 * u.y() + 0.25 * u.z() * std::cos(2 * u.y());
+    straight.row(i) =
+        (radius * Vector3((i % 2 ? 1 : -1) * 0.6 * u.x(), u.y(), 1.5 * u.z())).transpose();
+  }
+  Points bent(2 * n, 3);
+  for (Index i = 0; i < 2 * n; ++i) {
+    const double angle = straight(i, 2) / cylinder.radius(), r = cylinder.radius() + straight(i, 0);
+    bent.row(i) << r * std::cos(angle) - cylinder.radius(), straight(i, 1), r * std::sin(angle);
+  }
+  return bent;
+}
+
+TEST(CylinderMethod, FindsTheMirrorOfABentObjectWithoutExactPartners) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Cylinder truth({-2.5, 0, 0}, {0, 1, 0}, 2.5);
+    const Points points = bent_object(seed, truth);
+    const Matrix3 rotation = RandomCloud(seed + 100).rotation();
+    const Points posed = points * rotation.transpose();
+    const Result result = detect(posed, {.method = "cylinder"});
+    ASSERT_TRUE(result.mirror) << seed;
+    const Points feet = Points(result.mirror->project(posed) * rotation);
+    double squared = 0;
+    for (Index i = 0; i < feet.rows(); ++i)
+      squared += std::pow(truth.signed_distance(Vector3(feet.row(i))), 2);
+    EXPECT_LT(std::sqrt(squared / static_cast<double>(feet.rows())), 0.005 * diagonal(points))
+        << seed;
+  }
+}
+
+TEST(Auto, PrefersTheCylinderForTheBent) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Result bent = detect(bent_object(seed, Cylinder({-2.5, 0, 0}, {0, 1, 0}, 2.5)));
+    ASSERT_TRUE(bent.mirror) << seed;
+    EXPECT_EQ(bent.mirror->kind(), "cylinder") << seed;
+    EXPECT_EQ(std::get<std::string>(bent.statistics.at("verdict")), "found") << seed;
+  }
+}
+
 TEST(Bend, StraightensABentShapeAndBendsItBack) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);

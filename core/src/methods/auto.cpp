@@ -1,44 +1,38 @@
 #include <map>
 #include <utility>
 
+#include "../mirror_score.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
 
-// What a kind's freedom takes from its score: a surface that may bend explains more of any cloud,
-// and where two explain the same the simpler is meant.
-double freedom(std::string_view kind) {
-  static const std::map<std::string_view, double> discounts{
-      {"plane", 0},      {"sphere", 0.01},       {"cylinder", 0.02},
-      {"quadric", 0.03}, {"height field", 0.05}, {"free-form", 0.06},
-  };
-  const auto it = discounts.find(kind);
-  return it == discounts.end() ? 0 : it->second;
-}
-
-double discounted(const Result& result) {
-  return result.mirror ? result.score * (1 - freedom(result.mirror->kind())) : 0;
-}
+// The methods stand in the order of their mirrors' freedom: past a score like this a kind that is
+// freer could only explain the same in more words.
+constexpr double convincing = 0.9;
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   std::vector<const Method*> tried;
   for (const Method& method : methods())
     if (method.automatic && cloud.points.size() >= method.minimum_points) tried.push_back(&method);
 
+  const PointTree tree(cloud.points, context.stage(0, 0.05));
+  const MirrorScore one_score(cloud, tree, context.stage(0.05, 0.1));
+  const Context trials = context.stage(0.1, 1);
   Result best;
   std::string runner_up;
   double best_score = -1, second_score = -1;
   Values scores;
-  for (std::size_t i = 0; i < tried.size(); ++i) {
+  for (std::size_t i = 0; i < tried.size() && best_score < convincing; ++i) {
     const double share = 1.0 / static_cast<double>(tried.size());
     const Context part =
-        context.stage(static_cast<double>(i) * share, static_cast<double>(i + 1) * share);
+        trials.stage(static_cast<double>(i) * share, static_cast<double>(i + 1) * share);
     const ParameterValues defaults(tried[i]->name, tried[i]->parameters, {});
     Result result = tried[i]->run(cloud, defaults, part);
     result.parameters = defaults.all();
-    const double score = discounted(result);
+    if (result.mirror) one_score.fill(result);
+    const double score = result.score;
     scores["score_" + tried[i]->name] = score;
     if (score > best_score) {
       second_score = std::exchange(best_score, score);
@@ -68,10 +62,10 @@ Method auto_method() {
   method.name = "auto";
   method.title = "Mirror (best of all kinds)";
   method.summary =
-      "Tries every method that needs no advice, keeps the mirror with the best score, discounted "
-      "for its freedom, and says whether it is one.";
+      "Tries kinds of mirror, simple ones first, until one convinces, keeps the one with the best "
+      "score, discounted for its freedom, and says whether it is one.";
   method.parameters = {
-      Parameter::real("minimum_score", 0.5, 0, 1, "",
+      Parameter::real("minimum_score", 0.25, 0, 1, "",
                       "Below it the verdict in the statistics is \"none\": the best found is no "
                       "symmetry of the shape."),
   };

@@ -1,15 +1,77 @@
 #include <symsurf/cylinder.h>
 
-#include "../perpendicular/parametric_method.h"
+#include <algorithm>
+
+#include "../cylinder/cylinder_candidates.h"
+#include "../matching.h"
+#include "../mirror_score.h"
+#include "../parametric/refinement.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
 
+constexpr Index started = 48;     // candidates that are settled on the surfels
+constexpr Index finalists = 8;    // of these, are fitted to the full cloud
+constexpr Index polished = 3;     // and of these, to ever more of it
+constexpr double hopeless = 0.6;  // of what the best explains: not worth fitting
+constexpr double alike = 0.04;    // cylinders closer than this are one
+constexpr double widest = 6;      // radius, in diagonals: wider ones are hardly told from planes
+
+Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
+  return {frame.leave(cylinder.point), frame.axes * cylinder.axis, frame.size * cylinder.radius};
+}
+
+void drop_hopeless(std::vector<CylinderCandidate>& candidates) {
+  const double least = hopeless * candidates.front().explained;
+  std::erase_if(candidates, [&](const CylinderCandidate& c) {
+    return c.explained < least || !(c.shape.radius < widest);
+  });
+}
+
+// On the thinned cloud alone.
+std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed) {
+  const SurfelMap map(surfels);
+  std::vector<CylinderCandidate> candidates = candidate_cylinders(surfels, map, seed, started);
+  for (CylinderCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  keep_distinct(surfels, candidates, alike, started);
+  if (!candidates.empty()) drop_hopeless(candidates);
+  for (CylinderCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(surfels, candidates, alike, 2 * finalists);
+  return candidates;
+}
+
 Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  return perpendicular::find_parametric("cylinder", perpendicular::cylinder_model, cloud, values,
-                                        context);
+  Result best;
+  best.method = "cylinder";
+  const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
+  std::vector<CylinderCandidate> candidates = promising_cylinders(surfels, cloud.seed);
+  context.report(0.4);
+  if (candidates.empty()) return best;
+
+  PointTree tree(cloud.points, context.stage(0.4, 0.5));
+  const ParametricRefinement<UnitCylinder> refinement(cloud, tree, surfels);
+  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
+  keep_distinct(surfels, candidates, alike, finalists);
+  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
+  keep_distinct(surfels, candidates, alike, finalists);
+  for (Index i = 0; i < std::min<Index>(polished, static_cast<Index>(candidates.size())); ++i)
+    candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
+  keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
+  drop_hopeless(candidates);
+  context.report(0.7);
+  if (candidates.empty()) return best;
+
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const CylinderCandidate& candidate : candidates)
+    mirrors.push_back(std::make_shared<Cylinder>(in_input_units(candidate.shape, cloud.frame)));
+  best = MirrorScore(cloud, tree, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
+  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
+  return best;
 }
 
 }  // namespace
@@ -20,10 +82,18 @@ Method cylinder_method() {
   method.title = "Mirror cylinder";
   method.summary =
       "Finds the circular cylinder that mirrors the shape along its radius: a plane of symmetry "
-      "bent"
-      " about an axis.";
-  method.parameters = perpendicular::search_parameters();
+      "bent about an axis.";
+  method.parameters = {
+      Parameter::integer("sample_size", 700, 100, 100000, "points",
+                         "Patches of the cloud that the search for the cylinder works on."),
+      Parameter::integer("max_candidates", 5, 0, 7, "",
+                         "Other cylinders to report at the most, best first."),
+      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
+                      "A point whose image has no point of the cloud nearer than this has no "
+                      "partner."),
+  };
   method.minimum_points = 12;
+  method.automatic = true;
   method.run = run_cylinder;
   return method;
 }

@@ -4,6 +4,7 @@
 
 #include "../fixed_direction/field_search.h"
 #include "../matching.h"
+#include "../mirror_score.h"
 #include "../parallel.h"
 #include "methods.h"
 
@@ -51,9 +52,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
 
   const HeightField field(found.direction, found.nodes);
   result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
-  result.score = std::clamp(found.score, 0.0, 1.0);
-  result.statistics["explained_share"] = found.explained;
-  PointTree tree(cloud.points, context.stage(0.7, 0.8));
+  PointTree tree(cloud.points, context.stage(0.7, 0.75));
+  MirrorScore(cloud, tree, context.stage(0.75, 0.8)).fill(result);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 1));
   drop_outlying_pairs(result, cloud.diagonal);

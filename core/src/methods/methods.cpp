@@ -6,17 +6,10 @@ namespace symsurf {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
-      auto_method(),
-      plane_method(),
-      sphere_method(),
-      fixed_direction_method(),
-      perpendicular_method(),
-      cylinder_method(),
-      quadric_method(),
-      separation_method(),
-      separation_normals_method(),
-      normals_only_method(),
-      sphere_thesis_method(),
+      auto_method(),          plane_method(),         sphere_method(),
+      cylinder_method(),      quadric_method(),       fixed_direction_method(),
+      perpendicular_method(), separation_method(),    separation_normals_method(),
+      normals_only_method(),  sphere_thesis_method(),
   };
   return list;
 }

@@ -1,5 +1,6 @@
 #include <symsurf/free_form.h>
 
+#include "../mirror_score.h"
 #include "../perpendicular/pairing.h"
 #include "../perpendicular/parametric_method.h"
 #include "../perpendicular/search.h"
@@ -25,18 +26,19 @@ Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
 
   const perpendicular::Sheet& best = search.sheets.front();
   result.mirror = in_input_units(search.cloud, best);
-  result.score = best.explained;
-  result.statistics["explained"] = best.explained;
+  const PointTree tree(cloud.points, context.stage(0.7, 0.75));
+  const MirrorScore score(cloud, tree, context.stage(0.75, 0.8));
+  score.fill(result);
   result.statistics["typical_miss"] =
       best.typical_miss * search.cloud.spacing * search.cloud.diagonal;
   perpendicular::add_pairs(result, cloud, search.cloud, best, values.real("pair_distance"),
-                           context.stage(0.7, 1));
+                           context.stage(0.8, 1));
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   for (std::size_t k = 1; k < search.sheets.size() && result.candidates.size() < most; ++k) {
     Result other;
     other.method = result.method;
     other.mirror = in_input_units(search.cloud, search.sheets[k]);
-    other.score = search.sheets[k].explained;
+    score.fill(other);
     result.candidates.push_back(std::move(other));
   }
   return result;

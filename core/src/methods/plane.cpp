@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "../matching.h"
+#include "../mirror_score.h"
 #include "../plane/candidates.h"
 #include "../plane/maximise.h"
 #include "../plane/refinement.h"
@@ -76,7 +77,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
   PointTree tree(cloud.points, context.stage(0.25, 0.4));
-  const Refinement refinement(cloud, tree, {&coarse, &fine});
+  const Refinement refinement(cloud, tree, coarse, fine);
   const auto refine = [&](double from, double to, const auto& step) {
     const Context part = context.stage(from, to);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -96,19 +97,10 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
          [&](const PlaneCandidate& c) { return c.explained >= good ? refinement.final(c) : c; });
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
 
-  const double whole = refinement.self_explained();
-  std::vector<Result> found;
-  for (const PlaneCandidate& candidate : candidates) {
-    Result& result = found.emplace_back();
-    result.method = "plane";
-    result.mirror = std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame));
-    const double explained = refinement.explained_share(candidate.plane);
-    result.score = whole > 0 ? std::min(1.0, explained / whole) : 0;
-    result.statistics = {{"explained_share", explained}};
-  }
-  Result best = std::move(found.front());
-  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
-                         std::make_move_iterator(found.end()));
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const PlaneCandidate& candidate : candidates)
+    mirrors.push_back(std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame)));
+  Result best = MirrorScore(cloud, tree, coarse, fine).ranked("plane", mirrors);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.5, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();

@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "../matching.h"
+#include "../mirror_score.h"
+#include "../parametric/refinement.h"
 #include "../plane/maximise.h"
 #include "../sphere/sphere_candidates.h"
 #include "../sphere/sphere_measure.h"
-#include "../sphere/sphere_refinement.h"
 #include "methods.h"
 
 namespace symsurf {
@@ -34,7 +35,7 @@ void drop_hopeless(std::vector<SphereCandidate>& candidates) {
 // Spheres so large that the cloud hardly tells them from planes; where there is nothing else, the
 // best of them stays.
 void drop_planes(std::vector<SphereCandidate>& candidates) {
-  const auto is_plane = [](const SphereCandidate& c) { return c.sphere.radius > largest; };
+  const auto is_plane = [](const SphereCandidate& c) { return c.shape.radius > largest; };
   if (!std::all_of(candidates.begin(), candidates.end(), is_plane))
     std::erase_if(candidates, is_plane);
 }
@@ -49,7 +50,7 @@ void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandi
   const SphereMeasure measure(positions);
   for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
     Eigen::Vector4d s;
-    s << candidates[i].sphere.centre, candidates[i].sphere.radius;
+    s << candidates[i].shape.centre, candidates[i].shape.radius;
     s = maximise<4>(measure, s, 0.02, 8);
     const UnitSphere sphere{s.head<3>(), s[3]};
     const double explained = explained_share(surfels, map, sphere, 0.02, 3);
@@ -80,7 +81,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   context.report(0.4);
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const SphereRefinement refinement(cloud, tree, surfels);
+  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels);
   for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
   keep_distinct(surfels, candidates, alike, finalists);
   for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
@@ -91,20 +92,12 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
   context.report(0.7);
 
-  const double whole = refinement.self_explained();
-  std::vector<Result> found;
-  for (const SphereCandidate& candidate : candidates) {
-    Result& result = found.emplace_back();
-    result.method = "sphere";
-    result.mirror = std::make_shared<Sphere>(in_input_units(candidate.sphere, cloud.frame));
-    result.score = whole > 0 ? std::min(1.0, candidate.explained / whole) : 0;
-    result.statistics = {{"explained_share", candidate.explained}};
-  }
-  Result best = std::move(found.front());
-  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
-                         std::make_move_iterator(found.end()));
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const SphereCandidate& candidate : candidates)
+    mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
+  Result best = MirrorScore(cloud, tree, context.stage(0.7, 0.75)).ranked("sphere", mirrors);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.7, 1));
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
   return best;
 }
@@ -128,6 +121,7 @@ Method sphere_method() {
                       "partner."),
   };
   method.minimum_points = 5;
+  method.automatic = true;
   method.run = run_sphere;
   return method;
 }

@@ -22,8 +22,6 @@ class Model {
   virtual void step(const Eigen::VectorXd& by) = 0;
 };
 
-/// A circular cylinder: axis by two tilts, a point on it by two shifts, and the radius.
-std::unique_ptr<Model> cylinder_model(const Sheet& sheet);
 /// A general quadric by its ten coefficients, one of which is the scale.
 std::unique_ptr<Model> quadric_model(const Sheet& sheet);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../mirror_score.h"
 #include "pairing.h"
 #include "search.h"
 
@@ -27,6 +28,8 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
     return a.sheet.explained > b.sheet.explained;
   });
 
+  const PointTree tree(cloud.points, context.stage(0.7, 0.75));
+  const MirrorScore score(cloud, tree, context.stage(0.75, 0.8));
   Result result;
   result.method = method;
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
@@ -36,17 +39,16 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
         found.cloud.diagonal, Matrix3::Identity(), found.cloud.centroid);
     if (k == 0) {
       result.mirror = std::move(mirror);
-      result.score = sheet.explained;
-      result.statistics["explained"] = sheet.explained;
+      score.fill(result);
       result.statistics["typical_miss"] =
           sheet.typical_miss * found.cloud.spacing * found.cloud.diagonal;
       add_pairs(result, cloud, found.cloud, sheet, values.real("pair_distance"),
-                context.stage(0.7, 1));
+                context.stage(0.8, 1));
     } else if (result.candidates.size() < most) {
       Result other;
       other.method = method;
       other.mirror = std::move(mirror);
-      other.score = sheet.explained;
+      score.fill(other);
       result.candidates.push_back(std::move(other));
     }
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../score.h"
+#include "../mirror_score.h"
 #include "agreement.h"
 #include "plane_step.h"
 
@@ -14,8 +14,7 @@ namespace {
 
 constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
-constexpr double by_chance = 0.1;  // few points look flatter than they are
-constexpr double reach = 0.06;     // how far a partner may be
+constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.01;
 
 double quantile(std::vector<double>& values, double share) {
@@ -38,13 +37,12 @@ std::uint32_t place_on_curve(const Vector3& x) {
 
 }  // namespace
 
-Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
-                       std::vector<const Surfels*> scales)
-    : cloud_(cloud), tree_(tree), scales_(std::move(scales)) {
+Refinement::Refinement(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
+                       const Surfels& fine)
+    : cloud_(cloud), tree_(tree), coarse_(coarse), fine_(fine) {
   const Index n = cloud.points.size();
-  const Surfels& surfels = *scales_.front();
   spacing_ =
-      surfels.spacing() * std::sqrt(static_cast<double>(surfels.size()) / static_cast<double>(n));
+      coarse.spacing() * std::sqrt(static_cast<double>(coarse.size()) / static_cast<double>(n));
 
   // Evenly spread ones first; of a small cloud the rest as well.
   std::vector<std::uint8_t> taken(n <= small_cloud ? n : 0, 0);
@@ -53,25 +51,13 @@ Refinement::Refinement(const Cloud& cloud, const PointTree& tree,
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
     if (!taken.empty()) taken[i] = 1;
   };
-  const Surfels& finest = *scales_.back();
-  for (Index k = 0; k < finest.size(); ++k) take(finest[k].sample);
+  for (Index k = 0; k < fine.size(); ++k) take(fine[k].sample);
   even_samples_ = static_cast<Index>(samples_.size());
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (!taken[i]) take(static_cast<Index>(i));
   const auto along_curve = [](const Sample& a, const Sample& b) { return a.place < b.place; };
   std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
   std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
-}
-
-const Surfel* Refinement::surfel_at(const Vector3& x) const {
-  const Surfel* flattest = nullptr;
-  for (const Surfels* surfels : scales_) {
-    const Index i = surfels->containing(x);
-    if (i < 0) continue;
-    const Surfel& surfel = (*surfels)[i];
-    if (!flattest || surfel.flatness > flattest->flatness + by_chance) flattest = &surfel;
-  }
-  return flattest;
 }
 
 // The nearest points to a block of images. Of a small cloud every point is a sample, and images
@@ -112,20 +98,8 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   return found;
 }
 
-// Along a sheet, or inside a blob, a partner is as near as the spacing allows: only what exceeds it
-// counts.
-double Refinement::residual(const Vector3& gap, const Surfel& partner) const {
-  const double length = gap.norm();
-  const double off_sheet = std::abs(gap.dot(partner.normal));
-  const double along_sheet = std::sqrt(std::max(0.0, length * length - off_sheet * off_sheet));
-  const double sheet = std::hypot(off_sheet, 0.3 * std::max(0.0, along_sheet - spacing_));
-  const double blob = 0.6 * std::max(0.0, length - spacing_);
-  const double flat = partner.flatness;
-  return std::min(std::hypot(flat * sheet, (1 - flat) * blob), 3 * length);
-}
-
-double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
-                             Merit merit) const {
+double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found,
+                             Subset subset) const {
   double moved = 0, explained = 0;
   Index looked = 0;
   for (Index i = 0; i < subset.end; i += subset.stride, ++looked)
@@ -136,38 +110,10 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Vector3 gap = plane.reflect(s.position) - match.partner;
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
-    switch (merit) {
-      case Merit::Testimony:
-        explained += weight * testimony(residual(gap, *match.surfel), agreement.facing);
-        break;
-      case Merit::Closeness:
-        explained += weight * closeness(residual(gap, *match.surfel), agreement.facing);
-    }
+    explained +=
+        weight * Testimony{}(distance_past(gap, *match.surfel, spacing_), agreement.facing);
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
-}
-
-double Refinement::explained_share(const UnitPlane& plane) const {
-  const Subset most = about(most_samples);
-  return explained(plane, matches(plane, reach, most), most, Merit::Closeness);
-}
-
-double Refinement::self_explained() const {
-  const Subset few = about(few_samples);
-  double sum = 0;
-  Index looked = 0;
-  std::vector<Neighbour> nearest;
-  for (Index i = 0; i < few.end; i += few.stride, ++looked) {
-    const Sample& s = samples_[i];
-    tree_.nearest(cloud_.frame.leave(s.position), 2, nearest);
-    const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
-    const Surfel* surfel = surfel_at(other);
-    if (!surfel) continue;
-    const Vector3 gap = s.position - other;
-    const Agreement agreement(gap, s.surfel->normal, s.surfel->flatness, *surfel);
-    sum += closeness(residual(gap, *surfel), agreement.facing);
-  }
-  return sum / static_cast<double>(looked);
 }
 
 Refinement::Subset Refinement::about(Index wanted) const {
@@ -179,7 +125,7 @@ Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   const Subset few = about(few_samples);
   const UnitPlane plane = fitted(start.plane, 0.02, few, 2);
-  return {plane, explained(plane, matches(plane, reach, few), few, Merit::Testimony)};
+  return {plane, explained(plane, matches(plane, reach, few), few)};
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
@@ -194,7 +140,7 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   const Subset most = about(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
   const std::vector<Match> around = matches(rough, reach, most);
-  const double roughly = explained(rough, around, most, Merit::Testimony);
+  const double roughly = explained(rough, around, most);
   const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around));
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
@@ -204,7 +150,7 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
   const Subset most = about(most_samples);
-  return {plane, explained(plane, matches(plane, reach, most), most, Merit::Testimony)};
+  return {plane, explained(plane, matches(plane, reach, most), most)};
 }
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
@@ -235,7 +181,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
         gap += (image.dot(p.normal) - p.height - gap.dot(p.normal)) * p.flatness * p.normal;
       const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                                 p);
-      const double r = residual(gap, p) / tolerance;
+      const double r = distance_past(gap, p, spacing_) / tolerance;
       const double trusted = weight * agreement.facing * std::exp(-r * r / 2);
       squares += trusted * r * r;
       weights += trusted;

@@ -15,8 +15,8 @@ namespace symsurf {
 /// Fits planes to the full cloud: samples of it are mirrored and meet the nearest of all points.
 class Refinement {
  public:
-  /// `scales`: surfels that give the normals; at each place the flattest do.
-  Refinement(const Cloud& cloud, const PointTree& tree, std::vector<const Surfels*> scales);
+  /// The surfels give the normals, at each place the flattest.
+  Refinement(const Cloud& cloud, const PointTree& tree, const Surfels& coarse, const Surfels& fine);
 
   /// The plane after a few steps on a few samples, with what then speaks for it.
   PlaneCandidate quick(const PlaneCandidate& start) const;
@@ -27,19 +27,11 @@ class Refinement {
   /// The same on all samples. Where partners are exact, it converges to rounding.
   PlaneCandidate final(const PlaneCandidate& start) const;
 
-  /// The share of the samples whose images meet the cloud.
-  double explained_share(const UnitPlane& plane) const;
-
-  /// What a perfect mirror would explain: the share of the samples that their own nearest
-  /// neighbours explain. Below 1 where the cloud is sparse, noisy or strongly curved.
-  double self_explained() const;
-
  private:
   // Every `stride`-th of the samples before `end`.
   struct Subset {
     Index end, stride;
   };
-  enum class Merit { Testimony, Closeness };
   struct Match {
     Index sample;
     Vector3 partner;
@@ -53,15 +45,13 @@ class Refinement {
 
   Subset about(Index wanted) const;
   Subset all() const;
-  double residual(const Vector3& gap, const Surfel& partner) const;
   PlaneCandidate rated(const UnitPlane& plane) const;
-  const Surfel* surfel_at(const Vector3& x) const;
+  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   std::array<Neighbour, PointTree::block> nearest(const PointTree::Queries& images, double limit,
                                                   Index& near) const;
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
-  double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset,
-                   Merit merit) const;
+  double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset) const;
   // `found`: the plane's partners, where they are known.
   UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
                    std::vector<Match> found = {}) const;
@@ -69,7 +59,7 @@ class Refinement {
 
   const Cloud& cloud_;
   const PointTree& tree_;
-  std::vector<const Surfels*> scales_;
+  const Surfels &coarse_, &fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;
   Index even_samples_ = 0;  // the first ones, spread evenly over the cloud

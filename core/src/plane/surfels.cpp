@@ -151,4 +151,16 @@ Index Surfels::containing(const Vector3& x) const {
   return slot_[linear(cell_of(x))];
 }
 
+const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x) {
+  constexpr double by_chance = 0.1;  // few points look flatter than they are
+  const Surfel* flattest = nullptr;
+  for (const Surfels* surfels : scales) {
+    const Index i = surfels->containing(x);
+    if (i < 0) continue;
+    const Surfel& surfel = (*surfels)[i];
+    if (!flattest || surfel.flatness > flattest->flatness + by_chance) flattest = &surfel;
+  }
+  return flattest;
+}
+
 }  // namespace symsurf

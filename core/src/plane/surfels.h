@@ -3,6 +3,7 @@
 #include <symsurf/method.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 namespace symsurf {
@@ -50,5 +51,8 @@ class Surfels {
   std::vector<Surfel> surfels_;
   std::vector<std::int32_t> slot_;  // of each cell in surfels_, -1: empty
 };
+
+/// The flattest of the surfels whose cells hold x; of nearly equal ones the first.
+const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x);
 
 }  // namespace symsurf

@@ -8,8 +8,12 @@
 
 namespace symsurf {
 
+class SphereStep;
+
 /// A sphere while it is searched for, in the principal frame.
 struct UnitSphere {
+  using Step = SphereStep;
+
   Vector3 centre = Vector3::Zero();
   double radius = 1;
 

@@ -1,0 +1,169 @@
+#include "mirror_score.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "parallel.h"
+#include "plane/agreement.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index most_samples = 1000;
+constexpr double reach = 0.06;  // how far a partner may be
+constexpr double least_moved = 0.35;
+
+// The image's normal, from where its tangents go: exact whatever the mirror's curvature.
+Vector3 image_normal(const Mirror& mirror, const Vector3& x, const Vector3& normal,
+                     const Vector3& image, double step) {
+  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  const Vector3 along = mirror.reflect(Vector3(x + step * u)) - image;
+  const Vector3 across = mirror.reflect(Vector3(x + step * v)) - image;
+  return along.cross(across).normalized();
+}
+
+}  // namespace
+
+double distance_past(const Vector3& gap, const Surfel& partner, double spacing) {
+  const double length = gap.norm(), off_sheet = std::abs(gap.dot(partner.normal));
+  const double along_sheet = std::sqrt(std::max(0.0, length * length - off_sheet * off_sheet));
+  const double sheet = std::hypot(off_sheet, 0.3 * std::max(0.0, along_sheet - spacing));
+  const double blob = 0.6 * std::max(0.0, length - spacing);
+  return std::min(std::hypot(partner.flatness * sheet, (1 - partner.flatness) * blob), 3 * length);
+}
+
+MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)
+    : cloud_(cloud),
+      tree_(tree),
+      own_coarse_(std::in_place, cloud, coarse_size, context.stage(0, 0.5)),
+      own_fine_(std::in_place, cloud, fine_size, context.stage(0.5, 1)),
+      coarse_(&*own_coarse_),
+      fine_(&*own_fine_) {
+  take_samples();
+  look_at_neighbours();
+}
+
+MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
+                         const Surfels& fine)
+    : cloud_(cloud), tree_(tree), coarse_(&coarse), fine_(&fine) {
+  take_samples();
+  look_at_neighbours();
+}
+
+void MirrorScore::take_samples() {
+  const auto points = static_cast<double>(cloud_.points.size());
+  spacing_ = coarse_->spacing() * std::sqrt(static_cast<double>(coarse_->size()) / points);
+  const Index step = std::max<Index>(1, fine_->size() / most_samples);
+  for (Index k = 0; k < fine_->size(); k += step) {
+    const Vector3 x = cloud_.frame.enter(cloud_.points[(*fine_)[k].sample]);
+    if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel});
+  }
+}
+
+// Neighbours tell how far noise, or curvature between sparse points, takes a point off the surface:
+// less than that is no miss.
+void MirrorScore::look_at_neighbours() {
+  if (samples_.empty()) return;
+  struct Look {
+    double residual, facing;
+  };
+  std::vector<Look> looks;
+  std::vector<double> residuals;
+  std::vector<Neighbour> nearest;
+  for (const Sample& s : samples_) {
+    tree_.nearest(cloud_.frame.leave(s.position), 2, nearest);
+    const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
+    const Surfel* partner = surfel_at(other);
+    if (!partner) continue;
+    const Vector3 gap = s.position - other;
+    const Agreement agreement(gap, s.surfel->normal, s.surfel->flatness, *partner);
+    looks.push_back({distance_past(gap, *partner, spacing_), agreement.facing});
+    residuals.push_back(looks.back().residual);
+  }
+  if (looks.empty()) return;
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  testimony_.meets = std::hypot(testimony_.meets, *middle);
+  testimony_.misses = std::hypot(testimony_.misses, 2 * *middle);
+  // A sheet is no mirror of the noise on its two sides.
+  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * *middle);
+  double sum = 0;
+  for (const Look& look : looks) sum += testimony_(look.residual, look.facing);
+  self_ = sum / static_cast<double>(samples_.size());
+}
+
+double MirrorScore::explained(const Mirror& mirror) const {
+  if (!(self_ > 0)) return 0;
+  const double size = cloud_.frame.size;
+  double moved = 0, sum = 0;
+  for (const Sample& s : samples_) {
+    const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
+    if (!image.allFinite()) {
+      moved += 1;
+      continue;
+    }
+    const double weight = displaced((image - x).norm() / (2 * size), moved_tolerance_);
+    if (weight <= 0) continue;
+    moved += weight;
+    const Neighbour nearest = tree_.nearest(image, reach * reach * size * size);
+    if (nearest.index < 0) continue;
+    const Vector3 at = cloud_.frame.enter(cloud_.points[nearest.index]);
+    const Surfel* partner = surfel_at(at);
+    if (!partner) continue;
+    const Vector3 normal =
+        image_normal(mirror, x, cloud_.frame.axes * s.surfel->normal, image, 1e-4 * size);
+    if (!normal.allFinite()) continue;
+    const Vector3 gap = cloud_.frame.enter(image) - at;
+    const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s.surfel->flatness,
+                              *partner);
+    sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
+  }
+  const double mean = sum / std::max(moved, least_moved * static_cast<double>(samples_.size()));
+  return std::clamp(mean / self_, 0.0, 1.0);
+}
+
+void MirrorScore::fill(Result& result) const {
+  const double share = explained(*result.mirror);
+  result.score = discounted(share, result.mirror->kind());
+  result.statistics["explained_share"] = share;
+}
+
+Result MirrorScore::ranked(const std::string& method,
+                           const std::vector<std::shared_ptr<Mirror>>& mirrors) const {
+  std::vector<Result> found;
+  for (const std::shared_ptr<Mirror>& mirror : mirrors) {
+    Result& result = found.emplace_back();
+    result.method = method;
+    result.mirror = mirror;
+    fill(result);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Result& a, const Result& b) { return a.score > b.score; });
+  Result best = std::move(found.front());
+  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
+                         std::make_move_iterator(found.end()));
+  return best;
+}
+
+double discounted(double explained, std::string_view kind) {
+  // What the best mirror of a kind explains of random blobs, less what the best plane does; and,
+  // since of two mirrors that explain the same the simpler is meant, what its freedom costs.
+  struct Freedom {
+    double by_chance, cost;
+  };
+  static const std::map<std::string_view, Freedom> freedoms{
+      {"plane", {0, 0}},        {"sphere", {0.15, 0.01}},       {"cylinder", {0.15, 0.02}},
+      {"quadric", {0.4, 0.03}}, {"height field", {0.85, 0.05}}, {"free-form", {0.65, 0.06}},
+  };
+  const auto found = freedoms.find(kind);
+  if (found == freedoms.end()) return explained;
+  const auto [by_chance, cost] = found->second;
+  return (1 - cost) * std::max(0.0, (explained - by_chance) / (1 - by_chance));
+}
+
+}  // namespace symsurf

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/method.h>
+#include <symsurf/mirror.h>
+#include <symsurf/result.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plane/surfels.h"
+#include "point_tree.h"
+
+namespace symsurf {
+
+/// What an image says for or against a mirror: 1 where it meets the cloud's surface, about -0.7
+/// where it just misses it, 0 far from it. A true mirror of a shape with a piece missing sends
+/// images into the void, a wrong one sends them past the surface everywhere.
+struct Testimony {
+  double meets = 0.0015, misses = 0.016;  ///< distances from the surface, over the cloud's size
+
+  /// `facing`, 0..1: do the normals mirror each other?
+  double operator()(double residual, double facing) const {
+    constexpr double objection = 0.7;
+    const double near = residual / meets, past = residual / misses;
+    return facing / (1 + near * near) - objection * past * past * std::exp(1 - past * past);
+  }
+};
+
+/// How far an image is from the cloud's surface, `gap` from its partner. Along a sheet, or inside a
+/// blob, a partner is as near as the points' spacing allows: only what exceeds it counts.
+double distance_past(const Vector3& gap, const Surfel& partner, double spacing);
+
+/// The one score of all kinds of mirror: the mean testimony of the points that the mirror moves (at
+/// least 35 % of all), over that of the points about their own nearest neighbours, since a perfect
+/// mirror maps the cloud onto another sample of the same sheets. From that is taken what a mirror
+/// of the same freedom explains of random clouds.
+class MirrorScore {
+ public:
+  static constexpr Index coarse_size = 1000, fine_size = 4000;  // surfels
+
+  /// The cloud and the tree of its points must outlive the score.
+  MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context);
+
+  /// The same with the cloud's surfels, which must outlive it too.
+  MirrorScore(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
+              const Surfels& fine);
+
+  MirrorScore(const MirrorScore&) = delete;
+  MirrorScore& operator=(const MirrorScore&) = delete;
+
+  /// In [0, 1], before the discount for the mirror's freedom.
+  double explained(const Mirror& mirror) const;
+
+  /// Sets the result's score, and "explained_share" among its statistics.
+  void fill(Result& result) const;
+
+  /// The result with the best of at least one mirror, the others its candidates, best first.
+  Result ranked(const std::string& method,
+                const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
+
+ private:
+  struct Sample {
+    Vector3 position;  // in the principal frame
+    const Surfel* surfel;
+  };
+
+  void take_samples();
+  void look_at_neighbours();
+  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({coarse_, fine_}, x); }
+
+  const Cloud& cloud_;
+  const PointTree& tree_;
+  std::optional<Surfels> own_coarse_, own_fine_;
+  const Surfels *coarse_, *fine_;
+  double spacing_;  // of the points on a sheet
+  std::vector<Sample> samples_;
+  Testimony testimony_;
+  double moved_tolerance_ = 0.01;
+  double self_ = 0;  // what the points' own neighbours explain
+};
+
+/// What is left of a share explained after what chance explains, for a kind of mirror.
+double discounted(double explained, std::string_view kind);
+
+}  // namespace symsurf

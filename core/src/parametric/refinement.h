@@ -1,0 +1,193 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "../point_tree.h"
+#include "../sheet_spacing.h"
+#include "candidate.h"
+
+namespace symsurf {
+
+/// Fits mirrors of few numbers to the full cloud: samples of it are mirrored and meet the nearest
+/// of all points.
+template <typename Shape>
+class ParametricRefinement {
+ public:
+  ParametricRefinement(const Cloud& cloud, const PointTree& tree, const Surfels& surfels);
+
+  /// The mirror that leaves the least robust residual on about `wanted` samples.
+  Candidate<Shape> fitted(const Candidate<Shape>& start, Index wanted, int steps) const;
+
+  /// Where the same points stand on both sides, converges on them to rounding; otherwise `start`.
+  Candidate<Shape> fitted_to_exact_pairs(const Candidate<Shape>& start) const;
+
+  /// Of the samples the mirror moves, the share that meets the cloud.
+  double explained(const Shape& shape, Index wanted) const;
+
+ private:
+  struct Sample {
+    Vector3 position;
+    const Surfel* surfel;
+  };
+  struct Match {
+    const Sample* sample;
+    Vector3 gap;  // from the partner to the image
+    const Surfel* partner;
+  };
+
+  static constexpr double reach = 0.06;  // how far a partner may be
+
+  Index stride_for(Index wanted) const;
+  std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
+  static double closeness(const Agreement& agreement);
+  static double quantile(std::vector<double>& values, double share);
+
+  const Cloud& cloud_;
+  const PointTree& tree_;
+  const Surfels& surfels_;
+  double spacing_;
+  std::vector<Sample> samples_;
+};
+
+template <typename Shape>
+double ParametricRefinement<Shape>::quantile(std::vector<double>& values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+template <typename Shape>
+ParametricRefinement<Shape>::ParametricRefinement(const Cloud& cloud, const PointTree& tree,
+                                                  const Surfels& surfels)
+    : cloud_(cloud),
+      tree_(tree),
+      surfels_(surfels),
+      spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {
+  constexpr Index most_samples = 8192;
+  const Index n = cloud.points.size(), count = std::min(n, most_samples);
+  for (Index k = 0; k < count; ++k) {
+    const Vector3 x = cloud.frame.enter(cloud.points[tree.order()[k * n / count]]);
+    const Index surfel = surfels.containing(x);
+    if (surfel >= 0) samples_.push_back({x, &surfels[surfel]});
+  }
+}
+
+template <typename Shape>
+Index ParametricRefinement<Shape>::stride_for(Index wanted) const {
+  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
+}
+
+template <typename Shape>
+auto ParametricRefinement<Shape>::matches(const Shape& shape, double limit, Index stride) const
+    -> std::vector<Match> {
+  const double size = cloud_.frame.size;
+  std::vector<Match> found;
+  for (std::size_t i = 0; i < samples_.size(); i += stride) {
+    const Vector3 image = shape.reflect(samples_[i].position);
+    if (!image.allFinite()) continue;
+    const Neighbour nearest = tree_.nearest(cloud_.frame.leave(image), limit * limit * size * size);
+    if (nearest.index < 0) continue;
+    const Vector3 partner = cloud_.frame.enter(cloud_.points[nearest.index]);
+    const Index surfel = surfels_.containing(partner);
+    if (surfel >= 0) found.push_back({&samples_[i], image - partner, &surfels_[surfel]});
+  }
+  return found;
+}
+
+template <typename Shape>
+Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& start, Index wanted,
+                                                     int steps) const {
+  constexpr double widest = 0.012, narrowest = 0.003;
+  const Index stride = stride_for(wanted);
+  Candidate<Shape> candidate = start;
+  double tolerance = widest;
+  for (int step = 0; step < steps; ++step) {
+    typename Shape::Step sum(candidate.shape);
+    std::vector<double> residuals;
+    for (const Match& match : matches(candidate.shape, reach, stride)) {
+      const Sample& s = *match.sample;
+      const double weight = displaced(candidate.shape.distance(s.position), widest);
+      if (weight <= 0) continue;
+      const Agreement agreement(match.gap,
+                                candidate.shape.reflect_direction(s.position, s.surfel->normal),
+                                s.surfel->flatness, *match.partner);
+      residuals.push_back(agreement.squared);
+      sum.add(s.position, match.gap, agreement.metric(), weight * agreement.weight(tolerance));
+    }
+    if (residuals.size() < 5) break;
+    double moved;
+    candidate.shape = sum.taken(&moved);
+    tolerance = std::clamp(2.5 * std::sqrt(quantile(residuals, 0.5)), narrowest, widest);
+    if (moved < 1e-5) break;
+  }
+  candidate.explained = explained(candidate.shape, wanted);
+  return candidate;
+}
+
+// By chance a tenth of all images comes within a fifth of the spacing at best.
+template <typename Shape>
+Candidate<Shape> ParametricRefinement<Shape>::fitted_to_exact_pairs(
+    const Candidate<Shape>& start) const {
+  constexpr int steps = 16;
+  constexpr double worth_trying = 0.12, exact = 0.01;  // of the spacing
+  const Index stride = stride_for(1200);
+  Candidate<Shape> candidate = start;
+  double typical = 0;
+  for (int step = 0; step < steps; ++step) {
+    std::vector<Match> found = matches(candidate.shape, spacing_, stride);
+    std::erase_if(found, [&](const Match& match) {
+      return displaced(candidate.shape.distance(match.sample->position), spacing_) < 1;
+    });
+    if (found.size() < 10) return start;
+    std::vector<double> gaps;
+    for (const Match& match : found) gaps.push_back(match.gap.norm());
+    typical = quantile(gaps, 0.1);
+    if (typical > worth_trying * spacing_) return start;
+    typename Shape::Step sum(candidate.shape);
+    for (const Match& match : found)
+      if (match.gap.norm() <= 3 * typical)
+        sum.add(match.sample->position, match.gap, Matrix3::Identity(), 1);
+    double moved;
+    candidate.shape = sum.taken(&moved);
+    if (moved < 1e-14) break;
+  }
+  if (typical >= exact * spacing_) return start;
+  candidate.explained = explained(candidate.shape, 1200);
+  return candidate;
+}
+
+// The mean over tolerances from coarse to fine: images that meet a point exactly count in full,
+// chance agreement less the finer one looks.
+template <typename Shape>
+double ParametricRefinement<Shape>::closeness(const Agreement& agreement) {
+  constexpr std::array score_tolerances{0.01, 0.005, 0.0025, 0.00125};
+  double sum = 0;
+  for (const double tolerance : score_tolerances) sum += agreement.weight(tolerance);
+  return sum / static_cast<double>(score_tolerances.size());
+}
+
+template <typename Shape>
+double ParametricRefinement<Shape>::explained(const Shape& shape, Index wanted) const {
+  constexpr double least_moved = 0.35;
+  const Index stride = stride_for(wanted);
+  const double tolerance = std::max(0.01, spacing_ / 2);
+  double moved = 0, agreeing = 0;
+  Index looked = 0;
+  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
+    moved += displaced(shape.distance(samples_[i].position), tolerance);
+  for (const Match& match : matches(shape, reach, stride)) {
+    const Sample& s = *match.sample;
+    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
+                              s.surfel->flatness, *match.partner);
+    agreeing += displaced(shape.distance(s.position), tolerance) * closeness(agreement);
+  }
+  return agreeing / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+}  // namespace symsurf
