@@ -134,7 +134,8 @@ void MirrorScore::fill(Result& result) const {
 }
 
 Result MirrorScore::ranked(const std::string& method,
-                           const std::vector<std::shared_ptr<Mirror>>& mirrors) const {
+                           const std::vector<std::shared_ptr<Mirror>>& mirrors,
+                           Index settled) const {
   std::vector<Result> found;
   for (const std::shared_ptr<Mirror>& mirror : mirrors) {
     Result& result = found.emplace_back();
@@ -142,7 +143,7 @@ Result MirrorScore::ranked(const std::string& method,
     result.mirror = mirror;
     fill(result);
   }
-  std::stable_sort(found.begin(), found.end(),
+  std::stable_sort(found.begin() + settled, found.end(),
                    [](const Result& a, const Result& b) { return a.score > b.score; });
   Result best = std::move(found.front());
   best.candidates.assign(std::make_move_iterator(found.begin() + 1),

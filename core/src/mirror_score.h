@@ -59,9 +59,10 @@ class MirrorScore {
   /// Sets the result's score, and "explained_share" among its statistics.
   void fill(Result& result) const;
 
-  /// The result with the best of at least one mirror, the others its candidates, best first.
-  Result ranked(const std::string& method,
-                const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
+  /// The result with the best of at least one mirror, the others its candidates, best first. The
+  /// first `settled` of them stay in front as they are.
+  Result ranked(const std::string& method, const std::vector<std::shared_ptr<Mirror>>& mirrors,
+                Index settled = 0) const;
 
  private:
   struct Sample {

@@ -1,11 +1,13 @@
 #include <symsurf/sphere.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "../matching.h"
 #include "../mirror_score.h"
 #include "../parametric/refinement.h"
 #include "../plane/maximise.h"
+#include "../sphere/partner_fit.h"
 #include "../sphere/sphere_candidates.h"
 #include "../sphere/sphere_measure.h"
 #include "methods.h"
@@ -14,14 +16,16 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 48;         // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;    // of these, have their measure maximised
-constexpr std::size_t finalists = 8;  // of these, are fitted to the full cloud
-constexpr std::size_t polished = 3;   // and of these, to ever more of it
-constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
-constexpr double alike = 0.04;        // spheres closer than this are one
-constexpr Index measured = 500;       // surfels that the measure is taken over
-constexpr double largest = 3;         // radius, in diagonals
+constexpr Index started = 48;              // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;         // of these, have their measure maximised
+constexpr std::size_t finalists = 8;       // of these, are fitted to the full cloud
+constexpr std::size_t polished = 3;        // and of these, to ever more of it
+constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
+constexpr double promising = 0.8;          // and from here on worth sliding
+constexpr double alike = 0.04;             // spheres closer than this are one
+constexpr Index measured = 500;            // surfels that the measure is taken over
+constexpr double bent = 0.6, largest = 3;  // radii, in diagonals: no plane, nothing but one
+constexpr double flat_radius = 30, as_much = 0.9;
 
 Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
   return {frame.leave(sphere.centre), frame.size * sphere.radius};
@@ -32,12 +36,21 @@ void drop_hopeless(std::vector<SphereCandidate>& candidates) {
   std::erase_if(candidates, [&](const SphereCandidate& c) { return c.explained < least; });
 }
 
-// Spheres so large that the cloud hardly tells them from planes; where there is nothing else, the
-// best of them stays.
-void drop_planes(std::vector<SphereCandidate>& candidates) {
-  const auto is_plane = [](const SphereCandidate& c) { return c.shape.radius > largest; };
-  if (!std::all_of(candidates.begin(), candidates.end(), is_plane))
-    std::erase_if(candidates, is_plane);
+// Spheres so large that a plane explains as much; where there is nothing else, they stay.
+void drop_planes(const Surfels& surfels, const SurfelMap& map,
+                 std::vector<SphereCandidate>& candidates) {
+  const auto is_plane = [&](const SphereCandidate& c) {
+    if (c.shape.radius > largest) return true;
+    if (c.shape.radius < bent) return false;
+    const Vector3 up = c.shape.centre.normalized();  // from the cloud's centroid
+    const Vector3 foot = c.shape.centre - c.shape.radius * up;
+    const SphereCandidate flat{{foot + flat_radius * up, flat_radius}};
+    const double explained = settled(surfels, map, flat, 0.03, 0.02, 4, 1).explained;
+    return explained > as_much * explained_share(surfels, map, c.shape, 0.02);
+  };
+  std::vector<SphereCandidate> spheres;
+  std::remove_copy_if(candidates.begin(), candidates.end(), std::back_inserter(spheres), is_plane);
+  if (!spheres.empty()) candidates = std::move(spheres);
 }
 
 // From each of the best candidates to the maximum next to it of Hruda's measure, where that
@@ -59,13 +72,13 @@ void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandi
 }
 
 // On the thinned cloud alone.
-std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, std::uint64_t seed) {
-  const SurfelMap map(surfels);
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
+                                               std::uint64_t seed) {
   std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started);
   if (candidates.empty()) candidates.push_back({});
   for (SphereCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
-  drop_planes(candidates);
+  drop_planes(surfels, map, candidates);
   keep_distinct(surfels, candidates, alike, started);
   climb(surfels, map, candidates);
   drop_hopeless(candidates);
@@ -77,25 +90,46 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, std::uint
 
 Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
-  std::vector<SphereCandidate> candidates = promising_spheres(surfels, cloud.seed);
+  const SurfelMap map(surfels);
+  std::vector<SphereCandidate> candidates = promising_spheres(surfels, map, cloud.seed);
   context.report(0.4);
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels);
-  for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
+  const PartnerFit partner_fit(cloud, tree, refinement.spacing());
+  for (SphereCandidate& candidate : candidates) {
+    candidate = refinement.fitted(candidate, 400, 4);
+    candidate = partner_fit(candidate);
+  }
   keep_distinct(surfels, candidates, alike, finalists);
-  for (SphereCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
+  for (SphereCandidate& candidate : candidates)
+    if (candidate.partnered == 0) {
+      candidate = refinement.fitted(candidate, 1200, 3);
+      if (candidate.merit() >= promising * candidates.front().merit())
+        candidate = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
+    }
   keep_distinct(surfels, candidates, alike, finalists);
-  for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i)
-    candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 4));
-  drop_planes(candidates);
+  for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i) {
+    SphereCandidate& candidate = candidates[i];
+    if (candidate.partnered == 0)
+      candidate = refinement.fitted(candidate, 3000, 4);
+    else
+      candidate.shape = partner_fit.refined(candidate.shape, 3000);
+  }
+  for (SphereCandidate& candidate : candidates)
+    if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
+  drop_planes(surfels, map, candidates);
   keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
   context.report(0.7);
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
-  Result best = MirrorScore(cloud, tree, context.stage(0.7, 0.75)).ranked("sphere", mirrors);
+  // Partners tell more than sheets, which many spheres map onto each other about as well.
+  const auto loose = std::find_if(candidates.begin(), candidates.end(),
+                                  [](const SphereCandidate& c) { return c.partnered == 0; });
+  Result best = MirrorScore(cloud, tree, context.stage(0.7, 0.75))
+                    .ranked("sphere", mirrors, loose - candidates.begin());
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();

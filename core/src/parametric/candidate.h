@@ -14,17 +14,22 @@ namespace symsurf {
 // frame: distance(x), reflect(x) (NaN without an image), reflect_direction(x, n), the unit normal
 // at the image of a sheet through x with normal n, and Shape::Step, one Gauss-Newton step.
 
-/// A mirror and the share of the surfels that it explains, in [0, 1].
+/// A mirror, the share of the surfels that it explains and that of the points that it maps onto
+/// partners of their own, beyond chance; both in [0, 1].
 template <typename Shape>
 struct Candidate {
   Shape shape;
   double explained = 0;
+  double partnered = 0;
+
+  /// Many mirrors explain a plain sheet, but only the true one partners its points.
+  double merit() const { return explained + partnered; }
 };
 
 template <typename Shape>
 void sort_best_first(std::vector<Candidate<Shape>>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.explained > b.explained; });
+                   [](const auto& a, const auto& b) { return a.merit() > b.merit(); });
 }
 
 /// Share of the surfels whose images agree with the cloud, out of those the mirror moves (at least

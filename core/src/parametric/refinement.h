@@ -2,6 +2,7 @@
 
 #include <symsurf/method.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,8 +27,15 @@ class ParametricRefinement {
   /// Where the same points stand on both sides, converges on them to rounding; otherwise `start`.
   Candidate<Shape> fitted_to_exact_pairs(const Candidate<Shape>& start) const;
 
+  /// The two changes of the mirror's numbers, columns, that the cloud's sheets resist least,
+  /// against how far they move the images: by 1, root mean square.
+  Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Shape& shape) const;
+
   /// Of the samples the mirror moves, the share that meets the cloud.
   double explained(const Shape& shape, Index wanted) const;
+
+  /// Of the cloud's points, in the principal frame.
+  double spacing() const { return spacing_; }
 
  private:
   struct Sample {
@@ -41,6 +49,7 @@ class ParametricRefinement {
   };
 
   static constexpr double reach = 0.06;  // how far a partner may be
+  static constexpr double widest = 0.012;
 
   Index stride_for(Index wanted) const;
   std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
@@ -103,7 +112,7 @@ auto ParametricRefinement<Shape>::matches(const Shape& shape, double limit, Inde
 template <typename Shape>
 Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& start, Index wanted,
                                                      int steps) const {
-  constexpr double widest = 0.012, narrowest = 0.003;
+  constexpr double narrowest = 0.003;
   const Index stride = stride_for(wanted);
   Candidate<Shape> candidate = start;
   double tolerance = widest;
@@ -160,6 +169,30 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted_to_exact_pairs(
   if (typical >= exact * spacing_) return start;
   candidate.explained = explained(candidate.shape, 1200);
   return candidate;
+}
+
+template <typename Shape>
+Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement<Shape>::loosest(
+    const Shape& shape) const {
+  typename Shape::Step held(shape), moved(shape);
+  double count = 0;
+  for (const Match& match : matches(shape, reach, stride_for(400))) {
+    const Sample& s = *match.sample;
+    const double weight = displaced(shape.distance(s.position), widest);
+    if (weight <= 0) continue;
+    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
+                              s.surfel->flatness, *match.partner);
+    const Vector3& n = match.partner->normal;
+    held.add(s.position, match.gap, n * n.transpose(), weight * agreement.weight(widest));
+    moved.add(s.position, match.gap, Matrix3::Identity(), weight);
+    count += weight;
+  }
+  Eigen::MatrixXd motion = moved.hessian();
+  if (!(count > 0)) return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(motion.rows(), 2);
+  motion /= count;
+  motion.diagonal().array() += 1e-9 * motion.trace();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held.hessian(), motion);
+  return eigen.eigenvectors().leftCols(2);
 }
 
 // The mean over tolerances from coarse to fine: images that meet a point exactly count in full,

@@ -58,6 +58,8 @@ class SphereStep {
     gradient_.noalias() += weighted.transpose() * gap;
   }
 
+  const Eigen::Matrix4d& hessian() const { return hessian_; }
+
   /// The sphere after the step, and how far it moved; the same sphere where nothing holds it.
   UnitSphere taken(double* moved = nullptr) const {
     Eigen::Matrix4d damped = hessian_;

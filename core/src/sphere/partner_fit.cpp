@@ -1,0 +1,188 @@
+#include "partner_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "../plane/agreement.h"
+
+namespace symsurf {
+
+namespace {
+
+// Lengths are in spacings of the points.
+constexpr double agree = 0.1;  // two chords on one sphere
+constexpr double met = 0.2;    // an image and a point
+constexpr double by_chance = 0.12, least_excess = 0.25;
+constexpr Index sampled = 24, near_image = 12;
+constexpr Index glance = 40, look = 400;
+constexpr double exact = 1e-3;
+constexpr double slide = 0.4;  // of images from one place to the next
+constexpr int farthest = 3;    // places to either side
+constexpr Index on_the_way = 150;
+constexpr std::size_t attempts = 4;
+constexpr double clearly_nearer = 0.08;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
+
+double beyond_chance(double share) { return (share - by_chance) / (1 - by_chance); }
+
+}  // namespace
+
+PartnerFit::PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing)
+    : cloud_(cloud), tree_(tree), spacing_(spacing) {}
+
+SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
+  SphereCandidate best = start;
+  const std::vector<std::vector<Chord>> all = chords(start.shape);
+  const auto consider = [&](const Chord& a, const Chord& b) {
+    const Vector3 apart = a.middle - b.middle, turned = b.to_centre - a.to_centre;
+    const double radius = apart.dot(turned) / turned.squaredNorm();
+    if (!(radius > start.shape.radius / 2) || !(radius < 2 * start.shape.radius)) return;
+    if ((apart - radius * turned).norm() > agree * spacing_) return;
+    const UnitSphere sphere{a.middle + radius * a.to_centre, radius};
+    const double least = std::max(least_excess, best.partnered);
+    if (beyond_chance(share_met(sphere, glance)) < least) return;
+    const UnitSphere fitted = refined(sphere, look);
+    const double excess = beyond_chance(share_met(fitted, look));
+    if (excess < least) return;
+    best.shape = fitted;
+    best.partnered = excess;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      for (const Chord& a : all[i])
+        for (const Chord& b : all[k]) consider(a, b);
+      if (best.partnered > 0) return best;
+    }
+  return best;
+}
+
+std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere& sphere) const {
+  const Index n = tree_.size(), count = std::min(n, 2 * sampled);
+  std::vector<std::vector<Chord>> found;
+  std::vector<Neighbour> near;
+  for (Index k = 0; k < count && static_cast<Index>(found.size()) < sampled; ++k) {
+    const Index i = tree_.order()[k * n / count];
+    const Vector3 x = cloud_.frame.enter(cloud_.points[i]), image = sphere.reflect(x);
+    if (!image.allFinite() || displaced(sphere.distance(x), spacing_) < 1) continue;
+    tree_.nearest(cloud_.frame.leave(image), near_image, near);
+    std::vector<Chord> chords;
+    for (const Neighbour& partner : near) {
+      const Vector3 chord = cloud_.frame.enter(cloud_.points[partner.index]) - x;
+      if (!(chord.norm() > spacing_)) continue;
+      const Vector3 middle = x + chord / 2, u = chord.normalized();
+      chords.push_back({middle, u.dot(sphere.centre - middle) < 0 ? Vector3(-u) : u});
+    }
+    found.push_back(std::move(chords));
+  }
+  return found;
+}
+
+std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, Index wanted,
+                                                      double reach, Index* asked) const {
+  // Points that follow each other are close, and so are their images: a block is one search.
+  constexpr Index block = PointTree::block;
+  const Index n = tree_.size(), blocks = (std::min(n, wanted) + block - 1) / block;
+  const double limit = reach * cloud_.frame.size;
+  std::vector<Meeting> found;
+  Index places = 0, near = 0, waits = 0;
+  std::array<Vector3, PointTree::block> positions, images;
+  PointTree::Queries queries;
+  const auto ask = [&] {
+    for (Index i = 0; i < PointTree::block; ++i)
+      queries.col(i) = cloud_.frame.leave(images[std::min(i, waits - 1)]);
+    const auto nearest = tree_.nearest(queries, limit * limit, near);
+    for (Index i = 0; i < waits; ++i)
+      if (nearest[i].index >= 0)
+        found.push_back(
+            {positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest[i].index])});
+    waits = 0;
+  };
+  for (Index k = 0; k < blocks * block; ++k) {
+    const Index p =
+        k / block * std::max<Index>(0, n - block) / std::max<Index>(1, blocks - 1) + k % block;
+    if (p >= n) break;
+    const Vector3 x = cloud_.frame.enter(cloud_.points[tree_.order()[p]]);
+    if (displaced(sphere.distance(x), spacing_) < 1) continue;
+    const Vector3 image = sphere.reflect(x);
+    ++places;
+    if (!image.allFinite()) continue;
+    positions[waits] = x;
+    images[waits] = image;
+    if (++waits == PointTree::block) ask();
+  }
+  if (waits > 0) ask();
+  if (asked) *asked = places;
+  return found;
+}
+
+double PartnerFit::share_met(const UnitSphere& sphere, Index wanted) const {
+  Index asked;
+  const double hits = static_cast<double>(meetings(sphere, wanted, met * spacing_, &asked).size());
+  return hits / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
+}
+
+double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
+  Index asked;
+  double sum = 0;
+  for (const Meeting& meeting : meetings(sphere, wanted, 2 * spacing_, &asked))
+    sum += std::exp(-2 * meeting.gap.squaredNorm() / (spacing_ * spacing_));
+  return sum / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
+}
+
+SphereCandidate PartnerFit::slid(const SphereCandidate& start,
+                                 const Eigen::Matrix<double, 4, 2>& loosest) const {
+  struct Place {
+    UnitSphere sphere;
+    double nearness;
+  };
+  std::vector<Place> places;
+  for (int i = -farthest; i <= farthest; ++i)
+    for (int j = -farthest; j <= farthest; ++j) {
+      const Eigen::Vector4d by = slide * spacing_ * loosest * Eigen::Vector2d(i, j);
+      const UnitSphere there{start.shape.centre + by.head<3>(), start.shape.radius + by[3]};
+      if (there.radius > 0) places.push_back({there, nearness(there, on_the_way)});
+    }
+  if (places.empty()) return start;
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.nearness > b.nearness; });
+  const double usual = places[places.size() / 2].nearness;
+
+  SphereCandidate best = start;
+  for (std::size_t i = 0; i < std::min(attempts, places.size()); ++i) {
+    const UnitSphere sphere = refined(places[i].sphere, look, 5);
+    const double excess = (nearness(sphere, look) - usual) / std::max(1 - usual, 0.1);
+    if (excess < clearly_nearer || excess <= best.partnered) continue;
+    best.shape = sphere;
+    best.partnered = excess;
+  }
+  return best;
+}
+
+UnitSphere PartnerFit::refined(UnitSphere sphere, Index most, int steps) const {
+  double reach = 0.75 * spacing_;
+  for (int step = 0; step < steps; ++step) {
+    SphereStep sum(sphere);
+    std::vector<double> gaps;
+    for (const Meeting& meeting : meetings(sphere, most, reach)) {
+      const double gap = meeting.gap.norm();
+      gaps.push_back(gap);
+      sum.add(meeting.position, meeting.gap, Matrix3::Identity(), tukey(gap / reach));
+    }
+    if (gaps.size() < 10) break;
+    double moved;
+    sphere = sum.taken(&moved);
+    if (moved < 1e-15) break;
+    reach = std::clamp(3 * median(gaps), exact * spacing_, 0.75 * spacing_);
+  }
+  return sphere;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+#include <vector>
+
+#include "../point_tree.h"
+#include "sphere_candidates.h"
+
+namespace symsurf {
+
+/// Fits spheres where the same points stand on both sides. A sheet that slides along itself holds a
+/// sphere loosely, partners hold it firmly: a point x and its partner have their centre on their
+/// line, a radius r from their midpoint m, so that two of them tell the sphere and whether they
+/// agree, m1 + r u1 = m2 + r u2. Partners are sought among the points near the images.
+class PartnerFit {
+ public:
+  /// The spacing of the points, in the principal frame.
+  PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing);
+
+  /// The candidate on its partners, `partnered` the share that have met them beyond chance; as it
+  /// was where points have no partners.
+  SphereCandidate operator()(const SphereCandidate& start) const;
+
+  /// The same through noise that moves partners apart by about their spacing: slides the sphere
+  /// over the plane of its two loosest changes (ParametricRefinement::loosest), to where images
+  /// come clearly nearer to points than elsewhere on the way.
+  SphereCandidate slid(const SphereCandidate& start,
+                       const Eigen::Matrix<double, 4, 2>& loosest) const;
+
+  /// The same sphere on up to `most` of the points, to rounding where partners are exact.
+  UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
+
+ private:
+  struct Meeting {
+    Vector3 position, gap;  // gap: from the nearest point to the image
+  };
+  /// A point and one that may be its partner.
+  struct Chord {
+    Vector3 middle, to_centre;
+  };
+
+  std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
+  std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
+                                Index* asked = nullptr) const;
+  double share_met(const UnitSphere& sphere, Index wanted) const;
+  /// Mean of exp(-gap^2 / 2 s^2), s half the spacing, over the points that the sphere moves.
+  double nearness(const UnitSphere& sphere, Index wanted) const;
+
+  const Cloud& cloud_;
+  const PointTree& tree_;
+  double spacing_;
+};
+
+}  // namespace symsurf
