@@ -2,7 +2,7 @@
 
     build/venv/bin/python tests/benchmarks/sphere_accuracy.py [SEEDS] [--hard]
 
-Every surface of Table 5.4 is mirrored over a sphere that a seed draws, in a pose that it draws, and
+Surfaces of the thesis are mirrored over a sphere that a seed draws, in a pose that it draws, and
 damaged. A line each: the share of trials with e_c within the bar, the share where the true sphere
 is the one found or among the candidates, the median and the worst of e_c, the median of e_r.
 --hard adds heavier damage, and shapes that no generator makes.
@@ -21,7 +21,7 @@ import symsurf
 from symsurf import metrics, synthetic
 
 Array = NDArray[np.float64]
-SURFACES = "f6", "f1", "f5", "f4", "f3"  # as in Table 5.4
+SURFACES = "f6", "f1", "f5", "f4", "f3"
 CLEAN, DAMAGED = 1e-6, 1e-2  # the bars on e_c
 LEAST_POINTS = 400
 
