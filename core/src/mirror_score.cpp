@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <utility>
 
 #include "parallel.h"
 #include "plane/agreement.h"
@@ -14,7 +13,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index most_samples = 1000;
+// Patches large enough to average what is crooked in a small way.
+constexpr Index coarse_size = 400, most_samples = 1600;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double least_moved = 0.35;
 
@@ -40,27 +40,18 @@ double distance_past(const Vector3& gap, const Surfel& partner, double spacing) 
 MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)
     : cloud_(cloud),
       tree_(tree),
-      own_coarse_(std::in_place, cloud, coarse_size, context.stage(0, 0.5)),
-      own_fine_(std::in_place, cloud, fine_size, context.stage(0.5, 1)),
-      coarse_(&*own_coarse_),
-      fine_(&*own_fine_) {
-  take_samples();
-  look_at_neighbours();
-}
-
-MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
-                         const Surfels& fine)
-    : cloud_(cloud), tree_(tree), coarse_(&coarse), fine_(&fine) {
+      coarse_(cloud, coarse_size, context.stage(0, 0.5)),
+      fine_(cloud, 4 * coarse_size, context.stage(0.5, 1)) {
   take_samples();
   look_at_neighbours();
 }
 
 void MirrorScore::take_samples() {
   const auto points = static_cast<double>(cloud_.points.size());
-  spacing_ = coarse_->spacing() * std::sqrt(static_cast<double>(coarse_->size()) / points);
-  const Index step = std::max<Index>(1, fine_->size() / most_samples);
-  for (Index k = 0; k < fine_->size(); k += step) {
-    const Vector3 x = cloud_.frame.enter(cloud_.points[(*fine_)[k].sample]);
+  spacing_ = coarse_.spacing() * std::sqrt(static_cast<double>(coarse_.size()) / points);
+  const Index step = std::max<Index>(1, fine_.size() / most_samples);
+  for (Index k = 0; k < fine_.size(); k += step) {
+    const Vector3 x = cloud_.frame.enter(cloud_.points[fine_[k].sample]);
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel});
   }
 }

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,17 +40,12 @@ double distance_past(const Vector3& gap, const Surfel& partner, double spacing);
 /// of the same freedom explains of random clouds.
 class MirrorScore {
  public:
-  static constexpr Index coarse_size = 1000, fine_size = 4000;  // surfels
-
   /// The cloud and the tree of its points must outlive the score.
   MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context);
 
   /// The same with the cloud's surfels, which must outlive it too.
   MirrorScore(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
               const Surfels& fine);
-
-  MirrorScore(const MirrorScore&) = delete;
-  MirrorScore& operator=(const MirrorScore&) = delete;
 
   /// In [0, 1], before the discount for the mirror's freedom.
   double explained(const Mirror& mirror) const;
@@ -72,12 +66,11 @@ class MirrorScore {
 
   void take_samples();
   void look_at_neighbours();
-  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({coarse_, fine_}, x); }
+  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   const Cloud& cloud_;
   const PointTree& tree_;
-  std::optional<Surfels> own_coarse_, own_fine_;
-  const Surfels *coarse_, *fine_;
+  Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;
   Testimony testimony_;

@@ -10,7 +10,7 @@ namespace {
 
 // The methods stand in the order of their mirrors' freedom: past a score like this a kind that is
 // freer could only explain the same in more words.
-constexpr double convincing = 0.9;
+constexpr double convincing = 0.8;
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   std::vector<const Method*> tried;
@@ -65,7 +65,7 @@ Method auto_method() {
       "Tries kinds of mirror, simple ones first, until one convinces, keeps the one with the best "
       "score, discounted for its freedom, and says whether it is one.";
   method.parameters = {
-      Parameter::real("minimum_score", 0.25, 0, 1, "",
+      Parameter::real("minimum_score", 0.3, 0, 1, "",
                       "Below it the verdict in the statistics is \"none\": the best found is no "
                       "symmetry of the shape."),
   };
