@@ -17,10 +17,14 @@ HOSTS = ["pvpython", "pvbatch"]
 def check(answer: dict[str, Any]) -> None:
     assert answer["ports"] == ["Mirror", "Surface Points", "Mapping"]
     assert list(answer["methods"]) == list(symsurf.methods())
-    for found in answer["methods"].values():
-        assert found["partners"] == found["points"] >= found["paired"] > 0
-        assert found["surface_points"] == found["vertices"] == found["residuals"] > 0
+    for method, found in answer["methods"].items():
+        assert found["partners"] == found["points"] >= found["paired"]
+        assert found["surface_points"] == found["vertices"] == found["residuals"]
         assert 0 <= found["field"]["Score"][0]
+        if method == "cylinder" and not found["paired"]:  # none is a result, with few points
+            assert "Kind" not in found["field"] and found["field"]["Score"] == [0]
+            continue
+        assert found["paired"] > 0 and found["surface_points"] > 0
         if "Kind" in found["field"]:
             assert found["triangles"] > 0
             assert {-1, 1} <= set(found["sides"]) <= {-1, 0, 1}  # 0: on the mirror, or without foot
