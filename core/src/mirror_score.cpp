@@ -8,6 +8,7 @@
 
 #include "parallel.h"
 #include "plane/agreement.h"
+#include "quantile.h"
 
 namespace symsurf {
 
@@ -77,12 +78,11 @@ void MirrorScore::look_at_neighbours() {
     residuals.push_back(looks.back().residual);
   }
   if (looks.empty()) return;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  testimony_.meets = std::hypot(testimony_.meets, *middle);
-  testimony_.misses = std::hypot(testimony_.misses, 2 * *middle);
+  const double typical = median(std::move(residuals));
+  testimony_.meets = std::hypot(testimony_.meets, typical);
+  testimony_.misses = std::hypot(testimony_.misses, 2 * typical);
   // A sheet is no mirror of the noise on its two sides.
-  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * *middle);
+  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * typical);
   double sum = 0;
   for (const Look& look : looks) sum += testimony_(look.residual, look.facing);
   self_ = sum / static_cast<double>(samples_.size());

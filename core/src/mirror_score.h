@@ -43,10 +43,6 @@ class MirrorScore {
   /// The cloud and the tree of its points must outlive the score.
   MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context);
 
-  /// The same with the cloud's surfels, which must outlive it too.
-  MirrorScore(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
-              const Surfels& fine);
-
   /// In [0, 1], before the discount for the mirror's freedom.
   double explained(const Mirror& mirror) const;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "quantile.h"
+
 namespace symsurf {
 
 double sheet_spacing(PointsView points, const PointTree& tree, Index copies) {
@@ -16,9 +18,7 @@ double sheet_spacing(PointsView points, const PointTree& tree, Index copies) {
     tree.nearest(points[i], neighbours, found);
     radii.push_back(std::sqrt(found.back().squared_distance));
   }
-  const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), median, radii.end());
-  return *median / std::sqrt(static_cast<double>(sixth) / std::numbers::pi);
+  return median(std::move(radii)) / std::sqrt(static_cast<double>(sixth) / std::numbers::pi);
 }
 
 }  // namespace symsurf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "../quantile.h"
 #include "direction_search.h"
 #include "exact_partners.h"
 #include "partner_evidence.h"
@@ -107,7 +108,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   const PartnerEvidence& start = ranking.best();
   statistics["partner_significance"] = start.significance;
   const double roughness =
-      median({cloud.flatness.data(), cloud.flatness.data() + cloud.size()}) / cloud.spacing;
+      median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
   const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch);
   context.report(0.75);
   FieldEstimate found = SheetRefinement(cloud, patches)(start.direction, start.scatter, rounds);

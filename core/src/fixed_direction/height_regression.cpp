@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../quantile.h"
 #include "working_cloud.h"
 
 namespace symsurf {

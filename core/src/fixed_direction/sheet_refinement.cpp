@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "../quantile.h"
+
 namespace symsurf {
 
 namespace {

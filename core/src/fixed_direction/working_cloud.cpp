@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../parallel.h"
+#include "../quantile.h"
 
 namespace symsurf {
 
@@ -21,12 +22,6 @@ std::vector<Index> spread_along_curve(const Points& points, Index count, const C
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 WorkingCloud::WorkingCloud(const Points& framed, Index count, const Context& context)
     : rows(spread_along_curve(framed, count, context.stage(0, 0.3))),
@@ -56,7 +51,7 @@ WorkingCloud::WorkingCloud(const Points& framed, Index count, const Context& con
           std::sqrt(std::max(0.0, eigen.eigenvalues()[0]) / static_cast<double>(near.size()));
     }
   });
-  spacing = median({spacings.data(), spacings.data() + size()});
+  spacing = median(std::vector(spacings.begin(), spacings.end()));
 }
 
 }  // namespace symsurf

@@ -27,7 +27,4 @@ struct WorkingCloud {
   double spacing = 0;        ///< median of them
 };
 
-/// The middle value; of an even number the upper one.
-double median(std::vector<double> values);
-
 }  // namespace symsurf

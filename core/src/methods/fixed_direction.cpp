@@ -6,6 +6,7 @@
 #include "../matching.h"
 #include "../mirror_score.h"
 #include "../parallel.h"
+#include "../quantile.h"
 #include "methods.h"
 
 namespace symsurf {
@@ -29,7 +30,7 @@ void drop_outlying_pairs(Result& result, double diagonal) {
   if (result.residuals.size() == 0) return;
   const double* r = result.residuals.data();
   const double limit =
-      std::max(outlying * median({r, r + result.residuals.size()}), rounding * diagonal);
+      std::max(outlying * median(std::vector(r, r + result.residuals.size())), rounding * diagonal);
   std::vector<Index> kept;
   for (Index i = 0; i < result.residuals.size(); ++i)
     if (r[i] <= limit) kept.push_back(i);

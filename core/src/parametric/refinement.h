@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../point_tree.h"
+#include "../quantile.h"
 #include "../sheet_spacing.h"
 #include "candidate.h"
 
@@ -54,7 +55,6 @@ class ParametricRefinement {
   Index stride_for(Index wanted) const;
   std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
   static double closeness(const Agreement& agreement);
-  static double quantile(std::vector<double>& values, double share);
 
   const Cloud& cloud_;
   const PointTree& tree_;
@@ -62,14 +62,6 @@ class ParametricRefinement {
   double spacing_;
   std::vector<Sample> samples_;
 };
-
-template <typename Shape>
-double ParametricRefinement<Shape>::quantile(std::vector<double>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 template <typename Shape>
 ParametricRefinement<Shape>::ParametricRefinement(const Cloud& cloud, const PointTree& tree,
@@ -132,7 +124,7 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& sta
     if (residuals.size() < 5) break;
     double moved;
     candidate.shape = sum.taken(&moved);
-    tolerance = std::clamp(2.5 * std::sqrt(quantile(residuals, 0.5)), narrowest, widest);
+    tolerance = std::clamp(2.5 * std::sqrt(median(std::move(residuals))), narrowest, widest);
     if (moved < 1e-5) break;
   }
   candidate.explained = explained(candidate.shape, wanted);
@@ -156,7 +148,7 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted_to_exact_pairs(
     if (found.size() < 10) return start;
     std::vector<double> gaps;
     for (const Match& match : found) gaps.push_back(match.gap.norm());
-    typical = quantile(gaps, 0.1);
+    typical = quantile(std::move(gaps), 0.1);
     if (typical > worth_trying * spacing_) return start;
     typename Shape::Step sum(candidate.shape);
     for (const Match& match : found)

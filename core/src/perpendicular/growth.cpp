@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../quantile.h"
+
 namespace symsurf::perpendicular {
 
 namespace {
@@ -85,9 +87,7 @@ void Growth::settle() {
   }
   std::vector<double> misses;
   for (const Carried& c : carried_) misses.push_back(c.miss.squaredNorm());
-  const auto middle = misses.begin() + misses.size() / 2;
-  std::nth_element(misses.begin(), middle, misses.end());
-  exact_ = *middle < 0.25 * 0.25 * cloud_->spacing * cloud_->spacing;
+  exact_ = median(std::move(misses)) < 0.25 * 0.25 * cloud_->spacing * cloud_->spacing;
   along_ = exact_ ? 1 : 0.08;
   for (const std::int32_t i : accepted_) refit(i);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../quantile.h"
+
 namespace symsurf::perpendicular {
 
 namespace {
@@ -47,9 +49,7 @@ double scale_of(const SearchCloud& cloud, const Sheet& sheet) {
   std::vector<double> misses;
   for (const Carried& c : sheet.carried)
     misses.push_back(sheet.exact ? c.miss.norm() : std::abs(c.miss.dot(c.partner_normal)));
-  const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-  std::nth_element(misses.begin(), middle, misses.end());
-  return std::max(1.5 * *middle, 0.02 * cloud.spacing);
+  return std::max(1.5 * median(std::move(misses)), 0.02 * cloud.spacing);
 }
 
 void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model>& model) {

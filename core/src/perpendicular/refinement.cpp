@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../quantile.h"
+
 namespace symsurf::perpendicular {
 
 namespace {
@@ -22,9 +24,7 @@ struct Smoothing {
 double median_miss(const std::vector<Carried>& data) {
   std::vector<double> squared;
   for (const Carried& c : data) squared.push_back(c.miss.squaredNorm());
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-  std::nth_element(squared.begin(), middle, squared.end());
-  return std::sqrt(*middle);
+  return std::sqrt(median(std::move(squared)));
 }
 
 Points feet_of(const std::vector<Carried>& carried) {
@@ -112,8 +112,7 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sh
     sheet.partners.push_back(static_cast<std::int32_t>(near.index));
   }
   if (misses.empty()) return;
-  std::nth_element(misses.begin(), misses.begin() + misses.size() / 2, misses.end());
-  sheet.typical_miss = misses[misses.size() / 2];
+  sheet.typical_miss = median(std::move(misses));
   sheet.exact = sheet.typical_miss < exact_miss;
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "../quantile.h"
+
 namespace symsurf::perpendicular {
 
 namespace {
@@ -17,13 +19,6 @@ constexpr Index most_smoothing = 60;  // neighbours
 
 double spacing_from(double sixth_squared) {
   return std::sqrt(sixth_squared) / std::sqrt(spacing_neighbour / std::numbers::pi);
-}
-
-template <typename T>
-T median(std::vector<T> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The spacing of a big cloud, from some of its points.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../mirror_score.h"
+#include "../quantile.h"
 #include "agreement.h"
 #include "plane_step.h"
 
@@ -16,13 +17,6 @@ constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.01;
-
-double quantile(std::vector<double>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
@@ -218,7 +212,7 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
     };
     std::vector<double> lengths;
     for (const Match& match : found) lengths.push_back(gap(match).norm());
-    typical = quantile(lengths, 0.1);
+    typical = quantile(std::move(lengths), 0.1);
     if (typical > worth_trying * spacing_) return start;
     PlaneStep sum(plane);
     for (const Match& match : found)

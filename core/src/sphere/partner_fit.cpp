@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../plane/agreement.h"
+#include "../quantile.h"
 
 namespace symsurf {
 
@@ -22,12 +23,6 @@ constexpr int farthest = 3;    // places to either side
 constexpr Index on_the_way = 150;
 constexpr std::size_t attempts = 4;
 constexpr double clearly_nearer = 0.08;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
 
@@ -180,7 +175,7 @@ UnitSphere PartnerFit::refined(UnitSphere sphere, Index most, int steps) const {
     double moved;
     sphere = sum.taken(&moved);
     if (moved < 1e-15) break;
-    reach = std::clamp(3 * median(gaps), exact * spacing_, 0.75 * spacing_);
+    reach = std::clamp(3 * median(std::move(gaps)), exact * spacing_, 0.75 * spacing_);
   }
   return sphere;
 }
