@@ -44,7 +44,7 @@ FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordP
     const double rank = share * std::sqrt(squareness / count);
     if (!(rank > best_rank)) continue;
     best_rank = rank;
-    best = {v, midpoints(cloud, pairs), share, share};
+    best = {v, midpoints(cloud, pairs), share};
     if (share > convincing_share) break;
   }
   return best;

@@ -9,7 +9,6 @@ struct FieldEstimate {
   Vector3 direction = Vector3::Zero();
   Points nodes;          ///< of the surface; none: nothing was found
   double explained = 0;  ///< share of the displaced points that fall on the cloud, 0 to 1
-  double score = 0;      ///< the share that chance does not explain
 };
 
 }  // namespace symsurf

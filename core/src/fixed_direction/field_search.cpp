@@ -23,8 +23,7 @@ constexpr double known_scatter = 7;       // from here on the scatter is believe
 constexpr double strong_evidence = 9;     // no need to look further
 constexpr double evidence_weight = 0.15;  // share of explained points a deviation is worth
 constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
-constexpr Index chance_size = 600, chance_directions = 9;
-constexpr double rough_sheets = 0.1;                  // spacings off a plane: noise, or sharp bends
+constexpr double rough_sheets = 0.1;      // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
@@ -63,21 +62,6 @@ class Ranking {
 
 WorkingCloud searched(const WorkingCloud& cloud) { return {cloud.points, searched_size}; }
 
-// What a mirror along any direction explains of this cloud: of a closed shape nearly all, since
-// half-way between its sides there is always a surface. The upper quartile over the half sphere.
-double chance_share(const WorkingCloud& cloud, const Context& context) {
-  const WorkingCloud sample(cloud.points, chance_size);
-  const SheetPatches patches(sample, smooth_patch);
-  SheetRefinement refinement(sample, patches);
-  std::vector<double> shares;
-  for (Index i = 0; i < chance_directions; ++i) {
-    shares.push_back(refinement.explained_along(spread_direction(i, chance_directions)));
-    context.report(static_cast<double>(i) / chance_directions);
-  }
-  std::sort(shares.begin(), shares.end());
-  return shares[chance_directions * 3 / 4];
-}
-
 }  // namespace
 
 FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_direction,
@@ -111,16 +95,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
       median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
   const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch);
   context.report(0.75);
-  FieldEstimate found = SheetRefinement(cloud, patches)(start.direction, start.scatter, rounds);
-  const double confidence =
-      std::clamp((start.significance - no_evidence) / (strong_evidence - no_evidence), 0.0, 1.0);
-  found.score = found.explained * confidence;
-  if (confidence < 1) {
-    const double chance = chance_share(cloud, context.stage(0.9, 1));
-    statistics["chance_share"] = chance;
-    if (chance < 1) found.score = std::max(found.score, (found.explained - chance) / (1 - chance));
-  }
-  return found;
+  return SheetRefinement(cloud, patches)(start.direction, start.scatter, rounds);
 }
 
 }  // namespace symsurf

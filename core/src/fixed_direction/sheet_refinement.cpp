@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "../quantile.h"
 
@@ -153,15 +152,6 @@ FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatt
         regression.fitted(regression.places_apart(node_spacing * cloud_.spacing), neighbours));
   }
   return estimate;
-}
-
-double SheetRefinement::explained_along(const Vector3& direction) {
-  FieldEstimate estimate = voted(direction, std::numeric_limits<double>::infinity());
-  if (estimate.nodes.rows() == 0) return 0;
-  Matches found = matches(estimate);
-  if (found.observations.size() < least_matches) return 0;
-  refit(estimate, std::move(found));
-  return estimate.nodes.rows() > 0 ? matches(estimate).explained : 0;
 }
 
 }  // namespace symsurf

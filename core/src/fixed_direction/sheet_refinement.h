@@ -19,10 +19,6 @@ class SheetRefinement {
   /// of partners across the direction.
   FieldEstimate operator()(const Vector3& direction, double scatter, int rounds);
 
-  /// The share of the points that a mirror along this direction explains, whatever surface the
-  /// cloud votes for.
-  double explained_along(const Vector3& direction);
-
  private:
   struct Matches {
     std::vector<HeightObservation> observations;
