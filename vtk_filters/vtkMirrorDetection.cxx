@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "chosen_parameters.h"
+#include "controller_communicator.h"
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
-#include "shared_points.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -34,9 +35,14 @@ vtkNew<Array> filled(const char* name, vtkIdType size, Value value) {
   return array;
 }
 
-// Of several processes one shows the mirror.
-bool is_first(vtkMultiProcessController* controller) {
-  return !controller || controller->GetLocalProcessId() == 0;
+// How many points the processes before this one have.
+symsurf::Index points_before(vtkMultiProcessController* controller, symsurf::Index own) {
+  const ControllerCommunicator processes(controller);
+  if (processes.size() == 1) return 0;
+  const vtkIdType count = own;
+  std::vector<vtkIdType> counts(processes.size());
+  controller->AllGather(&count, counts.data(), 1);
+  return std::accumulate(counts.begin(), counts.begin() + processes.rank(), symsurf::Index{0});
 }
 
 void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
@@ -59,21 +65,21 @@ void set_surface_points(vtkPolyData* output, const symsurf::Result& result) {
   output->GetPointData()->SetScalars(residuals);
 }
 
-void set_mapping(vtkPolyData* output, symsurf::PointsView points, const symsurf::Rows& own,
+void set_mapping(vtkPolyData* output, symsurf::PointsView points, symsurf::Index points_before,
                  const symsurf::Result& result) {
-  const vtkIdType count = own.end - own.begin;
+  const vtkIdType count = points.size();
   const auto partners = filled<vtkIdTypeArray>("MirrorPartner", count, -1);
   const auto residuals =
       filled<vtkDoubleArray>("MirrorResidual", count, std::numeric_limits<double>::quiet_NaN());
   const auto sides = filled<vtkSignedCharArray>("MirrorSide", count, 0);
   for (symsurf::Index row = 0; row < result.pairs.rows(); ++row) {
-    const vtkIdType i = result.pairs(row, 0) - own.begin;
+    const vtkIdType i = result.pairs(row, 0) - points_before;
     partners->SetValue(i, result.pairs(row, 1));
     residuals->SetValue(i, result.residuals[row]);
   }
   if (result.mirror)
     for (vtkIdType i = 0; i < count; ++i) {
-      const double distance = result.mirror->signed_distance(points[own.begin + i]);
+      const double distance = result.mirror->signed_distance(points[i]);
       sides->SetValue(i, static_cast<signed char>((distance > 0) - (distance < 0)));
     }
   vtkPointData* data = output->GetPointData();
@@ -97,27 +103,26 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
                                     vtkInformationVector* outputs) {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   return core_call(this, [&] {
-    const SharedPoints points(this->Controller, points_of(input));
-    const SharedPoints normals(
-        this->Controller,
-        PointArray(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr));
-    const symsurf::Rows own = points.own_rows();
+    const PointArray points = points_of(input);
+    const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
+    const ControllerCommunicator processes(this->Controller);
+    const symsurf::Index before = points_before(this->Controller, points.view().size());
 
     symsurf::Options options;
     options.method = this->Method;
     options.parameters = chosen_parameters(this);
-    options.normals = normals.all();
+    options.normals = normals.view();
     options.seed = this->Seed;
     const symsurf::Result result = symsurf::detect(
-        points.all(), options, context_of(this, this->NumberOfThreads).pairing(own));
+        points.view(), options, context_of(this, this->NumberOfThreads).sharing(&processes));
 
     vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);
-    if (is_first(this->Controller)) set_mirror_mesh(mirror, result);
+    if (processes.rank() == 0) set_mirror_mesh(mirror, result);
     set_mirror_fields(mirror, result);
     set_surface_points(vtkPolyData::GetData(outputs, SURFACE_POINTS), result);
     vtkPolyData* mapping = vtkPolyData::GetData(outputs, MAPPING);
     mapping->ShallowCopy(input);
-    set_mapping(mapping, points.all(), own, result);
+    set_mapping(mapping, points.view(), before, result);
   });
 }
 

@@ -11,8 +11,18 @@ namespace {
 // A cloud thinner than this, against its length, is a line.
 constexpr double line_thinness = 1e-8;
 
-void require_area(PointsView points, const Vector3& low, const Vector3& high) {
-  const std::string all = "all " + std::to_string(points.size()) + " points ";
+}  // namespace
+
+void require_count(Index given, Index needed) {
+  if (given < needed)
+    throw InvalidInput(std::to_string(given) + " points given; at least " + std::to_string(needed) +
+                       " are needed");
+}
+
+void require_area(PointsView points, Index total) {
+  const std::string all = "all " + std::to_string(total) + " points ";
+  const Vector3 low = points.matrix().colwise().minCoeff();
+  const Vector3 high = points.matrix().colwise().maxCoeff();
   Index longest;
   const double extent = (high - low).maxCoeff(&longest);
   if (!(extent > 0)) throw InvalidInput(all + "are equal");
@@ -28,28 +38,22 @@ void require_area(PointsView points, const Vector3& low, const Vector3& high) {
   throw InvalidInput(all + "lie on one line");
 }
 
-}  // namespace
-
-void require_finite(PointsView rows, const char* what) {
+void require_finite(PointsView rows, const char* what, Index first) {
   // One pass without branches finds out whether; a second one only then finds out where.
   double sum = 0;
   for (Index i = 0; i < 3 * rows.size(); ++i) sum += 0 * rows.data()[i];
   if (sum == 0) return;
   for (Index i = 0; i < rows.size(); ++i)
     if (!rows[i].allFinite())
-      throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is " +
+      throw InvalidInput(std::string(what) + " " + std::to_string(first + i) + " is " +
                          to_string(Value(rows[i])) + "; coordinates must be finite");
 }
 
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {
-  if (points.size() < minimum_points)
-    throw InvalidInput(std::to_string(points.size()) + " points given; at least " +
-                       std::to_string(minimum_points) + " are needed");
+  require_count(points.size(), minimum_points);
   require_finite(points, "point");
-  const Vector3 low = points.matrix().colwise().minCoeff();
-  const Vector3 high = points.matrix().colwise().maxCoeff();
-  require_area(points, low, high);
+  require_area(points, points.size());
 
   if (!normals.empty()) {
     if (normals.size() != points.size())
@@ -60,7 +64,15 @@ Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
       if (normals[i].isZero(0))
         throw InvalidInput("normal " + std::to_string(i) + " is (0, 0, 0); a direction is needed");
   }
-  return {points, normals, (high - low).norm(), principal_frame(points, context), 0};
+  const Vector3 low = points.matrix().colwise().minCoeff();
+  const Vector3 high = points.matrix().colwise().maxCoeff();
+  Cloud cloud;
+  cloud.points = points;
+  cloud.normals = normals;
+  cloud.diagonal = (high - low).norm();
+  cloud.frame = principal_frame(points, context);
+  cloud.total = points.size();
+  return cloud;
 }
 
 }  // namespace symsurf

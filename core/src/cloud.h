@@ -11,6 +11,14 @@ Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
 
 /// Throws InvalidInput naming the first of the rows that is not finite, as "point 3" where `what`
 /// is "point".
-void require_finite(PointsView rows, const char* what);
+/// `first`: the number of the first row.
+void require_finite(PointsView rows, const char* what, Index first = 0);
+
+/// Throws InvalidInput for fewer points than needed.
+void require_count(Index given, Index needed);
+
+/// Throws InvalidInput where all points are equal or lie on one line; `total`: how many they stand
+/// for.
+void require_area(PointsView points, Index total);
 
 }  // namespace symsurf

@@ -1,3 +1,4 @@
+#include <symsurf/communicator.h>
 #include <symsurf/context.h>
 #include <symsurf/errors.h>
 
@@ -27,17 +28,24 @@ Context::Context(Progress progress, int threads)
 }
 
 void Context::report(double fraction) const {
-  if (!progress_) return;
-  const auto now = Clock::now();
   const bool ends = fraction <= 0 || fraction >= 1;
-  if (!ends && now - *last_ < report_interval) return;
-  *last_ = now;
-  if (!progress_(from_ + fraction * (to_ - from_))) throw Cancelled();
+  if (progress_ && (ends || is_due())) tell(from_ + fraction * (to_ - from_));
 }
 
-Context Context::pairing(Rows rows) const {
+void Context::check() const {
+  if (progress_ && is_due()) tell(last_->fraction);
+}
+
+bool Context::is_due() const { return Clock::now() - last_->time >= report_interval; }
+
+void Context::tell(double fraction) const {
+  *last_ = {Clock::now(), fraction};
+  if (!progress_(fraction)) throw Cancelled();
+}
+
+Context Context::sharing(const Communicator* processes) const {
   Context part = *this;
-  part.rows_ = rows;
+  part.communicator_ = processes && processes->size() > 1 ? processes : nullptr;
   return part;
 }
 

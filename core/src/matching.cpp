@@ -1,33 +1,21 @@
 #include "matching.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "parallel.h"
+#include "shared_matching.h"
 
 namespace symsurf {
 
 namespace {
 
-// Along the tree's curve.
-std::vector<std::int32_t> rows_to_pair(const PointTree& tree, const Rows& rows) {
-  std::vector<std::int32_t> order;
-  std::copy_if(tree.order().begin(), tree.order().end(), std::back_inserter(order),
-               [&](std::int32_t row) { return rows.contains(row); });
-  return order;
-}
-
 // Writes each point's partner beside it, -1: none.
 void find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
                    const Context& context, Pairs& pairs) {
   constexpr Index grain = 4096;
-  const Rows rows = context.paired_rows();
-  const bool all = rows.begin <= 0 && rows.end >= points.size();
-  const std::vector<std::int32_t> some =
-      all ? std::vector<std::int32_t>() : rows_to_pair(tree, rows);
-  const std::vector<std::int32_t>& order = all ? tree.order() : some;
+  const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     Index near = begin;
     for (Index p = begin; p < end; p += PointTree::block) {
@@ -44,9 +32,16 @@ void find_partners(PointsView points, const PointTree& tree, const Mirror& mirro
 
 }  // namespace
 
+void set_pair(Result& result, Index row, const Vector3& x, const Vector3& y, const Mirror& mirror) {
+  result.residuals[row] = (mirror.reflect(x) - y).norm();
+  result.surface_points.row(row) = (x + y).transpose() / 2;
+}
+
 // Little is held beside the tree, and beside the result: at a million points that is what counts.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context) {
+  if (context.communicator())
+    return add_shared_pairs(result, points, std::move(tree), mirror, limit, context);
   Pairs& pairs = result.pairs;
   pairs.setConstant(points.size(), 2, -1);
   {
@@ -60,11 +55,8 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
 
   result.residuals.resize(found);
   result.surface_points.resize(found, 3);
-  for (Index row = 0; row < found; ++row) {
-    const Vector3 x = points[pairs(row, 0)], y = points[pairs(row, 1)];
-    result.residuals[row] = (mirror.reflect(x) - y).norm();
-    result.surface_points.row(row) = (x + y).transpose() / 2;
-  }
+  for (Index row = 0; row < found; ++row)
+    set_pair(result, row, points[pairs(row, 0)], points[pairs(row, 1)], mirror);
 }
 
 }  // namespace symsurf

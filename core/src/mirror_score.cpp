@@ -40,7 +40,7 @@ double distance_past(const Vector3& gap, const Surfel& partner, double spacing) 
 
 MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)
     : cloud_(cloud),
-      tree_(tree),
+      points_(cloud, tree, context),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
       fine_(cloud, 4 * coarse_size, context.stage(0.5, 1)) {
   take_samples();
@@ -48,11 +48,11 @@ MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Contex
 }
 
 void MirrorScore::take_samples() {
-  const auto points = static_cast<double>(cloud_.points.size());
+  const auto points = static_cast<double>(cloud_.total);
   spacing_ = coarse_.spacing() * std::sqrt(static_cast<double>(coarse_.size()) / points);
   const Index step = std::max<Index>(1, fine_.size() / most_samples);
   for (Index k = 0; k < fine_.size(); k += step) {
-    const Vector3 x = cloud_.frame.enter(cloud_.points[fine_[k].sample]);
+    const Vector3 x = fine_[k].sampled;
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel});
   }
 }
@@ -66,10 +66,12 @@ void MirrorScore::look_at_neighbours() {
   };
   std::vector<Look> looks;
   std::vector<double> residuals;
-  std::vector<Neighbour> nearest;
-  for (const Sample& s : samples_) {
-    tree_.nearest(cloud_.frame.leave(s.position), 2, nearest);
-    const Vector3 other = cloud_.frame.enter(cloud_.points[nearest.back().index]);
+  std::vector<Vector3> places;
+  for (const Sample& s : samples_) places.push_back(cloud_.frame.leave(s.position));
+  const std::vector<Vector3> nearest = points_.second_nearest(places);
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const Sample& s = samples_[k];
+    const Vector3 other = cloud_.frame.enter(nearest[k]);
     const Surfel* partner = surfel_at(other);
     if (!partner) continue;
     const Vector3 gap = s.position - other;
@@ -92,6 +94,12 @@ double MirrorScore::explained(const Mirror& mirror) const {
   if (!(self_ > 0)) return 0;
   const double size = cloud_.frame.size;
   double moved = 0, sum = 0;
+  struct Moved {
+    const Sample* sample;
+    double weight;
+  };
+  std::vector<Moved> asked;
+  std::vector<Vector3> images;
   for (const Sample& s : samples_) {
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
@@ -101,16 +109,22 @@ double MirrorScore::explained(const Mirror& mirror) const {
     const double weight = displaced((image - x).norm() / (2 * size), moved_tolerance_);
     if (weight <= 0) continue;
     moved += weight;
-    const Neighbour nearest = tree_.nearest(image, reach * reach * size * size);
-    if (nearest.index < 0) continue;
-    const Vector3 at = cloud_.frame.enter(cloud_.points[nearest.index]);
+    asked.push_back({&s, weight});
+    images.push_back(image);
+  }
+  const std::vector<Vector3> partners = points_.nearest(images, reach * size);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (!partners[k].allFinite()) continue;
+    const auto& [s, weight] = asked[k];
+    const Vector3 x = cloud_.frame.leave(s->position), image = images[k];
+    const Vector3 at = cloud_.frame.enter(partners[k]);
     const Surfel* partner = surfel_at(at);
     if (!partner) continue;
     const Vector3 normal =
-        image_normal(mirror, x, cloud_.frame.axes * s.surfel->normal, image, 1e-4 * size);
+        image_normal(mirror, x, cloud_.frame.axes * s->surfel->normal, image, 1e-4 * size);
     if (!normal.allFinite()) continue;
     const Vector3 gap = cloud_.frame.enter(image) - at;
-    const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s.surfel->flatness,
+    const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s->surfel->flatness,
                               *partner);
     sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
   }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nearest_points.h"
 #include "plane/surfels.h"
 #include "point_tree.h"
 
@@ -65,7 +66,7 @@ class MirrorScore {
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   const Cloud& cloud_;
-  const PointTree& tree_;
+  NearestPoints points_;
   Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;

@@ -154,6 +154,7 @@ void PointTree::nearest(const Queries& queries, Index k, Index near,
 }
 
 PointTree::PointTree(PointsView points, const Context& context) {
+  if (points.empty()) return;
   const auto matrix = points.matrix();
   const Vector3 low = matrix.colwise().minCoeff(), high = matrix.colwise().maxCoeff();
   origin_ = (low + high) / 2;

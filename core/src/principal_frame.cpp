@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
+#include "gathered.h"
 #include "parallel.h"
 
 namespace symsurf {
@@ -24,35 +25,43 @@ struct Extent {
   }
 };
 
+std::vector<Vector3> first_of(PointsView points) {
+  if (points.empty()) return {};
+  return {points[0]};
+}
+
 }  // namespace
 
 PrincipalFrame principal_frame(PointsView points, const Context& context) {
-  const double count = static_cast<double>(points.size());
+  const double count = static_cast<double>(share_of(context, points.size()).total);
   PrincipalFrame frame;
   // About the first point: far-off clouds keep their digits.
-  const Vector3 first = points[0];
+  const Vector3 first = concatenated(context, first_of(points)).front();
   frame.centroid =
-      first +
-      parallel_sum(context, points.size(), grain, Vector3(0, 0, 0), [&](Index begin, Index end) {
-        Vector3 sum = Vector3::Zero();
-        for (Index i = begin; i < end; ++i) sum += points[i] - first;
-        return sum;
-      }) / count;
+      first + summed(context, parallel_sum(context, points.size(), grain, Vector3(0, 0, 0),
+                                           [&](Index begin, Index end) {
+                                             Vector3 sum = Vector3::Zero();
+                                             for (Index i = begin; i < end; ++i)
+                                               sum += points[i] - first;
+                                             return sum;
+                                           })) /
+                  count;
   Matrix3 scatter = Matrix3::Zero();
-  scatter = parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
-    Matrix3 sum = Matrix3::Zero();
-    for (Index i = begin; i < end; ++i) {
-      const Vector3 x = points[i] - frame.centroid;
-      sum += x * x.transpose();
-    }
-    return sum;
-  });
+  scatter = summed(
+      context, parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
+        Matrix3 sum = Matrix3::Zero();
+        for (Index i = begin; i < end; ++i) {
+          const Vector3 x = points[i] - frame.centroid;
+          sum += x * x.transpose();
+        }
+        return sum;
+      }));
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(scatter);
   frame.axes = eigen.eigenvectors().rowwise().reverse();
   frame.variance = eigen.eigenvalues().reverse() / count;
 
-  const Extent extent =
-      parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
+  const Extent extent = summed(
+      context, parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
         Extent part;
         for (Index i = begin; i < end; ++i) {
           const Vector3 x = frame.axes.transpose() * (points[i] - frame.centroid);
@@ -61,7 +70,7 @@ PrincipalFrame principal_frame(PointsView points, const Context& context) {
           part.skewness += x.cwiseProduct(x).cwiseProduct(x);
         }
         return part;
-      });
+      }));
   frame.size = (extent.high - extent.low).norm();
   frame.low = extent.low;
   frame.high = extent.high;

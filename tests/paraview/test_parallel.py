@@ -44,7 +44,7 @@ def one(run_host: Callable[..., Any]) -> dict[str, Any]:
     answer = run_host("pvbatch", "shared_shape.py", "interleaved")
     assert np.abs(plane(answer) - [*NORMAL, -0.4]).max() < 1e-9
     partners = np.array(answer["partners"])
-    assert np.array_equal(partners[partners], np.arange(6000))
+    assert np.array_equal(partners[partners], np.arange(12000))
     return answer
 
 

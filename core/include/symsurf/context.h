@@ -4,20 +4,14 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
 #include <memory>
 
 namespace symsurf {
 
-/// Rows of the input from begin up to end, not included; all of them unless said otherwise.
-struct Rows {
-  Index begin = 0, end = std::numeric_limits<Index>::max();
+class Communicator;
 
-  bool contains(Index row) const { return row >= begin && row < end; }
-};
-
-/// What a long call needs from its caller: where to report, when to stop, how many threads, whose
-/// pairs.
+/// What a long call needs from its caller: where to report, when to stop, how many threads, and the
+/// other processes, if any.
 class Context {
  public:
   /// Gets the fraction done in [0, 1], on the calling thread only; returning false cancels.
@@ -32,22 +26,32 @@ class Context {
   /// Throws Cancelled when the caller wants to stop. Cheap enough for inner loops.
   void report(double fraction) const;
 
-  /// The same context for a caller that wants the pairs of these rows only. Processes that share
-  /// out a point set find the same mirror each and the pairs of their own points.
-  Context pairing(Rows rows) const;
-  const Rows& paired_rows() const { return rows_; }
+  /// The same where there is no news: long loops call it, so that nobody waits for the next report.
+  void check() const;
+
+  /// The same context for a point set that processes share out; null, or one process: all of it is
+  /// here. The communicator must outlive the context.
+  Context sharing(const Communicator* processes) const;
+  const Communicator* communicator() const { return communicator_; }
 
   /// The same context for a part of the work: its 0..1 is from..to here.
   Context stage(double from, double to) const;
 
  private:
   using Clock = std::chrono::steady_clock;
+  struct Report {
+    Clock::time_point time;
+    double fraction = 0;  // of the whole
+  };
+
+  bool is_due() const;
+  void tell(double fraction) const;
 
   Progress progress_;
   int threads_ = 1;
   double from_ = 0, to_ = 1;
-  Rows rows_;
-  std::shared_ptr<Clock::time_point> last_ = std::make_shared<Clock::time_point>();
+  const Communicator* communicator_ = nullptr;
+  std::shared_ptr<Report> last_ = std::make_shared<Report>();
 };
 
 }  // namespace symsurf

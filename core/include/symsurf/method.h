@@ -13,13 +13,16 @@
 namespace symsurf {
 
 /// A validated input, as every method gets it: at least Method::minimum_points finite points
-/// that do not all lie on one line.
+/// that do not all lie on one line. Where processes share it out, points and normals are this one's
+/// and the rest is that of the whole.
 struct Cloud {
   PointsView points;
   PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
   double diagonal = 0;  ///< of the axis-aligned bounding box
   PrincipalFrame frame;
   std::uint64_t seed = 0;
+  Index first = 0;  ///< how many points the processes before this one have
+  Index total = 0;  ///< of all processes
 };
 
 /// The one description of a method. Front ends are made by looping over methods().
@@ -29,7 +32,8 @@ struct Method {
   std::string summary;  ///< one sentence
   std::vector<Parameter> parameters;
   Index minimum_points = 4;
-  bool automatic = false;  ///< one of those that "auto" tries
+  bool automatic = false;     ///< one of those that "auto" tries
+  bool takes_shares = false;  ///< run can do with a share of the points; else each gets all
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };
 

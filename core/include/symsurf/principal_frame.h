@@ -20,6 +20,7 @@ struct PrincipalFrame {
   Vector3 leave(const Vector3& x) const { return centroid + size * (axes * x); }
 };
 
+/// Of processes that share out a point set, each gets the frame of the whole.
 /// The points must be finite. A cloud of equal points gets a size of 0.
 PrincipalFrame principal_frame(PointsView points, const Context& context);
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "../gathered.h"
 #include "../matching.h"
 #include "../mirror_score.h"
+#include "../nearest_points.h"
 #include "../plane/candidates.h"
 #include "../plane/maximise.h"
 #include "../plane/refinement.h"
@@ -77,7 +79,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
   PointTree tree(cloud.points, context.stage(0.25, 0.4));
-  const Refinement refinement(cloud, tree, coarse, fine);
+  const NearestPoints points(cloud, tree, context);
+  const Refinement refinement(cloud, points, coarse, fine);
   const auto refine = [&](double from, double to, const auto& step) {
     const Context part = context.stage(from, to);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -104,8 +107,10 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   Result best = MirrorScore(cloud, tree, context.stage(0.5, 0.55)).ranked("plane", mirrors, 1);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
-  best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
-  best.statistics["mean_residual"] = best.residuals.size() ? best.residuals.mean() : 0.0;
+  const Index pairs = summed(context, best.pairs.rows());
+  best.statistics["unpaired_points"] = cloud.total - pairs;
+  best.statistics["mean_residual"] =
+      pairs ? summed(context, best.residuals.sum()) / static_cast<double>(pairs) : 0.0;
   return best;
 }
 
@@ -128,6 +133,7 @@ Method plane_method() {
                       "partner."),
   };
   method.automatic = true;
+  method.takes_shares = true;
   method.run = run_plane;
   return method;
 }

@@ -31,63 +31,42 @@ std::uint32_t place_on_curve(const Vector3& x) {
 
 }  // namespace
 
-Refinement::Refinement(const Cloud& cloud, const PointTree& tree, const Surfels& coarse,
+Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
                        const Surfels& fine)
-    : cloud_(cloud), tree_(tree), coarse_(coarse), fine_(fine) {
-  const Index n = cloud.points.size();
+    : cloud_(cloud), points_(points), coarse_(coarse), fine_(fine) {
+  const Index n = cloud.total;
   spacing_ =
       coarse.spacing() * std::sqrt(static_cast<double>(coarse.size()) / static_cast<double>(n));
 
   // Evenly spread ones first; of a small cloud the rest as well.
   std::vector<std::uint8_t> taken(n <= small_cloud ? n : 0, 0);
-  const auto take = [&](Index i) {
-    const Vector3 x = cloud.frame.enter(cloud.points[i]);
+  const auto take = [&](Index i, const Vector3& x) {
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
     if (!taken.empty()) taken[i] = 1;
   };
-  for (Index k = 0; k < fine.size(); ++k) take(fine[k].sample);
+  for (Index k = 0; k < fine.size(); ++k) take(fine[k].sample, fine[k].sampled);
   even_samples_ = static_cast<Index>(samples_.size());
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (!taken[i]) take(static_cast<Index>(i));
+    if (!taken[i]) take(static_cast<Index>(i), cloud.frame.enter(cloud.points[i]));
   const auto along_curve = [](const Sample& a, const Sample& b) { return a.place < b.place; };
   std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
   std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
 }
 
-// The nearest points to a block of images. Of a small cloud every point is a sample, and images
-// that follow each other along the curve lie close together; those of a big one have many points
-// between them.
-std::array<Neighbour, PointTree::block> Refinement::nearest(const PointTree::Queries& images,
-                                                            double limit, Index& near) const {
-  if (tree_.size() <= small_cloud) return tree_.nearest(images, limit, near);
-  std::array<Neighbour, PointTree::block> found;
-  for (int k = 0; k < PointTree::block; ++k)
-    if (!std::isnan(images(0, k))) found[k] = tree_.nearest(Vector3(images.col(k)), limit);
-  return found;
-}
-
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
                                                    Subset subset) const {
-  constexpr Index block = PointTree::block;
-  const double size = cloud_.frame.size;
+  std::vector<Vector3> images;
+  images.reserve(subset.end / subset.stride + 1);
+  for (Index i = 0; i < subset.end; i += subset.stride)
+    images.push_back(cloud_.frame.leave(plane.reflect(samples_[i].position)));
+  const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
   std::vector<Match> found;
-  found.reserve(subset.end / subset.stride + 1);
-  Index near = 0;
-  for (Index begin = 0; begin < subset.end; begin += block * subset.stride) {
-    PointTree::Queries queries;
-    queries.setConstant(std::numeric_limits<double>::quiet_NaN());
-    const Index count = std::min(block, (subset.end - begin + subset.stride - 1) / subset.stride);
-    for (Index k = 0; k < count; ++k) {
-      const Vector3 image = plane.reflect(samples_[begin + k * subset.stride].position);
-      queries.col(k) = cloud_.frame.leave(image);
-    }
-    const auto partners = nearest(queries, limit * limit * size * size, near);
-    for (Index k = 0; k < count; ++k) {
-      if (partners[k].index < 0) continue;
-      const Vector3 partner = cloud_.frame.enter(cloud_.points[partners[k].index]);
-      if (const Surfel* surfel = surfel_at(partner))
-        found.push_back({begin + k * subset.stride, partner, surfel});
-    }
+  found.reserve(images.size());
+  for (Index k = 0; k < static_cast<Index>(partners.size()); ++k) {
+    if (!partners[k].allFinite()) continue;
+    const Vector3 partner = cloud_.frame.enter(partners[k]);
+    if (const Surfel* surfel = surfel_at(partner))
+      found.push_back({k * subset.stride, partner, surfel});
   }
   return found;
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../point_tree.h"
+#include "../nearest_points.h"
 #include "agreement.h"
 #include "candidates.h"
 #include "surfels.h"
@@ -16,7 +16,8 @@ namespace symsurf {
 class Refinement {
  public:
   /// The surfels give the normals, at each place the flattest.
-  Refinement(const Cloud& cloud, const PointTree& tree, const Surfels& coarse, const Surfels& fine);
+  Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
+             const Surfels& fine);
 
   /// The plane after a few steps on a few samples, with what then speaks for it.
   PlaneCandidate quick(const PlaneCandidate& start) const;
@@ -48,8 +49,6 @@ class Refinement {
   PlaneCandidate rated(const UnitPlane& plane) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
-  std::array<Neighbour, PointTree::block> nearest(const PointTree::Queries& images, double limit,
-                                                  Index& near) const;
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
   double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset) const;
   // `found`: the plane's partners, where they are known.
@@ -58,7 +57,7 @@ class Refinement {
   UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 
   const Cloud& cloud_;
-  const PointTree& tree_;
+  const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;

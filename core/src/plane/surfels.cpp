@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../parallel.h"
+#include "../gathered.h"
 #include "../point_tree.h"
 
 namespace symsurf {
@@ -71,6 +71,20 @@ Thinnest thinnest_direction(const Matrix3& covariance) {
 
 }  // namespace
 
+// What is known of the points of a cell.
+struct Surfels::Patch {
+  Cell cell;
+  Moments moments;
+  Neighbour nearest;  // to the middle of the cell
+  Vector3 sampled = Vector3::Zero();
+
+  void sample(const Neighbour& candidate, const Vector3& x) {
+    if (!(candidate < nearest)) return;
+    nearest = candidate;
+    sampled = x;
+  }
+};
+
 Surfels::Surfels(const Cloud& cloud, Index count, const Context& context) : low_(cloud.frame.low) {
   choose_cell(cloud, count, context.stage(0, 0.5));
   sum_moments(cloud, context.stage(0.5, 1));
@@ -79,7 +93,7 @@ Surfels::Surfels(const Cloud& cloud, Index count, const Context& context) : low_
 // Sheets fill cells as the square of the resolution, so two or three guesses are enough.
 void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& context) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
-  const double wanted = static_cast<double>(std::min(count, cloud.points.size()));
+  const double wanted = static_cast<double>(std::min(count, cloud.total));
   double cells = std::min<double>(finest_cells, 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
   for (int guess = 0; guess < guesses; ++guess) {
@@ -90,6 +104,8 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
     std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
     for (Index i = 0; i < cloud.points.size(); ++i)
       seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
+    for (const std::vector<std::uint8_t>& part : gathered(context, seen))
+      for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
     const double occupied = static_cast<double>(std::count(seen.begin(), seen.end(), 1));
     context.report((guess + 1.0) / guesses);
     const double better = std::min<double>(finest_cells, cells * std::sqrt(wanted / occupied));
@@ -100,48 +116,63 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
 
 void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   slot_.assign(size_.cast<Index>().prod(), -1);
-  std::vector<Moments> cells;
-  std::vector<Cell> places;
-  std::vector<Neighbour> samples;
+  std::vector<Patch> patches;
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
     const Cell c = cell_of(x);
     std::int32_t& s = slot_[linear(c)];
     if (s < 0) {
-      s = static_cast<std::int32_t>(cells.size());
-      cells.emplace_back();
-      places.push_back(c);
-      samples.emplace_back();
+      s = static_cast<std::int32_t>(patches.size());
+      patches.emplace_back().cell = c;
     }
-    cells[s].add(x - low_);
-    Neighbour& sample = samples[s];
     const Vector3 middle = low_ + cell_ * (c.cast<double>().array() + 0.5).matrix();
-    sample = std::min(sample, Neighbour{i, (x - middle).squaredNorm()});
+    patches[s].moments.add(x - low_);
+    patches[s].sample({cloud.first + i, (x - middle).squaredNorm()}, x);
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 
+  if (context.communicator()) join(patches, context);
+
   // In the order of the cells, not in that of the points.
-  surfels_.reserve(cells.size());
+  surfels_.reserve(patches.size());
   for (const std::int32_t s : slot_) {
     if (s < 0) continue;
     Moments around;
     for (int dx = -1; dx <= 1; ++dx)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dz = -1; dz <= 1; ++dz) {
-          const Cell c = places[s] + Cell(dx, dy, dz);
+          const Cell c = patches[s].cell + Cell(dx, dy, dz);
           if ((c.array() < 0).any() || (c.array() >= size_.array()).any()) continue;
           const std::int32_t other = slot_[linear(c)];
-          if (other >= 0) around += cells[other];
+          if (other >= 0) around += patches[other].moments;
         }
     const Thinnest thinnest = thinnest_direction(around.covariance());
-    surfels_.push_back({low_ + cells[s].mean(), thinnest.direction,
+    surfels_.push_back({low_ + patches[s].moments.mean(), thinnest.direction,
                         thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
-                        samples[s].index});
+                        patches[s].nearest.index, patches[s].sampled});
   }
   std::int32_t next = 0;
   for (std::int32_t& s : slot_)
     if (s >= 0) s = next++;
+}
+
+// The patches of all processes, those of one cell made one.
+void Surfels::join(std::vector<Patch>& patches, const Context& context) {
+  const auto parts = gathered(context, patches);
+  patches.clear();
+  std::fill(slot_.begin(), slot_.end(), -1);
+  for (const std::vector<Patch>& part : parts)
+    for (const Patch& patch : part) {
+      std::int32_t& s = slot_[linear(patch.cell)];
+      if (s < 0) {
+        s = static_cast<std::int32_t>(patches.size());
+        patches.push_back(patch);
+        continue;
+      }
+      patches[s].moments += patch.moments;
+      patches[s].sample(patch.nearest, patch.sampled);
+    }
 }
 
 Index Surfels::containing(const Vector3& x) const {

@@ -16,6 +16,7 @@ struct Surfel {
   double height;    ///< of the plane through the cells around, along the normal: a' normal = height
   double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
   Index sample;     ///< the cloud's point nearest to the middle of the cell
+  Vector3 sampled;  ///< where that point is
 };
 
 /// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
@@ -35,9 +36,11 @@ class Surfels {
 
  private:
   using Cell = Eigen::Vector3i;
+  struct Patch;
 
   void choose_cell(const Cloud& cloud, Index count, const Context& context);
   void sum_moments(const Cloud& cloud, const Context& context);
+  void join(std::vector<Patch>& patches, const Context& context);
   Cell cell_of(const Vector3& x) const {
     return ((x - low_) / cell_).cast<int>().cwiseMax(0).cwiseMin(size_ - Cell::Ones());
   }

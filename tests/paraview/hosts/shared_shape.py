@@ -24,7 +24,7 @@ controller = vtkMultiProcessController.GetGlobalController()
 rank = controller.GetLocalProcessId() if controller else 0
 size = controller.GetNumberOfProcesses() if controller else 1
 random = np.random.default_rng(5)
-x = random.normal(size=(3000, 3))
+x = random.normal(size=(6000, 3))
 x /= np.linalg.norm(x, axis=1)[:, None]
 x *= (1 + 0.3 * np.sin(3 * x[:, 0] + x[:, 1]) + 0.2 * x[:, 1] * x[:, 2])[:, None]
 normal = np.array([2.0, -1.0, 0.5]) / np.linalg.norm([2.0, -1.0, 0.5])

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <symsurf/communicator.h>
+#include <symsurf/context.h>
+
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace symsurf {
+
+// Plain data to and from the other processes; without a communicator this process is all there are.
+
+template <typename T>
+std::span<const std::byte> bytes_of(const std::vector<T>& items) {
+  return std::as_bytes(std::span(items));
+}
+
+template <typename T>
+std::vector<T> items_of(const Communicator::Bytes& bytes) {
+  std::vector<T> items(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), bytes.size());
+  return items;
+}
+
+/// What every process has, by rank.
+template <typename T>
+std::vector<std::vector<T>> gathered(const Context& context, const std::vector<T>& own) {
+  if (!context.communicator()) return {own};
+  std::vector<std::vector<T>> all;
+  for (const Communicator::Bytes& bytes : context.communicator()->gather(bytes_of(own)))
+    all.push_back(items_of<T>(bytes));
+  return all;
+}
+
+/// All of it, in the order of the ranks.
+template <typename T>
+std::vector<T> concatenated(const Context& context, const std::vector<T>& own) {
+  std::vector<T> all;
+  for (const std::vector<T>& part : gathered(context, own))
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// The sum in the order of the ranks: the same bits everywhere.
+template <typename T>
+T summed(const Context& context, const T& own) {
+  if (!context.communicator()) return own;
+  const std::vector<T> all = concatenated(context, std::vector<T>{own});
+  T sum = all.front();
+  for (std::size_t i = 1; i < all.size(); ++i) sum += all[i];
+  return sum;
+}
+
+/// How many points the processes before this one have, and how many all have.
+struct Share {
+  Index first = 0, total = 0;
+};
+
+inline Share share_of(const Context& context, Index own) {
+  if (!context.communicator()) return {0, own};
+  const std::vector<Index> counts = concatenated(context, std::vector<Index>{own});
+  const auto mine = counts.begin() + context.communicator()->rank();
+  return {std::accumulate(counts.begin(), mine, Index{0}),
+          std::accumulate(counts.begin(), counts.end(), Index{0})};
+}
+
+}  // namespace symsurf

@@ -1,0 +1,147 @@
+#include "shared_matching.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "gathered.h"
+#include "parallel.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index chunk = 1 << 16;  // images at a time
+constexpr Index grain = 4096;
+
+struct Question {
+  Vector3 image;
+  double limit;  // squared: only nearer points count
+};
+
+struct Partner {
+  Vector3 point = Vector3::Zero();
+  Neighbour neighbour;  // numbered through all processes
+};
+
+struct Box {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = -low;
+
+  double squared_distance(const Vector3& x) const {
+    return (low - x).cwiseMax(x - high).cwiseMax(0).squaredNorm();
+  }
+};
+
+Box box_of(PointsView points) {
+  Box box;
+  for (Index i = 0; i < points.size(); ++i) {
+    box.low = box.low.cwiseMin(points[i]);
+    box.high = box.high.cwiseMax(points[i]);
+  }
+  return box;
+}
+
+// Answers from the own points what is asked about images that follow each other.
+class OwnPoints {
+ public:
+  OwnPoints(PointsView points, const PointTree& tree, Index first, const Context& context)
+      : points_(points), tree_(tree), first_(first), context_(context) {}
+
+  std::vector<Partner> answers(const std::vector<Question>& questions) const {
+    const Index count = static_cast<Index>(questions.size());
+    std::vector<Partner> partners(questions.size());
+    parallel_for(context_, count, grain, [&](Index begin, Index end) {
+      Index near = 0;
+      for (Index q = begin; q < end; q += PointTree::block) {
+        double farthest = 0;
+        PointTree::Queries images;
+        for (Index k = 0; k < PointTree::block; ++k) {
+          const Question& asked = questions[std::min(q + k, end - 1)];
+          images.col(k) = asked.image;
+          farthest = std::max(farthest, asked.limit);
+        }
+        const auto found = tree_.nearest(images, farthest, near);
+        for (Index k = 0; k < PointTree::block && q + k < end; ++k)
+          if (found[k].index >= 0 && found[k].squared_distance <= questions[q + k].limit)
+            partners[q + k] = {points_[found[k].index],
+                               {first_ + found[k].index, found[k].squared_distance}};
+      }
+    });
+    return partners;
+  }
+
+ private:
+  PointsView points_;
+  const PointTree& tree_;
+  Index first_;
+  Context context_;
+};
+
+// Asks another process about those images that its points may be nearer to, and answers it.
+void consult(const Communicator& processes, int other, const Box& box, const OwnPoints& own,
+             const std::vector<Question>& images, std::vector<Partner>& best) {
+  std::vector<Question> asked;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const double limit = std::min(images[i].limit, best[i].neighbour.squared_distance);
+    if (!(box.squared_distance(images[i].image) <= limit)) continue;
+    asked.push_back({images[i].image, limit});
+    rows.push_back(i);
+  }
+  const auto questions = items_of<Question>(processes.swap(other, bytes_of(asked)));
+  const std::vector<Partner> given = own.answers(questions);
+  const auto answers = items_of<Partner>(processes.swap(other, bytes_of(given)));
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (answers[k].neighbour.index >= 0 && answers[k].neighbour < best[rows[k]].neighbour)
+      best[rows[k]] = answers[k];
+}
+
+}  // namespace
+
+void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mirror& mirror,
+                      double limit, const Context& context) {
+  const PointTree consumed = std::move(tree);
+  const Communicator& processes = *context.communicator();
+  const Index size = own.size();
+  const Share share = share_of(context, size);
+  const std::vector<Box> boxes = concatenated(context, std::vector<Box>{box_of(own)});
+  const std::vector<Index> sizes = concatenated(context, std::vector<Index>{size});
+  const Index chunks = (*std::max_element(sizes.begin(), sizes.end()) + chunk - 1) / chunk;
+
+  std::vector<Index> partner(size, -1);
+  Points opposite(size, 3);
+  for (Index c = 0; c < chunks; ++c) {
+    const Context part = context.stage(static_cast<double>(c) / static_cast<double>(chunks),
+                                       static_cast<double>(c + 1) / static_cast<double>(chunks));
+    const OwnPoints answering(own, consumed, share.first, part.stage(0, 0));
+    const Index begin = std::min(size, c * chunk), end = std::min(size, begin + chunk);
+    std::vector<Question> images;
+    for (Index p = begin; p < end; ++p)
+      images.push_back({mirror.reflect(own[consumed.order()[p]]), limit * limit});
+    std::vector<Partner> best = answering.answers(images);
+    // Each round pairs the processes off: whoever is mine, I am his.
+    for (int round = 0; round < processes.size(); ++round) {
+      const int other = (round - processes.rank() + processes.size()) % processes.size();
+      if (other != processes.rank())
+        consult(processes, other, boxes[other], answering, images, best);
+    }
+    for (Index p = begin; p < end; ++p) {
+      const Index row = consumed.order()[p];
+      partner[row] = best[p - begin].neighbour.index;
+      opposite.row(row) = best[p - begin].point.transpose();
+    }
+  }
+
+  const Index found = size - std::count(partner.begin(), partner.end(), -1);
+  result.pairs.resize(found, 2);
+  result.residuals.resize(found);
+  result.surface_points.resize(found, 3);
+  for (Index i = 0, row = 0; i < size; ++i) {
+    if (partner[i] < 0) continue;
+    result.pairs.row(row) << share.first + i, partner[i];
+    set_pair(result, row++, own[i], opposite.row(i), mirror);
+  }
+}
+
+}  // namespace symsurf

@@ -1,0 +1,111 @@
+#include "shared_run.h"
+
+#include <symsurf/communicator.h>
+#include <symsurf/errors.h>
+
+#include <algorithm>
+
+#include "cloud.h"
+#include "gathered.h"
+#include "outline.h"
+#include "shared_cloud.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index small_cloud = 8192;  // that every process may have whole
+
+// Where one process is told to stop, all stop, the next time they gather: one that left alone would
+// keep the others waiting for ever.
+class StoppingTogether : public Communicator {
+ public:
+  explicit StoppingTogether(const Context& outer)
+      : outer_(outer), processes_(*outer.communicator()) {}
+
+  Context context() const {
+    const auto report = [this](double fraction) {
+      try {
+        outer_.report(fraction);
+      } catch (const Cancelled&) {
+        stopped_ = true;
+      }
+      return true;
+    };
+    return Context(report, outer_.threads()).sharing(this);
+  }
+
+  int rank() const override { return processes_.rank(); }
+  int size() const override { return processes_.size(); }
+
+  std::vector<Bytes> gather(std::span<const std::byte> mine) const override {
+    Bytes bytes(mine.begin(), mine.end());
+    bytes.push_back(std::byte{stopped_});
+    std::vector<Bytes> all = processes_.gather(bytes);
+    bool stopped = false;
+    for (Bytes& part : all) {
+      stopped = stopped || part.back() != std::byte{0};
+      part.pop_back();
+    }
+    if (stopped) throw Cancelled();
+    return all;
+  }
+
+  Bytes swap(int other, std::span<const std::byte> mine) const override {
+    return processes_.swap(other, mine);
+  }
+
+ private:
+  const Context& outer_;
+  const Communicator& processes_;
+  mutable bool stopped_ = false;
+};
+
+Points whole(PointsView own, const Context& context) {
+  const std::span coordinates(own.data(), static_cast<std::size_t>(3 * own.size()));
+  const auto parts = context.communicator()->gather(std::as_bytes(coordinates));
+  Points all(share_of(context, own.size()).total, 3);
+  std::byte* end = reinterpret_cast<std::byte*>(all.data());
+  for (const Communicator::Bytes& part : parts) end = std::copy(part.begin(), part.end(), end);
+  return all;
+}
+
+void keep_pairs_of(Result& result, Index first, Index size) {
+  std::vector<Index> kept;
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    if (result.pairs(row, 0) >= first && result.pairs(row, 0) < first + size) kept.push_back(row);
+  result.pairs = Pairs(result.pairs(kept, Eigen::all));
+  result.residuals = Eigen::VectorXd(result.residuals(kept));
+  result.surface_points = Points(result.surface_points(kept, Eigen::all));
+}
+
+// With nobody to wait for once all points are here.
+Result run_on_whole(PointsView own, const Options& options, const Method& method,
+                    const ParameterValues& values, const Context& shared, const Context& alone) {
+  const Share share = share_of(shared, own.size());
+  const Points points = whole(own, shared), normals = whole(options.normals, shared);
+  Cloud cloud = checked_cloud(points, normals, method.minimum_points, alone.stage(0, 0));
+  cloud.seed = options.seed;
+  Result result = method.run(cloud, values, alone);
+  set_footprint(result, outline(points, alone));
+  keep_pairs_of(result, share.first, own.size());
+  return result;
+}
+
+}  // namespace
+
+Result detect_shared(PointsView own, const Options& options, const Method& method,
+                     const ParameterValues& values, const Context& context) {
+  const StoppingTogether together(context);
+  const Context shared = together.context();
+  const Index normals = share_of(shared, options.normals.size()).total;
+  if (!method.takes_shares || normals > 0 || share_of(shared, own.size()).total <= small_cloud)
+    return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
+  Cloud cloud = checked_shared_cloud(own, method.minimum_points, shared.stage(0, 0));
+  cloud.seed = options.seed;
+  Result result = method.run(cloud, values, shared);
+  set_footprint(result, outline(own, shared));
+  return result;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,190 @@
+// Processes that share out a point set find what one process finds.
+
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+#include <symsurf/errors.h>
+#include <symsurf/plane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include "process_threads.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index size = 12000;
+
+// A dented ball with noise and a hole: no point has an exact partner.
+Points scan(unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const Plane mirror(Vector3(normal(random), normal(random), normal(random)), 0.7);
+  Points points(size, 3);
+  for (Index i = 0; i < size; ++i) {
+    Vector3 u = Vector3(normal(random), normal(random), normal(random)).normalized();
+    while (u.y() > 0.9) u = Vector3(normal(random), normal(random), normal(random)).normalized();
+    Vector3 x = (1 + 0.3 * std::sin(3 * u.y() + u.z()) + 0.2 * u.y() * u.z()) * u;
+    x.x() += 2;
+    if (i % 2) x = mirror.reflect(x);
+    points.row(i) = (x + 0.003 * Vector3(normal(random), normal(random), normal(random)));
+  }
+  return points;
+}
+
+using Owner = int (*)(const Points&, Index, int);
+
+int by_turns(const Points&, Index i, int processes) { return static_cast<int>(i % processes); }
+int by_place(const Points& points, Index i, int processes) {
+  const double low = points.col(1).minCoeff(), high = points.col(1).maxCoeff();
+  return std::min(processes - 1, static_cast<int>((points(i, 1) - low) / (high - low) * processes));
+}
+int never_the_first(const Points&, Index i, int processes) {
+  return 1 + static_cast<int>(i % (processes - 1));
+}
+
+// Which rows each process has; numbered through, they are the rows in this order.
+std::vector<std::vector<Index>> shared_out(const Points& points, int processes, Owner owner) {
+  std::vector<std::vector<Index>> rows(processes);
+  for (Index i = 0; i < points.rows(); ++i) rows[owner(points, i, processes)].push_back(i);
+  return rows;
+}
+
+std::vector<Result> detected(const Points& points, const std::vector<std::vector<Index>>& rows,
+                             const Options& options) {
+  std::vector<Result> results(rows.size());
+  ProcessThreads(static_cast<int>(rows.size())).run([&](const Communicator& processes) {
+    const Points own = points(rows[processes.rank()], Eigen::all);
+    results[processes.rank()] = detect(own, options, Context({}, 1).sharing(&processes));
+  });
+  return results;
+}
+
+struct Case {
+  int processes;
+  Owner owner;
+};
+
+class SharedPoints : public testing::TestWithParam<Case> {};
+
+TEST_P(SharedPoints, GiveThePlaneOfTheWhole) {
+  for (unsigned seed = 0; seed < 2; ++seed) {
+    const Points points = scan(seed);
+    const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+    std::vector<Index> order;
+    for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
+    Options options;
+    options.method = "plane";
+    const Result whole = detect(points(order, Eigen::all).eval(), options, Context({}, 1));
+    const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+
+    const auto& expected = dynamic_cast<const Plane&>(*whole.mirror);
+    Index row = 0;
+    for (const Result& result : detected(points, rows, options)) {
+      const auto& found = dynamic_cast<const Plane&>(*result.mirror);
+      const double sign = found.normal().dot(expected.normal()) < 0 ? -1 : 1;
+      EXPECT_LT((sign * found.normal() - expected.normal()).norm(), 1e-9);
+      EXPECT_NEAR(sign * found.offset(), expected.offset(), 1e-9 * diagonal);
+      EXPECT_NEAR(result.score, whole.score, 1e-9);
+      EXPECT_EQ(result.statistics.at("unpaired_points"), whole.statistics.at("unpaired_points"));
+      EXPECT_NEAR(std::get<double>(result.statistics.at("mean_residual")),
+                  std::get<double>(whole.statistics.at("mean_residual")), 1e-9 * diagonal);
+      EXPECT_EQ(result.mirror->mesh().triangles.rows(), whole.mirror->mesh().triangles.rows());
+      ASSERT_LE(row + result.pairs.rows(), whole.pairs.rows());
+      EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
+      for (Index i = 0; i < result.pairs.rows(); ++i, ++row)
+        ASSERT_NEAR(result.residuals[i], whole.residuals[row], 1e-9 * diagonal);
+    }
+    EXPECT_EQ(row, whole.pairs.rows());
+  }
+}
+
+TEST_P(SharedPoints, GiveEveryProcessTheSameBits) {
+  const Points points = scan(3);
+  Options options;
+  options.method = "plane";
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  const std::vector<Result> results = detected(points, rows, options);
+  for (const Result& result : results) {
+    EXPECT_EQ(result.mirror->numbers(), results.front().mirror->numbers());
+    EXPECT_EQ(result.score, results.front().score);
+    EXPECT_EQ(result.statistics, results.front().statistics);
+  }
+}
+
+// Methods that do not take shares get the whole.
+TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
+  const Points points = scan(4).topRows(1000);
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  std::vector<Index> order;
+  for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
+  Options options;
+  options.method = "sphere";
+  const Result whole = detect(points(order, Eigen::all).eval(), options, Context({}, 1));
+  Index row = 0;
+  for (const Result& result : detected(points, rows, options)) {
+    EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
+    EXPECT_EQ(result.statistics, whole.statistics);
+    EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
+    row += result.pairs.rows();
+  }
+  EXPECT_EQ(row, whole.pairs.rows());
+}
+
+TEST_P(SharedPoints, AreRefusedByAllAlike) {
+  Points points = scan(5);
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  std::size_t before = 0;
+  for (std::size_t rank = 0; rank + 1 < rows.size(); ++rank) before += rows[rank].size();
+  points(rows.back()[7], 1) = std::numeric_limits<double>::quiet_NaN();
+  const std::string said = "point " + std::to_string(before + 7) + " is";
+  Options options;
+  options.method = "plane";
+  ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
+    const Points own = points(rows[processes.rank()], Eigen::all);
+    try {
+      detect(own, options, Context().sharing(&processes));
+      ADD_FAILURE() << "no error";
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(std::string(error.what()).find(said), 0u) << error.what();
+    }
+  });
+}
+
+TEST_P(SharedPoints, OnOneLineAreRefused) {
+  Points points(9000, 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) << i, 2.0 * i, 1 - 3.0 * i;
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  Options options;
+  options.method = "plane";
+  ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
+    const Points own = points(rows[processes.rank()], Eigen::all);
+    EXPECT_THROW(detect(own, options, Context().sharing(&processes)), InvalidInput);
+  });
+}
+
+TEST_P(SharedPoints, StopTogetherWhenOneIsToldTo) {
+  const Points points = scan(6);
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  Options options;
+  options.method = "plane";
+  ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
+    const Points own = points(rows[processes.rank()], Eigen::all);
+    const bool stops = processes.rank() == 1;
+    const Context context([&](double fraction) { return !stops || fraction < 0.3; }, 1);
+    EXPECT_THROW(detect(own, options, context.sharing(&processes)), Cancelled);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Processes, SharedPoints,
+                         testing::Values(Case{2, by_turns}, Case{2, by_place}, Case{3, by_place},
+                                         Case{3, never_the_first}));
+
+}  // namespace
+
+}  // namespace symsurf

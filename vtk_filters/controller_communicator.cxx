@@ -1,0 +1,54 @@
+#include "controller_communicator.h"
+
+#include <numeric>
+
+namespace {
+
+constexpr int swap_tag = 7120;
+
+const char* chars(const std::byte* bytes) { return reinterpret_cast<const char*>(bytes); }
+char* chars(std::byte* bytes) { return reinterpret_cast<char*>(bytes); }
+
+}  // namespace
+
+std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::gather(
+    std::span<const std::byte> mine) const {
+  const auto length = static_cast<vtkIdType>(mine.size());
+  std::vector<vtkIdType> lengths(size()), offsets(size());
+  controller_->AllGather(&length, lengths.data(), 1);
+  std::exclusive_scan(lengths.begin(), lengths.end(), offsets.begin(), vtkIdType{0});
+  Bytes all(offsets.back() + lengths.back());
+  controller_->AllGatherV(chars(mine.data()), chars(all.data()), length, lengths.data(),
+                          offsets.data());
+  std::vector<Bytes> parts;
+  for (int rank = 0; rank < size(); ++rank) {
+    const auto begin = all.begin() + offsets[rank];
+    parts.emplace_back(begin, begin + lengths[rank]);
+  }
+  return parts;
+}
+
+// The lower rank speaks first: neither waits for the other to listen.
+symsurf::Communicator::Bytes ControllerCommunicator::swap(int other,
+                                                          std::span<const std::byte> mine) const {
+  const auto send = [&] {
+    const auto length = static_cast<vtkIdType>(mine.size());
+    controller_->Send(&length, 1, other, swap_tag);
+    if (length > 0) controller_->Send(chars(mine.data()), length, other, swap_tag);
+  };
+  Bytes theirs;
+  const auto receive = [&] {
+    vtkIdType length = 0;
+    controller_->Receive(&length, 1, other, swap_tag);
+    theirs.resize(length);
+    if (length > 0) controller_->Receive(chars(theirs.data()), length, other, swap_tag);
+  };
+  if (rank() < other) {
+    send();
+    receive();
+  } else {
+    receive();
+    send();
+  }
+  return theirs;
+}

@@ -1,0 +1,23 @@
+#ifndef controller_communicator_h
+#define controller_communicator_h
+
+#include <symsurf/communicator.h>
+
+#include "vtkMultiProcessController.h"
+
+/// The processes of a VTK controller as the core wants them.
+class ControllerCommunicator : public symsurf::Communicator {
+ public:
+  explicit ControllerCommunicator(vtkMultiProcessController* controller)
+      : controller_(controller) {}
+
+  int rank() const override { return controller_ ? controller_->GetLocalProcessId() : 0; }
+  int size() const override { return controller_ ? controller_->GetNumberOfProcesses() : 1; }
+  std::vector<Bytes> gather(std::span<const std::byte> mine) const override;
+  Bytes swap(int other, std::span<const std::byte> mine) const override;
+
+ private:
+  vtkMultiProcessController* controller_;
+};
+
+#endif
