@@ -20,7 +20,8 @@ constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6};
 }  // namespace
 
 std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const SurfelMap& map,
-                                                   std::uint64_t seed, Index count) {
+                                                   std::uint64_t seed, Index count,
+                                                   const Context& context) {
   const auto through = [](const Vector3& middle, const Vector3& u, const auto& add) {
     const Vector3 first = u.unitOrthogonal(), second = u.cross(first);
     for (int k = 0; k < axes; ++k) {
@@ -32,7 +33,7 @@ std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const
     }
   };
   return best_of(hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
-                 surfels, map, count);
+                 surfels, map, count, context);
 }
 
 }  // namespace symsurf

@@ -13,6 +13,7 @@ using CylinderCandidate = Candidate<UnitCylinder>;
 /// and the normal of the cylinder there; curvature and direction of the axis are scanned. The best
 /// `count` that differ.
 std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const SurfelMap& map,
-                                                   std::uint64_t seed, Index count);
+                                                   std::uint64_t seed, Index count,
+                                                   const Context& context);
 
 }  // namespace symsurf

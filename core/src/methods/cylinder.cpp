@@ -31,9 +31,11 @@ void drop_hopeless(std::vector<CylinderCandidate>& candidates) {
 }
 
 // On the thinned cloud alone.
-std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed) {
+std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed,
+                                                   const Context& context) {
   const SurfelMap map(surfels);
-  std::vector<CylinderCandidate> candidates = candidate_cylinders(surfels, map, seed, started);
+  std::vector<CylinderCandidate> candidates =
+      candidate_cylinders(surfels, map, seed, started, context);
   for (CylinderCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
   keep_distinct(surfels, candidates, alike, started);
@@ -48,12 +50,13 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   Result best;
   best.method = "cylinder";
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
-  std::vector<CylinderCandidate> candidates = promising_cylinders(surfels, cloud.seed);
-  context.report(0.4);
+  std::vector<CylinderCandidate> candidates =
+      promising_cylinders(surfels, cloud.seed, context.stage(0.1, 0.4));
   if (candidates.empty()) return best;
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement<UnitCylinder> refinement(cloud, tree, surfels);
+  const ParametricRefinement<UnitCylinder> refinement(cloud, tree, surfels,
+                                                      context.stage(0.5, 0.7));
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
   keep_distinct(surfels, candidates, alike, finalists);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);

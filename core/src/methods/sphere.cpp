@@ -73,8 +73,8 @@ void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandi
 
 // On the thinned cloud alone.
 std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
-                                               std::uint64_t seed) {
-  std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started);
+                                               std::uint64_t seed, const Context& context) {
+  std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started, context);
   if (candidates.empty()) candidates.push_back({});
   for (SphereCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
@@ -91,11 +91,11 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
 Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   const SurfelMap map(surfels);
-  std::vector<SphereCandidate> candidates = promising_spheres(surfels, map, cloud.seed);
-  context.report(0.4);
+  std::vector<SphereCandidate> candidates =
+      promising_spheres(surfels, map, cloud.seed, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels);
+  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.5, 0.7));
   const PartnerFit partner_fit(cloud, tree, refinement.spacing());
   for (SphereCandidate& candidate : candidates) {
     candidate = refinement.fitted(candidate, 400, 4);

@@ -121,9 +121,15 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
 
   PointTree tree(cloud.points);
   const double reach = support(cloud.points);
-  const Context silent({}, context.threads());
   const auto measure = [&](const Eigen::Vector4d& s) {
     constexpr Index grain = 1024;
+    context.check();
+    const Context silent(
+        [&](double) {
+          context.check();
+          return true;
+        },
+        context.threads());
     return parallel_sum(silent, cloud.points.size(), grain, 0.0, [&](Index begin, Index end) {
       double sum = 0;
       for (Index p = begin; p < end; ++p) {

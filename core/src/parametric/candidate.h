@@ -116,13 +116,14 @@ void keep_distinct(const Surfels& surfels, std::vector<Candidate<Shape>>& candid
 /// The best `count` of many hypotheses that differ: each meets a glance at few surfels first.
 template <typename Shape>
 std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, const Surfels& surfels,
-                                      const SurfelMap& map, Index count) {
+                                      const SurfelMap& map, Index count, const Context& context) {
   constexpr Index glance = 8, first_look = 24, second_look = 120;  // surfels tried on
   constexpr double tolerance = 0.03, least_explained = 0.15;
   constexpr std::size_t first_count = 1500, second_count = 300;
   const auto stride = [&](Index wanted) { return std::max<Index>(1, surfels.size() / wanted); };
   std::vector<Candidate<Shape>> found;
   for (const Shape& shape : hypotheses) {
+    context.check();
     if (explained_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
     const double explained = explained_share(surfels, map, shape, tolerance, stride(first_look));
     if (explained > least_explained) found.push_back({shape, explained});
@@ -130,9 +131,11 @@ std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, cons
   sort_best_first(found);
   found.resize(std::min(found.size(), first_count));
   keep_distinct(surfels, found, 0.04, second_count);
-  for (Candidate<Shape>& candidate : found)
+  for (Candidate<Shape>& candidate : found) {
+    context.check();
     candidate.explained =
         explained_share(surfels, map, candidate.shape, tolerance, stride(second_look));
+  }
   keep_distinct(surfels, found, 0.06, count);
   return found;
 }

@@ -20,7 +20,8 @@ namespace symsurf {
 template <typename Shape>
 class ParametricRefinement {
  public:
-  ParametricRefinement(const Cloud& cloud, const PointTree& tree, const Surfels& surfels);
+  ParametricRefinement(const Cloud& cloud, const PointTree& tree, const Surfels& surfels,
+                       const Context& context);
 
   /// The mirror that leaves the least robust residual on about `wanted` samples.
   Candidate<Shape> fitted(const Candidate<Shape>& start, Index wanted, int steps) const;
@@ -59,16 +60,18 @@ class ParametricRefinement {
   const Cloud& cloud_;
   const PointTree& tree_;
   const Surfels& surfels_;
+  const Context context_;
   double spacing_;
   std::vector<Sample> samples_;
 };
 
 template <typename Shape>
 ParametricRefinement<Shape>::ParametricRefinement(const Cloud& cloud, const PointTree& tree,
-                                                  const Surfels& surfels)
+                                                  const Surfels& surfels, const Context& context)
     : cloud_(cloud),
       tree_(tree),
       surfels_(surfels),
+      context_(context),
       spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {
   constexpr Index most_samples = 8192;
   const Index n = cloud.points.size(), count = std::min(n, most_samples);
@@ -90,6 +93,7 @@ auto ParametricRefinement<Shape>::matches(const Shape& shape, double limit, Inde
   const double size = cloud_.frame.size;
   std::vector<Match> found;
   for (std::size_t i = 0; i < samples_.size(); i += stride) {
+    context_.check();
     const Vector3 image = shape.reflect(samples_[i].position);
     if (!image.allFinite()) continue;
     const Neighbour nearest = tree_.nearest(cloud_.frame.leave(image), limit * limit * size * size);

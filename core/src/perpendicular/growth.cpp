@@ -93,6 +93,7 @@ void Growth::settle() {
 }
 
 void Growth::refit(std::int32_t i) {
+  cloud_->context.check();
   static thread_local std::vector<Carried> data;
   data.clear();
   const Carried& own = carried_[patch_of_[i]];
@@ -145,6 +146,7 @@ void Growth::grow(Index most) {
     for (std::size_t a = fresh_; a < ring; ++a) guide_neighbours(accepted_[a]);
     fresh_ = ring;
     for (const std::int32_t i : frontier_) {
+      cloud_->context.check();
       // A copy: accepting adds patches.
       const Patch guide = patches_[patch_of_[guide_[i]]];
       guide_[i] = -1;

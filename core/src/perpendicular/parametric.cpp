@@ -28,6 +28,7 @@ System system(const SearchCloud& cloud, const Sheet& sheet, const Model& model, 
   System s{Eigen::MatrixXd::Zero(model.size(), model.size()), Eigen::VectorXd::Zero(model.size())};
   const double along = sheet.exact ? 1 : 0.08;
   Model::Jacobian jacobian(3, model.size());
+  cloud.context.check();
   for (std::size_t k = 0; k < sheet.points.size(); ++k) {
     Vector3 image;
     if (!model.image(cloud.point(sheet.points[k]), image, jacobian)) continue;

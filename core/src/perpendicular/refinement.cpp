@@ -59,6 +59,7 @@ std::shared_ptr<const FreeForm> fitted(const SearchCloud& cloud,
   std::vector<Neighbour> found;
   std::vector<Carried> data;
   for (const Index node : nodes) {
+    cloud.context.check();
     const Carried& own = carried[node];
     tree.nearest(own.foot, std::min<Index>(smoothing.neighbours, feet.rows()), found);
     FitWeights weights;
@@ -91,6 +92,7 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sh
   sheet.partners.clear();
   std::vector<double> misses;
   for (Index p = 0; p < cloud.size(); ++p) {
+    cloud.context.check();
     const Index i = cloud.tree.order()[p];
     Carried c;
     const Vector3 x = cloud.point(i);

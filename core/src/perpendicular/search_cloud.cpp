@@ -146,7 +146,8 @@ void jet(const Points& points, const std::vector<Neighbour>& around, const Surfe
 }  // namespace
 
 SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
-    : centroid(cloud.points.matrix().colwise().mean()),
+    : context(context),
+      centroid(cloud.points.matrix().colwise().mean()),
       diagonal(cloud.diagonal),
       source(chosen(cloud.points, centroid, most_points)),
       points(unit_frame(cloud.points, source, centroid, diagonal)),
@@ -167,6 +168,7 @@ void SearchCloud::measure() {
   std::vector<double> scatters(size());
   std::vector<Neighbour> around;
   for (Index p = 0; p < size(); ++p) {
+    context.check();
     const Index i = tree.order()[p];
     tree.nearest(point(i), std::min<Index>(ring + 1, size()), around);
     local_spacing[i] = spacing_from(
@@ -192,6 +194,7 @@ void SearchCloud::smooth() {
   Points smoothed = points, fitted = normals;
   std::vector<Neighbour> around;
   for (Index p = 0; p < size(); ++p) {
+    context.check();
     const Index i = tree.order()[p];
     tree.nearest(point(i), count, around);
     Vector3 x = point(i), normal;

@@ -19,6 +19,7 @@ struct SearchCloud {
   Vector3 point(Index i) const { return points.row(i).transpose(); }
   Vector3 normal(Index i) const { return normals.row(i).transpose(); }
 
+  Context context;  ///< asked in long loops whether to go on
   Vector3 centroid;
   double diagonal = 0;
   std::vector<Index> source;  ///< their indices in the cloud

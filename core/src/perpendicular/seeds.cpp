@@ -64,6 +64,7 @@ Seeds find_seeds(const SearchCloud& cloud, std::uint64_t seed, const Context& co
   const double shortest = shortest_chord * cloud.spacing;
   const Index ends = std::min(first_ends, cloud.size());
   for (Index e = 0; e < ends; ++e) {
+    context.check();
     const std::int32_t i = cloud.tree.order()[e * cloud.size() / ends];
     const Vector3 x = cloud.point(i), n = cloud.normal(i);
     for (Index j = 0; j < cloud.size(); ++j) {
