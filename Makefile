@@ -20,8 +20,9 @@ test:
 	@.ci/suites
 
 bench:
-	@.ci/setup benchmarks
+	@.ci/setup benchmarks paraview
 	@cmake --build build/benchmarks --target bench
+	@tests/benchmarks/vtk/run.sh
 
 # OPTIONS="--cases fixed --seeds 5" asks for less; OPTIONS=--help tells what there is.
 accuracy:
