@@ -66,6 +66,7 @@ std::vector<Result> detected(const Points& points, const std::vector<std::vector
 }
 
 struct Case {
+  const char* name;
   int processes;
   Owner owner;
 };
@@ -182,8 +183,11 @@ TEST_P(SharedPoints, StopTogetherWhenOneIsToldTo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Processes, SharedPoints,
-                         testing::Values(Case{2, by_turns}, Case{2, by_place}, Case{3, by_place},
-                                         Case{3, never_the_first}));
+                         testing::Values(Case{"two_by_turns", 2, by_turns},
+                                         Case{"two_by_place", 2, by_place},
+                                         Case{"three_by_place", 3, by_place},
+                                         Case{"three_never_the_first", 3, never_the_first}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 
