@@ -61,7 +61,7 @@ if is_client():  # the others see their own part only
     answer(
         {
             "field": field(first_mirror),
-            "triangles": mirror.GetNumberOfPolys(),
+            "bounds": mirror.GetBounds(),
             "partners": [int(ids[p]) if p >= 0 else -1 for p in partners[order]],
             "residuals": point_array(mapping, "MirrorResidual")[order].tolist(),
             "sides": point_array(mapping, "MirrorSide")[order].tolist(),
