@@ -21,7 +21,8 @@ constexpr std::size_t climbed = 3;         // of these, have their measure maxim
 constexpr std::size_t finalists = 8;       // of these, are fitted to the full cloud
 constexpr std::size_t polished = 3;        // and of these, to ever more of it
 constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
-constexpr double promising = 0.8;          // and from here on worth sliding
+constexpr double promising = 0.5;          // and from here on worth sliding
+constexpr int slides = 3;                  // of one sphere, at the most
 constexpr double alike = 0.04;             // spheres closer than this are one
 constexpr Index measured = 500;            // surfels that the measure is taken over
 constexpr double bent = 0.6, largest = 3;  // radii, in diagonals: no plane, nothing but one
@@ -88,6 +89,17 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
   return candidates;
 }
 
+// As far as each slide brings it nearer.
+SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement<UnitSphere>& refinement,
+                     const PartnerFit& partner_fit) {
+  for (int k = 0; k < slides; ++k) {
+    const SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
+    if (next.partnered <= candidate.partnered) break;
+    candidate = next;
+  }
+  return candidate;
+}
+
 Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   const SurfelMap map(surfels);
@@ -106,7 +118,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     if (candidate.partnered == 0) {
       candidate = refinement.fitted(candidate, 1200, 3);
       if (candidate.merit() >= promising * candidates.front().merit())
-        candidate = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
+        candidate = slid(candidate, refinement, partner_fit);
     }
   keep_distinct(surfels, candidates, alike, finalists);
   for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i) {
@@ -122,12 +134,17 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
   context.report(0.7);
 
+  // Partners tell more than sheets, which many spheres map onto each other about as well.
+  const auto loose =
+      std::stable_partition(candidates.begin(), candidates.end(),
+                            [](const SphereCandidate& c) { return c.partnered > 0; });
+  for (auto c = candidates.begin(); c != loose; ++c)
+    c->partnered = partner_fit.nearness(c->shape, 3000);
+  std::stable_sort(candidates.begin(), loose,
+                   [](const auto& a, const auto& b) { return a.partnered > b.partnered; });
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
-  // Partners tell more than sheets, which many spheres map onto each other about as well.
-  const auto loose = std::find_if(candidates.begin(), candidates.end(),
-                                  [](const SphereCandidate& c) { return c.partnered == 0; });
   Result best = MirrorScore(cloud, tree, context.stage(0.7, 0.75))
                     .ranked("sphere", mirrors, loose - candidates.begin());
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,

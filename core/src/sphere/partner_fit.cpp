@@ -16,12 +16,12 @@ constexpr double agree = 0.1;  // two chords on one sphere
 constexpr double met = 0.2;    // an image and a point
 constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
-constexpr Index glance = 40, look = 400;
+constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
 constexpr double slide = 0.4;  // of images from one place to the next
-constexpr int farthest = 3;    // places to either side
-constexpr Index on_the_way = 150;
-constexpr std::size_t attempts = 4;
+constexpr std::array farthest{9, 6};  // places to either side, of the loosest and the next
+constexpr Index on_the_way = 300;
+constexpr std::size_t attempts = 8;
 constexpr double clearly_nearer = 0.08;
 
 double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
@@ -139,8 +139,8 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
     double nearness;
   };
   std::vector<Place> places;
-  for (int i = -farthest; i <= farthest; ++i)
-    for (int j = -farthest; j <= farthest; ++j) {
+  for (int i = -farthest[0]; i <= farthest[0]; ++i)
+    for (int j = -farthest[1]; j <= farthest[1]; ++j) {
       const Eigen::Vector4d by = slide * spacing_ * loosest * Eigen::Vector2d(i, j);
       const UnitSphere there{start.shape.centre + by.head<3>(), start.shape.radius + by[3]};
       if (there.radius > 0) places.push_back({there, nearness(there, on_the_way)});

@@ -31,6 +31,10 @@ class PartnerFit {
   /// The same sphere on up to `most` of the points, to rounding where partners are exact.
   UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
 
+  /// Mean of exp(-gap^2 / 2 s^2), s half the spacing, over about `wanted` points that the sphere
+  /// moves.
+  double nearness(const UnitSphere& sphere, Index wanted) const;
+
  private:
   struct Meeting {
     Vector3 position, gap;  // gap: from the nearest point to the image
@@ -44,8 +48,6 @@ class PartnerFit {
   std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
                                 Index* asked = nullptr) const;
   double share_met(const UnitSphere& sphere, Index wanted) const;
-  /// Mean of exp(-gap^2 / 2 s^2), s half the spacing, over the points that the sphere moves.
-  double nearness(const UnitSphere& sphere, Index wanted) const;
 
   const Cloud& cloud_;
   const PointTree& tree_;
