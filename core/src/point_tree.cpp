@@ -25,24 +25,28 @@ std::uint64_t spread(std::uint64_t v) {
 }
 
 // A run of points against a block of queries, one lane a query: x, y, z, then the best so far as
-// squared distance, index and position. All are doubles, so that a lane has one width throughout
-// and the inner loop becomes vector instructions.
+// squared distance, index and position. All are doubles, so that a lane has one width throughout.
 SYMSURF_VECTORISED void scan(const double* coordinates, const std::int32_t* order, Index begin,
-                             Index end, double* __restrict lanes) {
+                             Index end, double* lanes) {
   constexpr int n = PointTree::block;
-  const double *x = lanes, *y = lanes + n, *z = lanes + 2 * n;
-  double *squared = lanes + 3 * n, *index = lanes + 4 * n, *position = lanes + 5 * n;
-  for (Index p = begin; p < end; ++p) {
-    const double px = coordinates[3 * p], py = coordinates[3 * p + 1], pz = coordinates[3 * p + 2];
-    const double at = static_cast<double>(p), named = order[p];
-    for (int i = 0; i < n; ++i) {
-      const double dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
-      const double d = dx * dx + dy * dy + dz * dz;
-      const bool nearer = (d < squared[i]) | ((d == squared[i]) & (named < index[i]));
-      squared[i] = nearer ? d : squared[i];
-      index[i] = nearer ? named : index[i];
-      position[i] = nearer ? at : position[i];
+  for (int first = 0; first < n; first += doubles_wide) {
+    Doubles* lane = reinterpret_cast<Doubles*>(lanes + first);
+    constexpr int next = n / doubles_wide;
+    const Doubles x = lane[0], y = lane[next], z = lane[2 * next];
+    Doubles squared = lane[3 * next], index = lane[4 * next], position = lane[5 * next];
+    for (Index p = begin; p < end; ++p) {
+      const Doubles dx = x - coordinates[3 * p], dy = y - coordinates[3 * p + 1],
+                    dz = z - coordinates[3 * p + 2];
+      const Doubles d = dx * dx + dy * dy + dz * dz;
+      const Doubles named = Doubles{} + static_cast<double>(order[p]);
+      const auto nearer = (d < squared) | ((d == squared) & (named < index));
+      squared = nearer ? d : squared;
+      index = nearer ? named : index;
+      position = nearer ? Doubles{} + static_cast<double>(p) : position;
     }
+    lane[3 * next] = squared;
+    lane[4 * next] = index;
+    lane[5 * next] = position;
   }
 }
 
@@ -67,6 +71,21 @@ double limit_of(const std::vector<Neighbour>& found, std::size_t k) {
 }
 
 }  // namespace
+
+SYMSURF_VECTORISED void PointTree::measure_boxes(const Boxes* boxes, const float* low,
+                                                 const float* high, float slack, float* squared) {
+  const Floats *box_low = reinterpret_cast<const Floats*>(&boxes->low),
+               *box_high = reinterpret_cast<const Floats*>(&boxes->high);
+  const Floats zero{};
+  Floats sum = zero;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Floats above = box_low[axis] - high[axis], below = low[axis] - box_high[axis];
+    const Floats outside = (above > below ? above : below) - slack;
+    const Floats gap = outside > zero ? outside : zero;
+    sum += gap * gap;
+  }
+  *reinterpret_cast<Floats*>(squared) = sum;
+}
 
 std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& queries, double limit,
                                                            Index& near) const {

@@ -74,6 +74,10 @@ class PointTree {
     std::array<std::array<float, fan>, 3> low, high;
   };
 
+  // Squared distances of the boxes from low..high, each side less by slack.
+  static void measure_boxes(const Boxes* boxes, const float* low, const float* high, float slack,
+                            float* squared);
+
   void sort(PointsView points);
   void stack_boxes();
 
@@ -118,14 +122,8 @@ void PointTree::descend(const std::array<float, 3>& low, const std::array<float,
       continue;
     }
     const Boxes& boxes = levels_[node.level][node.index];
-    std::array<float, fan> squared{};
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < fan; ++i) {
-        const float outside =
-            std::max(boxes.low[axis][i] - high[axis], low[axis] - boxes.high[axis][i]);
-        const float gap = std::max(outside - slack, 0.0f);
-        squared[i] += gap * gap;
-      }
+    std::array<float, fan> squared;
+    measure_boxes(&boxes, low.data(), high.data(), slack, squared.data());
     const int first = top;
     for (int i = 0; i < fan; ++i) {
       if (squared[i] > limit) continue;

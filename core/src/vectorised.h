@@ -7,3 +7,14 @@
 #else
 #define SYMSURF_VECTORISED
 #endif
+
+namespace symsurf {
+
+/// Numbers side by side in a vector register, anywhere in memory (an extension of GCC and Clang).
+/// Compilers make such of plain loops, but of those that compare and choose they often do not.
+typedef double Doubles __attribute__((vector_size(4 * sizeof(double)), aligned(8), may_alias));
+typedef float Floats __attribute__((vector_size(8 * sizeof(float)), aligned(4), may_alias));
+
+constexpr int doubles_wide = 4, floats_wide = 8;
+
+}  // namespace symsurf

@@ -20,8 +20,10 @@ constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
 constexpr double slide = 0.4;  // of images from one place to the next
 constexpr std::array farthest{9, 6};  // places to either side, of the loosest and the next
-constexpr Index on_the_way = 300;
-constexpr std::size_t attempts = 8;
+constexpr double near = 1.1;
+constexpr Index on_the_way = 120;
+constexpr std::size_t looked_at = 32, attempts = 8;
+constexpr double worth_refining = 0.03;
 constexpr double clearly_nearer = 0.08;
 
 double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
@@ -127,8 +129,9 @@ double PartnerFit::share_met(const UnitSphere& sphere, Index wanted) const {
 double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
   Index asked;
   double sum = 0;
-  for (const Meeting& meeting : meetings(sphere, wanted, 2 * spacing_, &asked))
-    sum += std::exp(-2 * meeting.gap.squaredNorm() / (spacing_ * spacing_));
+  const double reach = near * spacing_;
+  for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked))
+    sum += tukey(meeting.gap.norm() / reach);
   return sum / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
 }
 
@@ -139,6 +142,10 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
     double nearness;
   };
   std::vector<Place> places;
+  const auto sort = [&] {
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.nearness > b.nearness; });
+  };
   for (int i = -farthest[0]; i <= farthest[0]; ++i)
     for (int j = -farthest[1]; j <= farthest[1]; ++j) {
       const Eigen::Vector4d by = slide * spacing_ * loosest * Eigen::Vector2d(i, j);
@@ -146,17 +153,23 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
       if (there.radius > 0) places.push_back({there, nearness(there, on_the_way)});
     }
   if (places.empty()) return start;
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.nearness > b.nearness; });
+  sort();
   const double usual = places[places.size() / 2].nearness;
+  const auto excess = [&](double nearness) {
+    return (nearness - usual) / std::max(1 - usual, 0.1);
+  };
+  places.resize(std::min(looked_at, places.size()));
+  for (Place& place : places) place.nearness = nearness(place.sphere, look);
+  sort();
 
   SphereCandidate best = start;
   for (std::size_t i = 0; i < std::min(attempts, places.size()); ++i) {
+    if (excess(places[i].nearness) < worth_refining) break;
     const UnitSphere sphere = refined(places[i].sphere, look, 5);
-    const double excess = (nearness(sphere, look) - usual) / std::max(1 - usual, 0.1);
-    if (excess < clearly_nearer || excess <= best.partnered) continue;
+    const double partnered = excess(nearness(sphere, look));
+    if (partnered < clearly_nearer || partnered <= best.partnered) continue;
     best.shape = sphere;
-    best.partnered = excess;
+    best.partnered = partnered;
   }
   return best;
 }

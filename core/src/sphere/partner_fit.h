@@ -31,7 +31,7 @@ class PartnerFit {
   /// The same sphere on up to `most` of the points, to rounding where partners are exact.
   UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
 
-  /// Mean of exp(-gap^2 / 2 s^2), s half the spacing, over about `wanted` points that the sphere
+  /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
   /// moves.
   double nearness(const UnitSphere& sphere, Index wanted) const;
 

@@ -41,23 +41,24 @@ struct AxisAcross {
 };
 
 // A box lies no nearer to a line than its shadow on two axes across the line.
-SYMSURF_VECTORISED void bound_from_line(const float* low, const float* high,
-                                        const AxisAcross* across, float slack,
-                                        float* __restrict squared) {
-  for (int i = 0; i < fan; ++i) squared[i] = 0;
+SYMSURF_VECTORISED void bound_from_line(const BoxTree::Boxes* boxes, const AxisAcross* across,
+                                        float slack, BoxTree::Bounds* squared) {
+  const Floats *low = reinterpret_cast<const Floats*>(&boxes->low),
+               *high = reinterpret_cast<const Floats*>(&boxes->high);
+  const Floats zero{};
+  Floats sum = zero;
   for (int k = 0; k < 2; ++k) {
-    const float ax = across[k].half[0], ay = across[k].half[1], az = across[k].half[2];
-    const float bx = std::abs(ax), by = std::abs(ay), bz = std::abs(az), at = across[k].at;
-    for (int i = 0; i < fan; ++i) {
-      const float gap = ax * (high[i] + low[i]) + ay * (high[fan + i] + low[fan + i]) +
-                        az * (high[2 * fan + i] + low[2 * fan + i]) - at;
-      const float reach = bx * (high[i] - low[i]) + by * (high[fan + i] - low[fan + i]) +
-                          bz * (high[2 * fan + i] - low[2 * fan + i]) + slack;
-      const float beyond = std::abs(gap) - reach;
-      const float outside = beyond > 0 ? beyond : 0;
-      squared[i] += outside * outside;
-    }
+    const auto& [half, at] = across[k];
+    const Floats gap = half[0] * (high[0] + low[0]) + half[1] * (high[1] + low[1]) +
+                       half[2] * (high[2] + low[2]) - at;
+    const Floats reach = std::abs(half[0]) * (high[0] - low[0]) +
+                         std::abs(half[1]) * (high[1] - low[1]) +
+                         std::abs(half[2]) * (high[2] - low[2]) + slack;
+    const Floats beyond = (gap > zero ? gap : -gap) - reach;
+    const Floats outside = beyond > zero ? beyond : zero;
+    sum += outside * outside;
   }
+  *reinterpret_cast<Floats*>(squared) = sum;
 }
 
 /// Points sorted so that the nearest to a line is found by branch and bound over boxes.
@@ -107,7 +108,7 @@ class LineSearch {
     const std::array<AxisAcross, 2> axes{across(e1), across(e2)};
     const float slack = 4 * boxes_->slack();
     const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& least) {
-      bound_from_line(boxes.low[0].data(), boxes.high[0].data(), axes.data(), slack, least.data());
+      bound_from_line(&boxes, axes.data(), slack, &least);
       if (best.squared_distance == 0)
         for (int i = 0; i < fan; ++i)
           if (boxes.first[i] > best.index) least[i] = std::numeric_limits<float>::infinity();

@@ -31,18 +31,24 @@ SYMSURF_VECTORISED void cosines_with(const double* run, const double* normal, bo
 }
 
 // Of boxes from a point of the unit sphere, or from it and the point opposite.
-SYMSURF_VECTORISED void bound_from_point(const float* low, const float* high, const float* at,
-                                         bool as_lines, float slack, float* __restrict squared) {
-  std::array<float, fan> here{}, opposite{};
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < fan; ++i) {
-      const float l = low[axis * fan + i] - slack, h = high[axis * fan + i] + slack, q = at[axis];
-      const float a = l - q > q - h ? l - q : q - h, b = l + q > -q - h ? l + q : -q - h;
-      here[i] += a > 0 ? a * a : 0;
-      opposite[i] += b > 0 ? b * b : 0;
-    }
-  for (int i = 0; i < fan; ++i)
-    squared[i] = as_lines && opposite[i] < here[i] ? opposite[i] : here[i];
+SYMSURF_VECTORISED void bound_from_point(const BoxTree::Boxes* boxes, const float* at,
+                                         bool as_lines, float slack, BoxTree::Bounds* squared) {
+  const Floats *low = reinterpret_cast<const Floats*>(&boxes->low),
+               *high = reinterpret_cast<const Floats*>(&boxes->high);
+  const Floats zero{};
+  Floats here = zero, opposite = zero;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Floats l = low[axis] - slack, h = high[axis] + slack;
+    const float q = at[axis];
+    const Floats below = l - q, above = q - h, under = l + q, over = -q - h;
+    Floats a = below > above ? below : above, b = under > over ? under : over;
+    a = a > zero ? a : zero;
+    b = b > zero ? b : zero;
+    here += a * a;
+    opposite += b * b;
+  }
+  if (as_lines) here = opposite < here ? opposite : here;
+  *reinterpret_cast<Floats*>(squared) = here;
 }
 
 struct Parallel {
@@ -86,8 +92,7 @@ class NormalSearch {
                                   static_cast<float>(normal[2])};
     const float slack = 2 * boxes_.slack();
     const auto bound = [&](const BoxTree::Boxes& boxes, BoxTree::Bounds& squared) {
-      bound_from_point(boxes.low[0].data(), boxes.high[0].data(), at.data(), as_lines_, slack,
-                       squared.data());
+      bound_from_point(&boxes, at.data(), as_lines_, slack, &squared);
       // Among parallel normals only a lower index is better: flat patches cost no more.
       if (found.size() == k && found.back().cosine == 1)
         for (int i = 0; i < fan; ++i)
