@@ -18,11 +18,11 @@ constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
-constexpr double slide = 0.4;  // of images from one place to the next
-constexpr std::array farthest{9, 6};  // places to either side, of the loosest and the next
+constexpr double slide = 0.5;  // of images from one place to the next
+constexpr std::array farthest{7, 4};  // places to either side, of the loosest and the next
 constexpr double near = 1.1;
-constexpr Index on_the_way = 120;
-constexpr std::size_t looked_at = 32, attempts = 8;
+constexpr Index on_the_way = 120, second_look = 300;
+constexpr std::size_t looked_at = 24, attempts = 6;
 constexpr double worth_refining = 0.03;
 constexpr double clearly_nearer = 0.08;
 
@@ -159,13 +159,13 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
     return (nearness - usual) / std::max(1 - usual, 0.1);
   };
   places.resize(std::min(looked_at, places.size()));
-  for (Place& place : places) place.nearness = nearness(place.sphere, look);
+  for (Place& place : places) place.nearness = nearness(place.sphere, second_look);
   sort();
 
   SphereCandidate best = start;
   for (std::size_t i = 0; i < std::min(attempts, places.size()); ++i) {
     if (excess(places[i].nearness) < worth_refining) break;
-    const UnitSphere sphere = refined(places[i].sphere, look, 5);
+    const UnitSphere sphere = refined(places[i].sphere, second_look, 5);
     const double partnered = excess(nearness(sphere, look));
     if (partnered < clearly_nearer || partnered <= best.partnered) continue;
     best.shape = sphere;
