@@ -50,7 +50,9 @@ class ParametricRefinement {
     const Surfel* partner;
   };
 
-  static constexpr double reach = 0.06;  // how far a partner may be
+  // How far a partner may be: a few spacings, but no less than what the fits look over.
+  double reach() const { return std::clamp(3 * spacing_, 2.5 * widest, 5 * widest); }
+
   static constexpr double widest = 0.012;
 
   Index stride_for(Index wanted) const;
@@ -115,7 +117,7 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& sta
   for (int step = 0; step < steps; ++step) {
     typename Shape::Step sum(candidate.shape);
     std::vector<double> residuals;
-    for (const Match& match : matches(candidate.shape, reach, stride)) {
+    for (const Match& match : matches(candidate.shape, reach(), stride)) {
       const Sample& s = *match.sample;
       const double weight = displaced(candidate.shape.distance(s.position), widest);
       if (weight <= 0) continue;
@@ -172,7 +174,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement<Shape>::loosest(
     const Shape& shape) const {
   typename Shape::Step held(shape), moved(shape);
   double count = 0;
-  for (const Match& match : matches(shape, reach, stride_for(400))) {
+  for (const Match& match : matches(shape, reach(), stride_for(400))) {
     const Sample& s = *match.sample;
     const double weight = displaced(shape.distance(s.position), widest);
     if (weight <= 0) continue;
@@ -210,7 +212,7 @@ double ParametricRefinement<Shape>::explained(const Shape& shape, Index wanted) 
   Index looked = 0;
   for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
     moved += displaced(shape.distance(samples_[i].position), tolerance);
-  for (const Match& match : matches(shape, reach, stride)) {
+  for (const Match& match : matches(shape, reach(), stride)) {
     const Sample& s = *match.sample;
     const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
                               s.surfel->flatness, *match.partner);
