@@ -116,7 +116,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   keep_distinct(surfels, candidates, alike, finalists);
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered == 0) {
-      candidate = refinement.fitted(candidate, 1200, 3);
+      candidate = refinement.fitted(candidate, 800, 3);
       if (candidate.merit() >= promising * candidates.front().merit())
         candidate = slid(candidate, refinement, partner_fit);
     }
@@ -124,7 +124,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate = refinement.fitted(candidate, 3000, 4);
+      candidate = refinement.fitted(candidate, 3000, 3);
     else
       candidate.shape = partner_fit.refined(candidate.shape, 3000);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -82,20 +83,32 @@ Candidate<Shape> settled(const Surfels& surfels, const SurfelMap& map, Candidate
   return candidate;
 }
 
-/// Two mirrors act alike where they send points to like places.
-template <typename Shape>
-double difference(const Surfels& surfels, const Shape& a, const Shape& b) {
-  constexpr Index probes = 12;
-  constexpr double apart = 0.5;  // where only one has an image
-  double squared = 0;
-  for (Index k = 0; k < probes; ++k) {
-    const Vector3& x = surfels[k * surfels.size() / probes].position;
-    const Vector3 one = a.reflect(x), other = b.reflect(x), gap = one - other;
-    squared += gap.allFinite() ? std::min(gap.squaredNorm(), apart * apart)
-                               : (one.allFinite() == other.allFinite() ? 0 : apart * apart);
+/// Where a mirror sends a few places of the cloud: mirrors act alike where they send them to like
+/// places.
+struct Action {
+  static constexpr Index probes = 12;
+
+  std::array<Vector3, probes> images;
+
+  template <typename Shape>
+  Action(const Surfels& surfels, const Shape& shape) {
+    for (Index k = 0; k < probes; ++k)
+      images[k] = shape.reflect(surfels[k * surfels.size() / probes].position);
   }
-  return std::sqrt(squared / static_cast<double>(probes));
-}
+
+  /// Root mean square, in diagonals.
+  double difference(const Action& other) const {
+    constexpr double apart = 0.5;  // where only one has an image
+    double squared = 0;
+    for (Index k = 0; k < probes; ++k) {
+      const double gap = (images[k] - other.images[k]).squaredNorm();
+      const bool both = std::isfinite(gap);
+      squared += both ? std::min(gap, apart * apart)
+                      : (images[k].allFinite() == other.images[k].allFinite() ? 0 : apart * apart);
+    }
+    return std::sqrt(squared / static_cast<double>(probes));
+  }
+};
 
 /// Drops mirrors that act on the cloud nearly as a better one does; best first.
 template <typename Shape>
@@ -103,12 +116,16 @@ void keep_distinct(const Surfels& surfels, std::vector<Candidate<Shape>>& candid
                    double distance, Index count) {
   sort_best_first(candidates);
   std::vector<Candidate<Shape>> kept;
+  std::vector<Action> actions;
   for (const Candidate<Shape>& candidate : candidates) {
     if (static_cast<Index>(kept.size()) == count) break;
-    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
-      return difference(surfels, other.shape, candidate.shape) < distance;
+    const Action action(surfels, candidate.shape);
+    const bool is_new = std::none_of(actions.begin(), actions.end(), [&](const Action& other) {
+      return other.difference(action) < distance;
     });
-    if (is_new) kept.push_back(candidate);
+    if (!is_new) continue;
+    kept.push_back(candidate);
+    actions.push_back(action);
   }
   candidates = std::move(kept);
 }

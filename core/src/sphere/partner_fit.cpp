@@ -18,6 +18,7 @@ constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
+constexpr double widest_block = 4;  // in reaches of the search
 constexpr double slide = 0.5;  // of images from one place to the next
 constexpr std::array farthest{7, 4};  // places to either side, of the loosest and the next
 constexpr double near = 1.1;
@@ -92,14 +93,23 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   Index places = 0, near = 0, waits = 0;
   std::array<Vector3, PointTree::block> positions, images;
   PointTree::Queries queries;
+  const auto meet = [&](Index i, const Neighbour& nearest) {
+    if (nearest.index >= 0)
+      found.push_back(
+          {positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest.index])});
+  };
+  // Images that a mirror flings apart are no block.
   const auto ask = [&] {
     for (Index i = 0; i < PointTree::block; ++i)
       queries.col(i) = cloud_.frame.leave(images[std::min(i, waits - 1)]);
-    const auto nearest = tree_.nearest(queries, limit * limit, near);
-    for (Index i = 0; i < waits; ++i)
-      if (nearest[i].index >= 0)
-        found.push_back(
-            {positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest[i].index])});
+    const Vector3 spread = queries.rowwise().maxCoeff() - queries.rowwise().minCoeff();
+    if (spread.maxCoeff() < widest_block * limit) {
+      const auto nearest = tree_.nearest(queries, limit * limit, near);
+      for (Index i = 0; i < waits; ++i) meet(i, nearest[i]);
+    } else {
+      for (Index i = 0; i < waits; ++i)
+        meet(i, tree_.nearest(Vector3(queries.col(i)), limit * limit));
+    }
     waits = 0;
   };
   for (Index k = 0; k < blocks * block; ++k) {
