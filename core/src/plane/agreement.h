@@ -19,19 +19,19 @@ struct Agreement {
   Agreement(const Vector3& offset, const Vector3& image_normal, double image_flatness,
             const Surfel& partner)
       : partner(partner), gap(offset.squaredNorm()) {
-    constexpr double along_sheet = 0.08, inside_blob = 0.4;
     const double flat = partner.flatness, off_sheet = offset.dot(partner.normal);
-    isotropic = along_sheet * flat + inside_blob * (1 - flat);
+    isotropic = isotropic_share(flat, 0.08);
     squared = flat * off_sheet * off_sheet + isotropic * gap;
     const double cosine = image_normal.dot(partner.normal);
     const double turned = image_flatness * flat * (1 - cosine * cosine);
     facing = (1 - turned) * (1 - turned);
   }
 
-  Matrix3 metric() const {
-    Matrix3 m = partner.flatness * partner.normal * partner.normal.transpose();
-    m.diagonal().array() += isotropic;
-    return m;
+  Matrix3 metric() const { return metric_with(isotropic); }
+
+  /// The same where an offset along a sheet counts that much.
+  Matrix3 metric(double along_sheet) const {
+    return metric_with(isotropic_share(partner.flatness, along_sheet));
   }
 
   /// 0..1. Where the gap is small in every direction, nobody asks for normals.
@@ -40,6 +40,17 @@ struct Agreement {
     const double scale = 1 / (2 * tolerance * tolerance);
     const double r = squared * scale, g = 9 * gap * scale;
     return std::max(r < negligible ? facing * std::exp(-r) : 0, g < negligible ? std::exp(-g) : 0);
+  }
+
+ private:
+  static double isotropic_share(double flat, double along_sheet) {
+    constexpr double inside_blob = 0.4;
+    return along_sheet * flat + inside_blob * (1 - flat);
+  }
+  Matrix3 metric_with(double isotropic) const {
+    Matrix3 m = partner.flatness * partner.normal * partner.normal.transpose();
+    m.diagonal().array() += isotropic;
+    return m;
   }
 };
 

@@ -29,6 +29,15 @@ std::uint32_t place_on_curve(const Vector3& x) {
   return place;
 }
 
+// 0..1. Past a rim images find their partners on it, whose tangent plane says nothing there; inside
+// a sheet the nearest point is hardly further along it than half the spacing.
+double inside_sheet(const Vector3& gap, const Surfel& partner, double spacing) {
+  const double off = gap.dot(partner.normal);
+  const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - off * off));
+  const double past = 3 * partner.flatness * std::max(0.0, along / spacing - 0.5);
+  return std::exp(-past * past / 2);
+}
+
 }  // namespace
 
 Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
@@ -109,7 +118,7 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 // what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   constexpr double wide = 0.01, narrow = 0.003;
-  constexpr int steps = 8;
+  constexpr int steps = 12;
   const Subset most = about(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
   const std::vector<Match> around = matches(rough, reach, most);
@@ -130,11 +139,12 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
 // nothing mirrors them, stop pulling. Where noise is left, partners stand on the plane through the
 // cells around them, which has averaged it out. Looking for partners is most of the work: they stay
-// until the plane has moved by a part of the spacing.
+// until the plane has moved by a part of the spacing, or has settled between them.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
                              std::vector<Match> found) const {
-  constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004;
-  const double stale = 0.1 * spacing_;
+  constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004, still = 1e-4;
+  constexpr double along_sheet = 0.01;  // partners hold the plane hardly where they may slide
+  const double stale = 0.1 * spacing_, settled = 0.02 * spacing_;
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
@@ -155,10 +165,11 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
       const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                                 p);
       const double r = distance_past(gap, p, spacing_) / tolerance;
-      const double trusted = weight * agreement.facing * std::exp(-r * r / 2);
+      const double trusted =
+          weight * agreement.facing * inside_sheet(gap, p, spacing_) * std::exp(-r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
-      sum.add(s.position, gap, agreement.metric(), trusted);
+      sum.add(s.position, gap, agreement.metric(along_sheet), trusted);
     }
     if (weights < 4) return plane;
     double change;
@@ -166,7 +177,10 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
     moved += change;
     tolerance =
         std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
-    if (change < 1e-4) return plane;
+    if (change < still) {
+      if (moved < settled) return plane;
+      moved = std::numeric_limits<double>::infinity();
+    }
   }
   return plane;
 }
