@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "parallel.h"
+#include "point_grid.h"
 #include "shared_matching.h"
 
 namespace symsurf {
@@ -15,6 +16,16 @@ namespace {
 void find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
                    const Context& context, Pairs& pairs) {
   constexpr Index grain = 4096;
+  if (points.size() <= PointGrid::small_cloud) {
+    const PointGrid grid(points);
+    if (grid.fullest() <= PointGrid::crowded) {
+      parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i)
+          pairs(i, 1) = grid.nearest(mirror.reflect(points[i]), limit * limit).index;
+      });
+      return;
+    }
+  }
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     Index near = begin;

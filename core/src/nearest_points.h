@@ -2,8 +2,10 @@
 
 #include <symsurf/method.h>
 
+#include <optional>
 #include <vector>
 
+#include "point_grid.h"
 #include "point_tree.h"
 
 namespace symsurf {
@@ -15,8 +17,7 @@ class NearestPoints {
   /// `own`: the tree of this process's points.
   NearestPoints(const Cloud& cloud, const PointTree& own, const Context& context);
 
-  /// The nearest point to each query, NaN where none is within `reach`. Queries that follow each
-  /// other should lie close together.
+  /// The nearest point to each query, NaN where none is within `reach`.
   std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;
 
   /// The nearest but one; of a single point, that one.
@@ -28,10 +29,11 @@ class NearestPoints {
     double squared;
   };
 
-  std::vector<Found> own_nearest(const std::vector<Vector3>& queries, double reach) const;
+  Found found(const Neighbour& neighbour) const;
 
   const Cloud& cloud_;
   const PointTree& own_;
+  std::optional<PointGrid> grid_;  // of the same points, where it is faster
   const Context context_;
 };
 
