@@ -14,8 +14,8 @@ class SurfelMap {
 
   /// The surfel nearest to x, or -1 when none lies within about a cell and a half of it.
   Index nearest(const Vector3& x) const {
-    const Vector3 at = (x - origin_) / cell_;
-    if (!((at.array() >= 0).all() && (at.array() < size_.cast<double>().array()).all())) return -1;
+    const Vector3 at = (x - origin_) * cells_;
+    if (!((at.array() >= 0).all() && (at.array() < end_.array()).all())) return -1;
     return near_[linear(at.cast<int>())];
   }
 
@@ -24,8 +24,8 @@ class SurfelMap {
     return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
   }
 
-  Vector3 origin_;
-  double cell_;
+  Vector3 origin_, end_;
+  double cells_;  // along a unit of length
   Eigen::Vector3i size_;
   std::vector<std::int32_t> near_;
 };

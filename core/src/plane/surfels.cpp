@@ -104,8 +104,9 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
     std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
     for (Index i = 0; i < cloud.points.size(); ++i)
       seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
-    for (const std::vector<std::uint8_t>& part : gathered(context, seen))
-      for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
+    if (context.communicator())
+      for (const std::vector<std::uint8_t>& part : gathered(context, seen))
+        for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
     const double occupied = static_cast<double>(std::count(seen.begin(), seen.end(), 1));
     context.report((guess + 1.0) / guesses);
     const double better = std::min<double>(finest_cells, cells * std::sqrt(wanted / occupied));
@@ -139,14 +140,14 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   for (const std::int32_t s : slot_) {
     if (s < 0) continue;
     Moments around;
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz) {
-          const Cell c = patches[s].cell + Cell(dx, dy, dz);
-          if ((c.array() < 0).any() || (c.array() >= size_.array()).any()) continue;
-          const std::int32_t other = slot_[linear(c)];
-          if (other >= 0) around += patches[other].moments;
-        }
+    const Cell from = (patches[s].cell.array() - 1).max(0);
+    const Cell to = (patches[s].cell.array() + 1).min(size_.array() - 1);
+    for (int x = from.x(); x <= to.x(); ++x)
+      for (int y = from.y(); y <= to.y(); ++y) {
+        const std::int32_t* row = &slot_[linear({x, y, 0})];
+        for (int z = from.z(); z <= to.z(); ++z)
+          if (row[z] >= 0) around += patches[row[z]].moments;
+      }
     const Thinnest thinnest = thinnest_direction(around.covariance());
     surfels_.push_back({low_ + patches[s].moments.mean(), thinnest.direction,
                         thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
