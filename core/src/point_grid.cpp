@@ -81,7 +81,8 @@ template <std::size_t k>
 std::array<Neighbour, k> PointGrid::best(const Vector3& query, double limit) const {
   std::array<Neighbour, k> found;
   if (!query.allFinite()) return found;
-  const double farthest = std::sqrt(limit);
+  constexpr double rounding = 1 + 1e-9;
+  const double farthest = rounding * std::sqrt(limit);
   for (double reach = 0.75 * cell_;;) {
     reach = std::min(reach, farthest);
     found.fill({-1, limit});
@@ -95,8 +96,9 @@ std::array<Neighbour, k> PointGrid::best(const Vector3& query, double limit) con
       }
     if (found.back().index >= 0) {
       limit = found.back().squared_distance;
-      if (limit <= reach * reach) return found;
-      reach = std::sqrt(limit) * (1 + 1e-9);
+      const double distance = std::sqrt(limit);
+      if (distance <= reach) return found;
+      reach = rounding * distance;
     } else {
       if (reach >= farthest || (to - from + 1 == size_).all()) return found;
       reach *= 2;
