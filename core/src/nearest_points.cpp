@@ -16,7 +16,7 @@ const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN())
 
 NearestPoints::NearestPoints(const Cloud& cloud, const PointTree& own, const Context& context)
     : cloud_(cloud), own_(own), context_(context) {
-  if (own.size() > PointGrid::small_cloud) return;
+  if (own.size() == 0 || own.size() > PointGrid::small_cloud) return;
   grid_.emplace(cloud.points);
   if (grid_->fullest() > PointGrid::crowded) grid_.reset();
 }

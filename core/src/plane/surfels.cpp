@@ -65,8 +65,11 @@ Thinnest thinnest_direction(const Matrix3& covariance) {
   adjugate << shifted.col(1).cross(shifted.col(2)), shifted.col(2).cross(shifted.col(0)),
       shifted.col(0).cross(shifted.col(1));
   const Vector3 direction = (adjugate * rough).normalized();
-  const double least = std::max(0.0, direction.dot(covariance * direction));
-  return {direction, std::max(0.0, 1 - std::sqrt(least / spread[1]))};
+  // A root at zero would make rounding a hundred million times as large as it is.
+  constexpr double rounded_off = 1e-8;
+  const double least = std::max(0.0, direction.dot(covariance * direction)) / spread[1];
+  const double thickness = std::sqrt(least + rounded_off) - std::sqrt(rounded_off);
+  return {direction, std::max(0.0, 1 - thickness)};
 }
 
 }  // namespace
