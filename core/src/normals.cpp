@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -20,22 +21,30 @@ namespace {
 using Patch = Points;
 
 Vector3 pca_normal(Patch& patch) {
-  patch.rowwise() -= patch.colwise().mean().eval();
-  const Matrix3 scatter = patch.transpose() * patch;
+  Matrix3 scatter = Matrix3::Zero();
+  for (const auto& w : patch.rowwise()) scatter += w.transpose() * w;
   Vector3 normal = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
   Index largest;
   normal.cwiseAbs().maxCoeff(&largest);
   return normal[largest] < 0 ? -normal : normal;
 }
 
+// z = b1 x + b2 y in the least squares sense, of minimum norm: the axes of the projection on xy by
+// one Jacobi rotation, the slope along each.
 Vector3 regression_normal(Patch& patch) {
   // A projection on xy thinner than this, against its length, is a line.
   constexpr double thinness = 1e-8;
-  patch.rowwise() -= patch.colwise().mean().eval();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 2>> plane;
-  plane.setThreshold(thinness);
-  plane.compute(patch.leftCols<2>());
-  const Eigen::Vector2d slope = plane.solve(patch.col(2));
+  Eigen::Matrix<double, Eigen::Dynamic, 2> xy = patch.leftCols<2>();
+  Eigen::JacobiRotation<double> turn;
+  turn.makeJacobi(xy.col(0).squaredNorm(), xy.col(0).dot(xy.col(1)), xy.col(1).squaredNorm());
+  xy.applyOnTheRight(0, 1, turn);
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
+  axes.applyOnTheRight(0, 1, turn);
+  const Eigen::Vector2d lengths = xy.colwise().squaredNorm();
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 2; ++k)
+    if (lengths[k] > thinness * thinness * lengths.maxCoeff())
+      slope += xy.col(k).dot(patch.col(2)) / lengths[k] * axes.col(k);
   return Vector3(-slope.x(), -slope.y(), 1).normalized();
 }
 
@@ -71,6 +80,7 @@ Points estimate_normals(PointsView points, Index neighbours, std::string_view me
           patch.row(n) = (points[found[k][n].index] - points[i]).transpose();
         const double reach = patch.cwiseAbs().maxCoeff();
         if (reach > 0) patch /= reach;
+        patch.rowwise() -= patch.colwise().mean().eval();
         normals.row(i) = normal_of(patch).transpose();
       }
     }

@@ -104,10 +104,10 @@ _FIXED = {
     "experiment 7": _fixed(lambda: _sheet("f1"), "f4", 1.2),
 }
 _PERPENDICULAR = {
-    "experiment 1": _perpendicular("f1", 0.5),
-    "experiment 2": _perpendicular("f1", 0.5, 0.9, 1),
-    "experiment 3": _perpendicular("f4", 0.5, 0.9, 2),
-    "experiment 4": _perpendicular("f5", 0.5, 0.9, 2),
+    "experiment 1": _perpendicular("f1", 1),
+    "experiment 2": _perpendicular("f1", 1, 1.5, 2),
+    "experiment 3": _perpendicular("f5", 1, 2, 2),
+    "experiment 4": _perpendicular("f1", 1, 1.5, 3),
     "experiment 5": _perpendicular("f6", 0.2),
     "experiment 6": _perpendicular("f2", 0.2),
 }
