@@ -5,6 +5,8 @@
 #include <symsurf/metrics.h>
 #include <symsurf/synthetic.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "expect_error.h"
@@ -73,6 +75,67 @@ TEST(SphereMethod, FindsSpheresThroughOnePercentNoise) {
     found += found_errors(add_noise(t.points, 0, 0.01 * diagonal, {}, seed), t.truth).e_c <= 1e-2;
   }
   EXPECT_GE(found, 15);  // of 16: nine tenths
+}
+
+// Half a bumpy ball and its image.
+Points shells(RandomCloud& random, const Sphere& sphere, double side) {
+  constexpr Index n = 550;
+  const Vector3 wave = 3 * random.direction(), cross = 4 * random.direction();
+  Points points(2 * n, 3);
+  for (Index i = 0; i < n; ++i) {
+    Vector3 u = random.direction();
+    u.z() = side * (0.1 + 0.9 * std::abs(u.z()));
+    u.normalize();
+    const double bumps = std::sin(wave.dot(u) + side) + std::cos(cross.dot(u));
+    const double inner = sphere.radius() * (0.65 + 0.07 * bumps);
+    points.row(i) = (sphere.centre() + inner * u).transpose();
+    points.row(n + i) = (sphere.centre() + (2 * sphere.radius() - inner) * u).transpose();
+  }
+  return points;
+}
+
+// Two shapes in one cloud: each sphere mirrors one of them.
+TEST(SphereMethod, ReportsBothSpheresOfAShapeWithTwo) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomCloud random(seed);
+    const Sphere one(Vector3(0, 0.3, 0), 2), other(Vector3(0, -0.3, 0), 2.6);
+    const Points upper = shells(random, one, 1), lower = shells(random, other, -1);
+    Points points(upper.rows() + lower.rows(), 3);
+    points << upper, lower;
+    Options options;
+    options.method = "sphere";
+    const Result result = detect(points, options);
+    for (const Sphere& truth : {one, other}) {
+      const auto is_truth = [&](const Result& found) {
+        const auto& sphere = dynamic_cast<const Sphere&>(*found.mirror);
+        return sphere_errors(sphere, truth, points).e_c <= 1e-2;
+      };
+      EXPECT_TRUE(is_truth(result) ||
+                  std::any_of(result.candidates.begin(), result.candidates.end(), is_truth))
+          << "radius " << truth.radius();
+    }
+  }
+}
+
+// Four shells about one centre: the plane through it that fits best must not crowd out the sphere.
+TEST(SphereMethod, FindsTheSphereAmidNestedBalls) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomCloud random(seed);
+    constexpr Index n = 600;
+    const Vector3 wave = 3 * random.direction();
+    Points points(4 * n, 3);
+    for (Index i = 0; i < n; ++i) {
+      const Vector3 u = random.direction();
+      const double bump = 0.15 * std::sin(wave.dot(u));
+      const std::array<double, 4> radii{1 + bump, 2 - bump, 3 + bump, 4 - bump};
+      for (Index k = 0; k < 4; ++k) points.row(4 * i + k) = radii[k] * u.transpose();
+    }
+    const SphereErrors errors = found_errors(points, Sphere(Vector3::Zero(), 2.5));
+    EXPECT_LE(errors.e_c, 1e-6);
+    EXPECT_LE(errors.e_r, 1e-6);
+  }
 }
 
 TEST(SphereMeasure, HasTheGradientItSays) {

@@ -22,6 +22,7 @@ constexpr std::size_t finalists = 8;       // of these, are fitted to the full c
 constexpr std::size_t polished = 3;        // and of these, to ever more of it
 constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
 constexpr double promising = 0.65;         // and from here on worth sliding
+constexpr double least_rest = 0.25;        // of the cloud: worth a search of its own
 constexpr int slides = 3;                  // of one sphere, at the most
 constexpr double alike = 0.04;             // spheres closer than this are one
 constexpr Index measured = 500;            // surfels that the measure is taken over
@@ -100,6 +101,31 @@ SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement<UnitS
   return candidate;
 }
 
+// Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
+// own.
+std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCandidate& best,
+                                             const PartnerFit& whole, Index sample_size,
+                                             const Context& context) {
+  if (best.partnered == 0) return {};
+  const Points unmet = whole.unmet(best.shape);
+  const auto least = least_rest * static_cast<double>(cloud.points.size());
+  if (static_cast<double>(unmet.rows()) < least) return {};
+  Cloud rest = cloud;
+  rest.points = unmet;
+  rest.normals = {};
+  const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
+  const PointTree tree(rest.points);
+  const ParametricRefinement<UnitSphere> refinement(rest, tree, surfels, context.stage(0.8, 1));
+  const PartnerFit partner_fit(rest, tree, refinement.spacing());
+  std::vector<SphereCandidate> found;
+  for (const SphereCandidate& candidate :
+       promising_spheres(surfels, SurfelMap(surfels), cloud.seed, context.stage(0.2, 0.8))) {
+    const SphereCandidate fitted = partner_fit(refinement.fitted(candidate, 400, 4));
+    if (fitted.partnered > 0) found.push_back(fitted);
+  }
+  return found;
+}
+
 Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   const SurfelMap map(surfels);
@@ -107,12 +133,17 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       promising_spheres(surfels, map, cloud.seed, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.5, 0.7));
+  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
   const PartnerFit partner_fit(cloud, tree, refinement.spacing());
   for (SphereCandidate& candidate : candidates) {
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);
   }
+  sort_best_first(candidates);
+  for (const SphereCandidate& candidate :
+       spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
+                       context.stage(0.5, 0.6)))
+    candidates.push_back(candidate);
   keep_distinct(surfels, candidates, alike, finalists);
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered == 0) {

@@ -18,8 +18,8 @@ constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
-constexpr double widest_block = 4;  // in reaches of the search
-constexpr double slide = 0.5;  // of images from one place to the next
+constexpr double widest_block = 4;    // in reaches of the search
+constexpr double slide = 0.5;         // of images from one place to the next
 constexpr std::array farthest{7, 4};  // places to either side, of the loosest and the next
 constexpr double near = 1.1;
 constexpr Index on_the_way = 120, second_look = 300;
@@ -95,8 +95,7 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   PointTree::Queries queries;
   const auto meet = [&](Index i, const Neighbour& nearest) {
     if (nearest.index >= 0)
-      found.push_back(
-          {positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest.index])});
+      found.push_back({positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest.index])});
   };
   // Images that a mirror flings apart are no block.
   const auto ask = [&] {
@@ -134,6 +133,20 @@ double PartnerFit::share_met(const UnitSphere& sphere, Index wanted) const {
   Index asked;
   const double hits = static_cast<double>(meetings(sphere, wanted, met * spacing_, &asked).size());
   return hits / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
+}
+
+Points PartnerFit::unmet(const UnitSphere& sphere) const {
+  const double reach = near * spacing_ * cloud_.frame.size;
+  Points rest(cloud_.points.size(), 3);
+  Index count = 0;
+  for (const std::int32_t i : tree_.order()) {
+    const Vector3 image = sphere.reflect(cloud_.frame.enter(cloud_.points[i]));
+    if (image.allFinite() && tree_.nearest(cloud_.frame.leave(image), reach * reach).index >= 0)
+      continue;
+    rest.row(count++) = cloud_.points[i].transpose();
+  }
+  rest.conservativeResize(count, 3);
+  return rest;
 }
 
 double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {

@@ -35,6 +35,9 @@ class PartnerFit {
   /// moves.
   double nearness(const UnitSphere& sphere, Index wanted) const;
 
+  /// The points, in input units, whose images meet no other.
+  Points unmet(const UnitSphere& sphere) const;
+
  private:
   struct Meeting {
     Vector3 position, gap;  // gap: from the nearest point to the image
