@@ -73,12 +73,15 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
       read_cloud(layer, given.boolean("only_selected"), given.boolean("use_normals"));
   options.normals = cloud.normals;
 
-  const Result result =
-      detect(cloud.points, options, Context(progress, static_cast<int>(given.integer("threads"))));
+  const Context context(progress, static_cast<int>(given.integer("threads")));
+  const Result result = detect(cloud.points, options, context.stage(0, 0.95));
+  Eigen::VectorXd distances;
+  if (result.mirror)
+    distances = result.mirror->signed_distance(cloud.points, context.stage(0.95, 1));
   const Mesh mesh = result.mirror ? result.mirror->mesh() : Mesh();
 
   Outcome outcome{returned_values(result), logged_values(result)};
-  mark_asymmetry(layer, cloud, result);
+  mark_asymmetry(layer, cloud, result, distances);
   if (result.mirror)
     outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();
   outcome.values["surface_points_layer"] = add_surface_points_layer(document, layer, result).id();

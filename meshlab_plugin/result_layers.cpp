@@ -102,7 +102,8 @@ MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample) {
   return layer;
 }
 
-void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result) {
+void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result,
+                    const Eigen::VectorXd& distances) {
   CMeshO& mesh = layer.cm;
   auto partner = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
   auto side = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "side");
@@ -116,10 +117,7 @@ void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& res
     mesh.vert[vertex].Q() = result.residuals[i];
     partner[vertex] = cloud.vertex[result.pairs(i, 1)];
   }
-  if (result.mirror)
-    for (Index i = 0; i < cloud.points.rows(); ++i)
-      side[cloud.vertex[i]] =
-          sign(result.mirror->signed_distance(Vector3(cloud.points.row(i).transpose())));
+  for (Index i = 0; i < distances.size(); ++i) side[cloud.vertex[i]] = sign(distances[i]);
   colour_by_residual(layer, result.residuals);
   for (CVertexO& vertex : mesh.vert)
     if (vertex.Q() < 0) vertex.C() = vcg::Color4b::Gray;

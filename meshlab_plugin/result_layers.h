@@ -33,7 +33,9 @@ MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample);
 /// Marks each vertex of the layer: quality = residual, with MeshLab's colour ramp from 0 to the
 /// largest; attribute "partner" = the vertex its image falls on; attribute "side" = -1, 0 or 1, the
 /// side of the mirror it is on. Vertices without a partner, and those not looked at, are grey with
-/// quality and partner -1.
-void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result);
+/// quality and partner -1. `distances`: the points' from the mirror, signed; empty without a
+/// mirror.
+void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result,
+                    const Eigen::VectorXd& distances);
 
 }  // namespace symsurf::meshlab

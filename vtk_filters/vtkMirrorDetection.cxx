@@ -65,23 +65,29 @@ void set_surface_points(vtkPolyData* output, const symsurf::Result& result) {
   output->GetPointData()->SetScalars(residuals);
 }
 
-void set_mapping(vtkPolyData* output, symsurf::PointsView points, symsurf::Index points_before,
+// 1 where the mirror's signed distance is positive, -1 where it is negative, 0 on the mirror and
+// where there is none.
+vtkNew<vtkSignedCharArray> sides_of(symsurf::PointsView points, const symsurf::Result& result,
+                                    const symsurf::Context& context) {
+  auto sides = filled<vtkSignedCharArray>("MirrorSide", points.size(), 0);
+  if (!result.mirror) return sides;
+  const Eigen::VectorXd distances = result.mirror->signed_distance(points, context);
+  for (symsurf::Index i = 0; i < points.size(); ++i)
+    sides->SetValue(i, static_cast<signed char>((distances[i] > 0) - (distances[i] < 0)));
+  return sides;
+}
+
+void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCharArray* sides,
                  const symsurf::Result& result) {
-  const vtkIdType count = points.size();
+  const vtkIdType count = sides->GetNumberOfValues();
   const auto partners = filled<vtkIdTypeArray>("MirrorPartner", count, -1);
   const auto residuals =
       filled<vtkDoubleArray>("MirrorResidual", count, std::numeric_limits<double>::quiet_NaN());
-  const auto sides = filled<vtkSignedCharArray>("MirrorSide", count, 0);
   for (symsurf::Index row = 0; row < result.pairs.rows(); ++row) {
     const vtkIdType i = result.pairs(row, 0) - points_before;
     partners->SetValue(i, result.pairs(row, 1));
     residuals->SetValue(i, result.residuals[row]);
   }
-  if (result.mirror)
-    for (vtkIdType i = 0; i < count; ++i) {
-      const double distance = result.mirror->signed_distance(points[i]);
-      sides->SetValue(i, static_cast<signed char>((distance > 0) - (distance < 0)));
-    }
   vtkPointData* data = output->GetPointData();
   data->AddArray(partners);
   data->AddArray(sides);
@@ -113,8 +119,10 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     options.parameters = chosen_parameters(this);
     options.normals = normals.view();
     options.seed = this->Seed;
-    const symsurf::Result result = symsurf::detect(
-        points.view(), options, context_of(this, this->NumberOfThreads).sharing(&processes));
+    const symsurf::Context context = context_of(this, this->NumberOfThreads);
+    const symsurf::Result result =
+        symsurf::detect(points.view(), options, context.stage(0, 0.95).sharing(&processes));
+    const auto sides = sides_of(points.view(), result, context.stage(0.95, 1));
 
     vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);
     if (processes.rank() == 0) set_mirror_mesh(mirror, result);
@@ -122,7 +130,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     set_surface_points(vtkPolyData::GetData(outputs, SURFACE_POINTS), result);
     vtkPolyData* mapping = vtkPolyData::GetData(outputs, MAPPING);
     mapping->ShallowCopy(input);
-    set_mapping(mapping, points.view(), before, result);
+    set_mapping(mapping, before, sides, result);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "parallel.h"
 #include "radix_sort.h"
 
 namespace symsurf {
@@ -22,7 +23,7 @@ std::uint64_t spread(std::uint64_t v) {
 
 }  // namespace
 
-std::vector<std::int32_t> z_order(const std::vector<Vector3>& places) {
+std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context) {
   Vector3 low = places.front(), high = low;
   for (const Vector3& x : places) {
     low = low.cwiseMin(x);
@@ -31,18 +32,20 @@ std::vector<std::int32_t> z_order(const std::vector<Vector3>& places) {
   const double extent = (high - low).maxCoeff(), cells = (1 << bits_per_axis) - 1;
   const double scale = extent > 0 ? cells / extent : 0;
   std::vector<std::uint64_t> keys(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
+  interruptible_for(context, static_cast<Index>(places.size()), [&](Index i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double at = std::min((places[i][axis] - low[axis]) * scale, cells);
       keys[i] |= spread(static_cast<std::uint64_t>(at)) << (2 - axis);
     }
+  });
   std::vector<std::int32_t> order(places.size());
   std::iota(order.begin(), order.end(), 0);
-  radix_sort(keys, order);
+  radix_sort(keys, order, context);
   return order;
 }
 
-BoxTree::BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices)
+BoxTree::BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices,
+                 const Context& context)
     : size_(static_cast<Index>(places.size())) {
   Boxes nothing;
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +56,7 @@ BoxTree::BoxTree(const std::vector<Vector3>& places, const std::vector<std::int3
 
   float reach = 0;
   levels_.emplace_back(groups(groups(size_)), nothing);
-  for (Index p = 0; p < size_; ++p) {
+  interruptible_for(context, size_, [&](Index p) {
     Boxes& group = levels_[0][p / fan / fan];
     const Index box = p / fan % fan;
     group.first[box] = std::min(group.first[box], indices[p]);
@@ -63,7 +66,7 @@ BoxTree::BoxTree(const std::vector<Vector3>& places, const std::vector<std::int3
       group.high[axis][box] = std::max(group.high[axis][box], x);
       reach = std::max(reach, std::abs(x));
     }
-  }
+  });
   slack_ = 1e-6f * reach;
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& below = levels_.back();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/types.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace symsurf {
 
 /// The order of the places along the Z-order curve, equal places by index.
-std::vector<std::int32_t> z_order(const std::vector<Vector3>& places);
+std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context);
 
 /// Bounding boxes over runs of 8 consecutive places, boxes over runs of 8 boxes and so on, for
 /// exact searches that bound their own measure of nearness box by box.
@@ -26,7 +27,8 @@ class BoxTree {
   using Bounds = std::array<float, fan>;
 
   /// The places in an order that keeps neighbours together; `indices` are their names.
-  BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices);
+  BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices,
+          const Context& context);
 
   /// More than the rounding of any coordinate of a box.
   float slack() const { return slack_; }

@@ -33,14 +33,27 @@ void Context::report(double fraction) const {
 }
 
 void Context::check() const {
-  if (progress_ && is_due()) tell(last_->fraction);
+  if (!progress_) return;
+  if (last_->caller.load(std::memory_order_relaxed) == std::this_thread::get_id()) {
+    if (is_due()) tell(last_->fraction);
+  } else if (last_->cancelled.load(std::memory_order_relaxed)) {
+    throw Cancelled();
+  }
 }
 
 bool Context::is_due() const { return Clock::now() - last_->time >= report_interval; }
 
 void Context::tell(double fraction) const {
-  *last_ = {Clock::now(), fraction};
-  if (!progress_(fraction)) throw Cancelled();
+  last_->caller = std::this_thread::get_id();
+  last_->time = Clock::now();
+  last_->fraction = fraction;
+  try {
+    last_->cancelled = !progress_(fraction);
+  } catch (...) {
+    last_->cancelled = true;
+    throw;
+  }
+  if (last_->cancelled) throw Cancelled();
 }
 
 Context Context::sharing(const Communicator* processes) const {

@@ -18,7 +18,7 @@ namespace {
 // The grids of cells l_avg / k over a cloud whose points are not all equal.
 class Grids {
  public:
-  explicit Grids(PointsView points) : points_(points) {
+  Grids(PointsView points, const Context& context) : points_(points), context_(context) {
     low_ = points.matrix().colwise().minCoeff();
     const Vector3 high = points.matrix().colwise().maxCoeff();
     extent_ = (high - low_).maxCoeff();
@@ -36,8 +36,10 @@ class Grids {
 
   bool occupies(Index k, Index count) const {
     TripleIndex cells;
-    for (Index i = 0; i < points_.size(); ++i)
+    for (Index i = 0; i < points_.size(); ++i) {
+      context_.check();
       if (cells.add(cell(k, i)) + 1 >= count) return true;
+    }
     return false;
   }
 
@@ -76,18 +78,20 @@ class Grids {
   }
 
   PointsView points_;
+  const Context& context_;
   Vector3 low_;
   double extent_, l_avg_;
 };
 
 // The means of the points of equal triples, in lexicographic order of these.
 template <typename TripleOf>
-Points means(PointsView points, const TripleOf& triple_of) {
+Points means(PointsView points, const Context& context, const TripleOf& triple_of) {
   TripleIndex groups;
   // Relative to a group's first point: a group of one keeps its bits, far-off ones their digits.
   std::vector<Vector3> first, sum;
   std::vector<Index> members;
   for (Index i = 0; i < points.size(); ++i) {
+    context.check();
     const Index group = groups.add(triple_of(i));
     if (group == static_cast<Index>(first.size())) {
       first.push_back(points[i]);
@@ -108,25 +112,27 @@ Points means(PointsView points, const TripleOf& triple_of) {
   return result;
 }
 
-bool has_more_distinct_than(PointsView points, Index count) {
+bool has_more_distinct_than(PointsView points, Index count, const Context& context) {
   TripleIndex distinct;
-  for (Index i = 0; i < points.size(); ++i)
+  for (Index i = 0; i < points.size(); ++i) {
+    context.check();
     if (distinct.add(ordered_bits(points[i])) >= count) return true;
+  }
   return false;
 }
 
 }  // namespace
 
-Points downsample(PointsView points, Index count) {
+Points downsample(PointsView points, Index count, const Context& context) {
   if (count < 1)
     throw InvalidParameter("count is " + std::to_string(count) + "; allowed is 1 and above");
   if (points.empty()) throw InvalidInput("no points given; at least 1 is needed");
   require_finite(points, "point");
-  if (!has_more_distinct_than(points, count))
-    return means(points, [&](Index i) { return ordered_bits(points[i]); });
-  const Grids grids(points);
+  if (!has_more_distinct_than(points, count, context))
+    return means(points, context, [&](Index i) { return ordered_bits(points[i]); });
+  const Grids grids(points, context);
   const Index k = grids.first_with(count);
-  return means(points, [&](Index i) { return grids.cell(k, i); });
+  return means(points, context, [&](Index i) { return grids.cell(k, i); });
 }
 
 }  // namespace symsurf

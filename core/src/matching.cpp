@@ -1,6 +1,8 @@
 #include "matching.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -12,18 +14,31 @@ namespace symsurf {
 
 namespace {
 
-// Writes each point's partner beside it, -1: none.
-void find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
-                   const Context& context, Pairs& pairs) {
-  constexpr Index grain = 4096;
+// Of each point; -1: none.
+struct Partners {
+  std::vector<std::int32_t> index;
+  Eigen::VectorXd distance;  // from the image
+
+  explicit Partners(Index size) : index(size), distance(size) {}
+
+  void set(Index i, const Neighbour& found) {
+    index[i] = static_cast<std::int32_t>(found.index);
+    distance[i] = std::sqrt(found.squared_distance);
+  }
+};
+
+Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                       const Context& context) {
+  constexpr Index grain = 1024;
+  Partners partners(points.size());
   if (points.size() <= PointGrid::small_cloud) {
     const PointGrid grid(points);
     if (grid.fullest() <= PointGrid::crowded) {
       parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i)
-          pairs(i, 1) = grid.nearest(mirror.reflect(points[i]), limit * limit).index;
+          partners.set(i, grid.nearest(mirror.reflect(points[i]), limit * limit));
       });
-      return;
+      return partners;
     }
   }
   const std::vector<std::int32_t>& order = tree.order();
@@ -36,38 +51,42 @@ void find_partners(PointsView points, const PointTree& tree, const Mirror& mirro
         images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
       const auto found = tree.nearest(images, limit * limit, near);
       for (Index i = 0; i < PointTree::block && p + i < end; ++i)
-        pairs(order[p + i], 1) = found[i].index;
+        partners.set(order[p + i], found[i]);
     }
   });
+  return partners;
 }
 
 }  // namespace
-
-void set_pair(Result& result, Index row, const Vector3& x, const Vector3& y, const Mirror& mirror) {
-  result.residuals[row] = (mirror.reflect(x) - y).norm();
-  result.surface_points.row(row) = (x + y).transpose() / 2;
-}
 
 // Little is held beside the tree, and beside the result: at a million points that is what counts.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context) {
   if (context.communicator())
     return add_shared_pairs(result, points, std::move(tree), mirror, limit, context);
-  Pairs& pairs = result.pairs;
-  pairs.setConstant(points.size(), 2, -1);
+  Partners partners(0);
   {
     const PointTree consumed = std::move(tree);
-    find_partners(points, consumed, mirror, limit, context, pairs);
+    partners = find_partners(points, consumed, mirror, limit, context);
   }
-  Index found = 0;
-  for (Index i = 0; i < points.size(); ++i)
-    if (const Index partner = pairs(i, 1); partner >= 0) pairs.row(found++) << i, partner;
-  pairs.conservativeResize(found, 2);
-
-  result.residuals.resize(found);
+  const Index size = points.size();
+  const Index found = size - std::count(partners.index.begin(), partners.index.end(), -1);
+  Pairs& pairs = result.pairs;
+  pairs.resize(found, 2);
+  Index row = 0;
+  interruptible_for(context, size, [&](Index i) {
+    const Index partner = partners.index[i];
+    if (partner < 0) return;
+    partners.distance[row] = partners.distance[i];
+    pairs.row(row++) << i, partner;
+  });
+  partners.index = {};
+  result.residuals = std::move(partners.distance);
+  result.residuals.conservativeResize(found);
   result.surface_points.resize(found, 3);
-  for (Index row = 0; row < found; ++row)
-    set_pair(result, row, points[pairs(row, 0)], points[pairs(row, 1)], mirror);
+  interruptible_for(context, found, [&](Index k) {
+    result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
+  });
 }
 
 }  // namespace symsurf

@@ -8,15 +8,12 @@
 
 namespace symsurf {
 
-/// Fills the result's pairs, residuals and surface points: for each point
-/// the nearest of the tree's points (the same cloud) to its image, where that is no farther than
-/// `limit` (input units). In the order of the points; equally near partners: the lowest index.
-/// Frees the tree as soon as partners are known: it and the pairs never need memory together.
-/// Where processes share out the cloud: for each own point, among the points of all.
+/// Fills the result's pairs, residuals and surface points: for each point the nearest of the tree's
+/// points (the same cloud) to its image, where that is no farther than `limit` (input units). In
+/// the order of the points; equally near partners: the lowest index. Frees the tree as soon as
+/// partners are known: it and the pairs never need memory together. Where processes share out the
+/// cloud: for each own point, among the points of all.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
-
-/// The residual and the surface point of the pair x, y.
-void set_pair(Result& result, Index row, const Vector3& x, const Vector3& y, const Mirror& mirror);
 
 }  // namespace symsurf

@@ -4,14 +4,21 @@
 #include <limits>
 #include <string>
 
+#include "parallel.h"
+
 namespace symsurf {
 
 namespace {
 
+// A foot of a free-form mirror takes some ten microseconds.
+constexpr Index grain = 1024;
+
 template <typename Function>
-Points each(PointsView points, const Function& function) {
+Points each(PointsView points, const Context& context, const Function& function) {
   Points out(points.size(), 3);
-  for (Index i = 0; i < points.size(); ++i) out.row(i) = function(points[i]).transpose();
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) out.row(i) = function(points[i]).transpose();
+  });
   return out;
 }
 
@@ -19,17 +26,19 @@ Points each(PointsView points, const Function& function) {
 
 Vector3 Mirror::no_point() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
-Points Mirror::reflect(PointsView points) const {
-  return each(points, [this](const Vector3& x) { return reflect(x); });
+Points Mirror::reflect(PointsView points, const Context& context) const {
+  return each(points, context, [this](const Vector3& x) { return reflect(x); });
 }
 
-Points Mirror::project(PointsView points) const {
-  return each(points, [this](const Vector3& x) { return foot(x); });
+Points Mirror::project(PointsView points, const Context& context) const {
+  return each(points, context, [this](const Vector3& x) { return foot(x); });
 }
 
-Eigen::VectorXd Mirror::signed_distance(PointsView points) const {
+Eigen::VectorXd Mirror::signed_distance(PointsView points, const Context& context) const {
   Eigen::VectorXd out(points.size());
-  for (Index i = 0; i < points.size(); ++i) out[i] = signed_distance(points[i]);
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) out[i] = signed_distance(points[i]);
+  });
   return out;
 }
 

@@ -40,6 +40,7 @@ double distance_past(const Vector3& gap, const Surfel& partner, double spacing) 
 
 MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)
     : cloud_(cloud),
+      context_(context),
       points_(cloud, tree, context),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
       fine_(cloud, 4 * coarse_size, context.stage(0.5, 1)) {
@@ -101,6 +102,7 @@ double MirrorScore::explained(const Mirror& mirror) const {
   std::vector<Moved> asked;
   std::vector<Vector3> images;
   for (const Sample& s : samples_) {
+    context_.check();
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
       moved += 1;
@@ -114,6 +116,7 @@ double MirrorScore::explained(const Mirror& mirror) const {
   }
   const std::vector<Vector3> partners = points_.nearest(images, reach * size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
+    context_.check();
     if (!partners[k].allFinite()) continue;
     const auto& [s, weight] = asked[k];
     const Vector3 x = cloud_.frame.leave(s->position), image = images[k];

@@ -66,6 +66,7 @@ class MirrorScore {
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   const Cloud& cloud_;
+  const Context context_;
   NearestPoints points_;
   Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet

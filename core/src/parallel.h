@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 #include <symsurf/types.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -10,9 +11,21 @@ namespace symsurf {
 
 /// Calls body(begin, end) on consecutive chunks of `grain` items. The chunks do not depend on the
 /// number of threads, so neither do results made chunk by chunk. Reports and cancels through the
-/// context, on the calling thread; an exception of the body is rethrown here.
+/// context, on the calling thread, after each of its chunks: a body that takes long calls
+/// Context::check() as well. An exception of the body is rethrown here.
 void parallel_for(const Context& context, Index count, Index grain,
                   const std::function<void(Index begin, Index end)>& body);
+
+/// Calls body(i) for i of 0 up to count in turn, asking on the way whether to go on. On any thread.
+template <typename Body>
+void interruptible_for(const Context& context, Index count, const Body& body) {
+  constexpr Index stretch = 1 << 14;
+  for (Index begin = 0; begin < count; begin += stretch) {
+    context.check();
+    const Index end = begin + std::min(stretch, count - begin);
+    for (Index i = begin; i < end; ++i) body(i);
+  }
+}
 
 /// Joins body(begin, end) of all chunks in their order: the same bits for any number of threads.
 template <typename T, typename Body>

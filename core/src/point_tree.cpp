@@ -178,33 +178,34 @@ PointTree::PointTree(PointsView points, const Context& context) {
   const Vector3 low = matrix.colwise().minCoeff(), high = matrix.colwise().maxCoeff();
   origin_ = (low + high) / 2;
   reach_ = static_cast<float>((high - low).maxCoeff());
-  sort(points);
+  sort(points, context);
   context.report(0.5);
 
   coordinates_.resize(3 * order_.size());
-  for (std::size_t p = 0; p < order_.size(); ++p)
+  interruptible_for(context, size(), [&](Index p) {
     Eigen::Map<Vector3>(coordinates_.data() + 3 * p) = points[order_[p]] - origin_;
-  stack_boxes();
+  });
+  stack_boxes(context);
 }
 
-void PointTree::sort(PointsView points) {
+void PointTree::sort(PointsView points, const Context& context) {
   const double cells = static_cast<double>(1 << bits_per_axis) - 1;
   const double scale = reach_ > 0 ? cells / static_cast<double>(reach_) : 0;
   const Vector3 to_cells = Vector3::Constant(cells / 2);
   std::vector<std::uint64_t> keys(points.size());
-  for (Index i = 0; i < points.size(); ++i) {
+  interruptible_for(context, points.size(), [&](Index i) {
     const Vector3 cell = (points[i] - origin_) * scale + to_cells;
     const auto at = [&](int axis) {
       return spread(static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, cells)));
     };
     keys[i] = at(0) << 2 | at(1) << 1 | at(2);
-  }
+  });
   order_.resize(keys.size());
   std::iota(order_.begin(), order_.end(), 0);
-  radix_sort(keys, order_);
+  radix_sort(keys, order_, context);
 }
 
-void PointTree::stack_boxes() {
+void PointTree::stack_boxes(const Context& context) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   Boxes nothing;
   for (int axis = 0; axis < 3; ++axis) {
@@ -215,7 +216,7 @@ void PointTree::stack_boxes() {
 
   Index boxes = groups(size());
   levels_.emplace_back(groups(boxes), nothing);
-  for (Index p = 0; p < size(); ++p) {
+  interruptible_for(context, size(), [&](Index p) {
     const Index box = p / fan;
     Boxes& group = levels_[0][box / fan];
     for (int axis = 0; axis < 3; ++axis) {
@@ -225,7 +226,7 @@ void PointTree::stack_boxes() {
       low = std::min(low, x);
       high = std::max(high, x);
     }
-  }
+  });
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& below = levels_.back();
     std::vector<Boxes> level(groups(static_cast<Index>(below.size())), nothing);

@@ -78,8 +78,8 @@ class PointTree {
   static void measure_boxes(const Boxes* boxes, const float* low, const float* high, float slack,
                             float* squared);
 
-  void sort(PointsView points);
-  void stack_boxes();
+  void sort(PointsView points, const Context& context);
+  void stack_boxes(const Context& context);
 
   // Calls leaf(l) for every run l of `fan` points that may come nearer than sqrt(limit) to the box
   // low..high, near ones first; leaf may lower the limit as it goes.

@@ -1,6 +1,8 @@
 #include "shared_matching.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -101,7 +103,7 @@ void consult(const Communicator& processes, int other, const Box& box, const Own
 
 void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mirror& mirror,
                       double limit, const Context& context) {
-  const PointTree consumed = std::move(tree);
+  auto consumed = std::make_unique<const PointTree>(std::move(tree));
   const Communicator& processes = *context.communicator();
   const Index size = own.size();
   const Share share = share_of(context, size);
@@ -109,16 +111,19 @@ void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mi
   const std::vector<Index> sizes = concatenated(context, std::vector<Index>{size});
   const Index chunks = (*std::max_element(sizes.begin(), sizes.end()) + chunk - 1) / chunk;
 
-  std::vector<Index> partner(size, -1);
-  Points opposite(size, 3);
+  std::vector<Index> partner(size);
+  Eigen::VectorXd& residuals = result.residuals;
+  Points& surface_points = result.surface_points;
+  residuals.resize(size);
+  surface_points.resize(size, 3);
   for (Index c = 0; c < chunks; ++c) {
     const Context part = context.stage(static_cast<double>(c) / static_cast<double>(chunks),
                                        static_cast<double>(c + 1) / static_cast<double>(chunks));
-    const OwnPoints answering(own, consumed, share.first, part.stage(0, 0));
+    const OwnPoints answering(own, *consumed, share.first, part.stage(0, 0));
     const Index begin = std::min(size, c * chunk), end = std::min(size, begin + chunk);
     std::vector<Question> images;
     for (Index p = begin; p < end; ++p)
-      images.push_back({mirror.reflect(own[consumed.order()[p]]), limit * limit});
+      images.push_back({mirror.reflect(own[consumed->order()[p]]), limit * limit});
     std::vector<Partner> best = answering.answers(images);
     // Each round pairs the processes off: whoever is mine, I am his.
     for (int round = 0; round < processes.size(); ++round) {
@@ -127,21 +132,25 @@ void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mi
         consult(processes, other, boxes[other], answering, images, best);
     }
     for (Index p = begin; p < end; ++p) {
-      const Index row = consumed.order()[p];
-      partner[row] = best[p - begin].neighbour.index;
-      opposite.row(row) = best[p - begin].point.transpose();
+      const Index i = consumed->order()[p];
+      const auto& [opposite, neighbour] = best[p - begin];
+      partner[i] = neighbour.index;
+      residuals[i] = std::sqrt(neighbour.squared_distance);
+      surface_points.row(i) = (own[i] + opposite).transpose() / 2;
     }
   }
+  consumed.reset();
 
   const Index found = size - std::count(partner.begin(), partner.end(), -1);
   result.pairs.resize(found, 2);
-  result.residuals.resize(found);
-  result.surface_points.resize(found, 3);
   for (Index i = 0, row = 0; i < size; ++i) {
     if (partner[i] < 0) continue;
     result.pairs.row(row) << share.first + i, partner[i];
-    set_pair(result, row++, own[i], opposite.row(i), mirror);
+    residuals[row] = residuals[i];
+    surface_points.row(row++) = surface_points.row(i).eval();
   }
+  residuals.conservativeResize(found);
+  surface_points.conservativeResize(found, 3);
 }
 
 }  // namespace symsurf

@@ -2,9 +2,11 @@
 
 #include <symsurf/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <thread>
 
 namespace symsurf {
 
@@ -27,6 +29,7 @@ class Context {
   void report(double fraction) const;
 
   /// The same where there is no news: long loops call it, so that nobody waits for the next report.
+  /// On any thread; those that the calling thread has started stop with it.
   void check() const;
 
   /// The same context for a point set that processes share out; null, or one process: all of it is
@@ -40,8 +43,10 @@ class Context {
  private:
   using Clock = std::chrono::steady_clock;
   struct Report {
-    Clock::time_point time;
-    double fraction = 0;  // of the whole
+    std::atomic<std::thread::id> caller;
+    std::atomic<bool> cancelled = false;
+    Clock::time_point time;  // this and the fraction are the calling thread's
+    double fraction = 0;     // of the whole
   };
 
   bool is_due() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
 namespace symsurf {
@@ -12,7 +13,7 @@ namespace symsurf {
 /// From 128 on k grows by a 64th of the power of two below it, so that far outliers cost little,
 /// and no farther than 2^51 cells along the box's longest side: points nearer to each other are
 /// one, and fewer than `count` come out.
-/// Throws InvalidInput for no points or NaN, InvalidParameter for a count below 1.
-Points downsample(PointsView points, Index count);
+/// Throws InvalidInput for no points or NaN, InvalidParameter for a count below 1, and Cancelled.
+Points downsample(PointsView points, Index count, const Context& context = {});
 
 }  // namespace symsurf

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 #include <symsurf/value.h>
 
@@ -33,17 +34,18 @@ class Mirror {
 
   /// The image of x, NaN where it has none.
   Vector3 reflect(const Vector3& x) const { return has_image(x) ? image(x) : no_point(); }
-  Points reflect(PointsView points) const;
-  Points project(PointsView points) const;
-  Eigen::VectorXd signed_distance(PointsView points) const;
+  Points reflect(PointsView points, const Context& context = {}) const;
+  /// The feet. Throws Cancelled, as the others of many points do.
+  Points project(PointsView points, const Context& context = {}) const;
+  Eigen::VectorXd signed_distance(PointsView points, const Context& context = {}) const;
   // Eigen would make a Vector3 of Points as readily as a view of them.
   template <std::same_as<Points> Many>
-  Points reflect(const Many& points) const {
-    return reflect(PointsView(points));
+  Points reflect(const Many& points, const Context& context = {}) const {
+    return reflect(PointsView(points), context);
   }
   template <std::same_as<Points> Many>
-  Eigen::VectorXd signed_distance(const Many& points) const {
-    return signed_distance(PointsView(points));
+  Eigen::VectorXd signed_distance(const Many& points, const Context& context = {}) const {
+    return signed_distance(PointsView(points), context);
   }
 
   /// Triangles over the footprint of the object: the part of the mirror that lies between the

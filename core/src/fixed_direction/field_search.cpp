@@ -95,7 +95,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
       median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
   const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch);
   context.report(0.75);
-  return SheetRefinement(cloud, patches)(start.direction, start.scatter, rounds);
+  return SheetRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
 }
 
 }  // namespace symsurf

@@ -44,8 +44,9 @@ struct Frame {
 
 }  // namespace
 
-SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches)
-    : cloud_(cloud), patches_(patches), rims_(cloud), votes_(cloud, 1.5) {}
+SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches,
+                                 const Context& context)
+    : cloud_(cloud), patches_(patches), context_(context), rims_(cloud), votes_(cloud, 1.5) {}
 
 FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
   votes_.explained(direction, scatter);
@@ -74,6 +75,7 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
   std::vector<double> gaps;
   double moved = 0;
   for (Index i = 0; i < cloud_.size(); ++i) {
+    context_.check();
     const Vector3 x = cloud_.point(i);
     const double distance = field.signed_distance(x);
     if (std::abs(distance) * 2 < least_displacement * cloud_.spacing) continue;

@@ -13,7 +13,7 @@ namespace symsurf {
 /// known, what remains across tells where the direction should turn; where not, the rims do.
 class SheetRefinement {
  public:
-  SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches);
+  SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches, const Context& context);
 
   /// Starts from the surface that MidSheet votes for, where `scatter` (infinity: unknown) is that
   /// of partners across the direction.
@@ -31,6 +31,7 @@ class SheetRefinement {
 
   const WorkingCloud& cloud_;
   const SheetPatches& patches_;
+  const Context context_;
   SheetRims rims_;
   Vector3 start_ = Vector3::Zero();
   bool by_rims_ = false;  // no partners tell the direction

@@ -56,9 +56,9 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   PointTree tree(cloud.points, context.stage(0.7, 0.75));
   MirrorScore(cloud, tree, context.stage(0.75, 0.8)).fill(result);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 1));
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 0.9));
   drop_outlying_pairs(result, cloud.diagonal);
-  result.surface_points = result.mirror->project(result.surface_points);
+  result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 1));
   return result;
 }
 

@@ -114,9 +114,9 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   rest.points = unmet;
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
-  const PointTree tree(rest.points);
+  const PointTree tree(rest.points, context.stage(0.2, 0.2));
   const ParametricRefinement<UnitSphere> refinement(rest, tree, surfels, context.stage(0.8, 1));
-  const PartnerFit partner_fit(rest, tree, refinement.spacing());
+  const PartnerFit partner_fit(rest, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found;
   for (const SphereCandidate& candidate :
        promising_spheres(surfels, SurfelMap(surfels), cloud.seed, context.stage(0.2, 0.8))) {
@@ -134,7 +134,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
-  const PartnerFit partner_fit(cloud, tree, refinement.spacing());
+  const PartnerFit partner_fit(cloud, tree, refinement.spacing(), context);
   for (SphereCandidate& candidate : candidates) {
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);

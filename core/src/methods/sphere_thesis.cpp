@@ -55,7 +55,10 @@ class CandidateSpheres {
     parallel_for(context, points_.size(), grain, [&](Index begin, Index end) {
       Start& best = parts[begin / grain];
       for (Index i = begin; i < end; ++i)
-        for (Index j = i + 1; j < points_.size(); ++j) consider_pair(points_[i], points_[j], best);
+        for (Index j = i + 1; j < points_.size(); ++j) {
+          context.check();
+          consider_pair(points_[i], points_[j], best);
+        }
     });
     Start best;
     for (const Start& part : parts)
@@ -115,11 +118,11 @@ std::vector<double> tested_radii(double diagonal, const ParameterValues& values)
 Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
                          const Context& context) {
   const std::vector<double> radii = tested_radii(cloud.diagonal, values);
-  const Points simplified = downsample(cloud.points, values.integer("sample_size"));
+  const Points simplified = downsample(cloud.points, values.integer("sample_size"), context);
   const CandidateSpheres candidates(simplified, radii);
   const Start start = candidates.best(context.stage(0, 0.8));
 
-  PointTree tree(cloud.points);
+  PointTree tree(cloud.points, context.stage(0.8, 0.8));
   const double reach = support(cloud.points);
   const auto measure = [&](const Eigen::Vector4d& s) {
     constexpr Index grain = 1024;

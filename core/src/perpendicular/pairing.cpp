@@ -35,9 +35,10 @@ void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, 
   // Farther off there are only mere neighbours.
   const double limit = std::min(pair_distance, (sheet.exact ? 0.8 : 1.3) * searched.spacing);
   symsurf::add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
-                     context.stage(0.2, 1));
+                     context.stage(0.2, 0.7));
   drop_false_pairs(result, cloud.points.size(), sheet.exact);
-  if (!sheet.exact) result.surface_points = result.mirror->project(result.surface_points);
+  if (!sheet.exact)
+    result.surface_points = result.mirror->project(result.surface_points, context.stage(0.7, 1));
 }
 
 }  // namespace symsurf::perpendicular

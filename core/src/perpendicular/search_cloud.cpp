@@ -2,12 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
 
 #include "../quantile.h"
+#include "../radix_sort.h"
 
 namespace symsurf::perpendicular {
 
@@ -22,9 +24,9 @@ double spacing_from(double sixth_squared) {
 }
 
 // The spacing of a big cloud, from some of its points.
-double sampled_spacing(PointsView points) {
+double sampled_spacing(PointsView points, const Context& context) {
   constexpr Index samples = 500;
-  const PointTree tree(points);
+  const PointTree tree(points, context);
   const Index step = std::max<Index>(1, points.size() / samples);
   std::vector<double> spacings;
   std::vector<Neighbour> found;
@@ -38,12 +40,15 @@ double sampled_spacing(PointsView points) {
 
 // Every point that lies at least `radius` from those taken before it, starting far from the centre:
 // an order that turns with the object.
-std::vector<Index> spread_out(PointsView points, const Vector3& centre, double radius) {
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::vector<double> far(points.size());
-  for (Index i = 0; i < points.size(); ++i) far[i] = (points[i] - centre).squaredNorm();
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return far[a] > far[b]; });
+std::vector<Index> spread_out(PointsView points, const Vector3& centre, double radius,
+                              const Context& context) {
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  // Bits of doubles above 0 are in the doubles' order: the farthest has the lowest complement.
+  std::vector<std::uint64_t> nearness(points.size());
+  for (Index i = 0; i < points.size(); ++i)
+    nearness[i] = ~std::bit_cast<std::uint64_t>((points[i] - centre).squaredNorm());
+  radix_sort(nearness, order, context);
 
   const auto cell = [&](const Vector3& x) {
     return Eigen::Matrix<std::int64_t, 3, 1>(
@@ -55,6 +60,7 @@ std::vector<Index> spread_out(PointsView points, const Vector3& centre, double r
   std::unordered_multimap<std::int64_t, Index> grid;
   std::vector<Index> taken;
   for (const Index i : order) {
+    context.check();
     const auto c = cell(points[i]);
     bool free = true;
     for (int dx = -1; dx <= 1 && free; ++dx)
@@ -72,17 +78,18 @@ std::vector<Index> spread_out(PointsView points, const Vector3& centre, double r
   return taken;
 }
 
-std::vector<Index> chosen(PointsView points, const Vector3& centre, Index most) {
+std::vector<Index> chosen(PointsView points, const Vector3& centre, Index most,
+                          const Context& context) {
   std::vector<Index> all(points.size());
   std::iota(all.begin(), all.end(), Index{0});
   if (points.size() <= most) return all;
   // Points at random are 0.75 of a lattice's spacing apart when thinned to the same number.
-  double radius = 0.75 * sampled_spacing(points) *
+  double radius = 0.75 * sampled_spacing(points, context) *
                   std::sqrt(static_cast<double>(points.size()) / static_cast<double>(most));
-  std::vector<Index> taken = spread_out(points, centre, radius);
+  std::vector<Index> taken = spread_out(points, centre, radius, context);
   while (static_cast<Index>(taken.size()) > most + most / 4) {
     radius *= std::sqrt(static_cast<double>(taken.size()) / static_cast<double>(most));
-    taken = spread_out(points, centre, radius);
+    taken = spread_out(points, centre, radius, context);
   }
   return taken;
 }
@@ -149,9 +156,9 @@ SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& c
     : context(context),
       centroid(cloud.points.matrix().colwise().mean()),
       diagonal(cloud.diagonal),
-      source(chosen(cloud.points, centroid, most_points)),
+      source(chosen(cloud.points, centroid, most_points, context.stage(0, 0.1))),
       points(unit_frame(cloud.points, source, centroid, diagonal)),
-      tree(points, context.stage(0, 0.2)) {
+      tree(points, context.stage(0.1, 0.2)) {
   measure();
   given_normals_ = !cloud.normals.empty();
   for (Index i = 0; given_normals_ && i < size(); ++i)

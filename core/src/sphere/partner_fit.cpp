@@ -33,8 +33,9 @@ double beyond_chance(double share) { return (share - by_chance) / (1 - by_chance
 
 }  // namespace
 
-PartnerFit::PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing)
-    : cloud_(cloud), tree_(tree), spacing_(spacing) {}
+PartnerFit::PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing,
+                       const Context& context)
+    : cloud_(cloud), tree_(tree), spacing_(spacing), context_(context) {}
 
 SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
   SphereCandidate best = start;
@@ -99,6 +100,7 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   };
   // Images that a mirror flings apart are no block.
   const auto ask = [&] {
+    context_.check();
     for (Index i = 0; i < PointTree::block; ++i)
       queries.col(i) = cloud_.frame.leave(images[std::min(i, waits - 1)]);
     const Vector3 spread = queries.rowwise().maxCoeff() - queries.rowwise().minCoeff();
@@ -140,6 +142,7 @@ Points PartnerFit::unmet(const UnitSphere& sphere) const {
   Points rest(cloud_.points.size(), 3);
   Index count = 0;
   for (const std::int32_t i : tree_.order()) {
+    context_.check();
     const Vector3 image = sphere.reflect(cloud_.frame.enter(cloud_.points[i]));
     if (image.allFinite() && tree_.nearest(cloud_.frame.leave(image), reach * reach).index >= 0)
       continue;

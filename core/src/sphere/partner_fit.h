@@ -16,7 +16,7 @@ namespace symsurf {
 class PartnerFit {
  public:
   /// The spacing of the points, in the principal frame.
-  PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing);
+  PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing, const Context& context);
 
   /// The candidate on its partners, `partnered` the share that have met them beyond chance; as it
   /// was where points have no partners.
@@ -55,6 +55,7 @@ class PartnerFit {
   const Cloud& cloud_;
   const PointTree& tree_;
   double spacing_;
+  const Context context_;
 };
 
 }  // namespace symsurf

@@ -64,18 +64,18 @@ SYMSURF_VECTORISED void bound_from_line(const BoxTree::Boxes* boxes, const AxisA
 /// Points sorted so that the nearest to a line is found by branch and bound over boxes.
 class LineSearch {
  public:
-  explicit LineSearch(PointsView points)
+  LineSearch(PointsView points, const Context& context)
       : centre_((points.matrix().colwise().minCoeff() + points.matrix().colwise().maxCoeff()) / 2),
         runs_((points.size() + fan - 1) / fan) {
     std::vector<Vector3> places(points.size());
     for (Index i = 0; i < points.size(); ++i) places[i] = points[i] - centre_;
-    indices_ = z_order(places);
-    for (Index p = 0; p < points.size(); ++p) {
+    indices_ = z_order(places, context);
+    interruptible_for(context, points.size(), [&](Index p) {
       const Vector3 x = points[indices_[p]];
       places[p] = x - centre_;
       for (int axis = 0; axis < 3; ++axis) runs_[p / fan][axis * fan + p % fan] = x[axis];
-    }
-    boxes_.emplace(places, indices_);
+    });
+    boxes_.emplace(places, indices_, context);
   }
 
   const std::vector<std::int32_t>& order() const { return indices_; }
@@ -135,7 +135,7 @@ class LineSearch {
 
 Result pairs_along_normals(PointsView points, PointsView normals, const Context& context) {
   constexpr Index grain = 1024;
-  const LineSearch search(points);
+  const LineSearch search(points, context);
   Result result;
   result.pairs.resize(points.size(), 2);
   result.residuals.resize(points.size());

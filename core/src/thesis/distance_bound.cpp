@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "../parallel.h"
+
 namespace symsurf {
 
 namespace {
@@ -41,7 +43,8 @@ void transform(std::vector<float>& f, std::vector<int>& vertex, std::vector<floa
 
 }  // namespace
 
-DistanceBound::DistanceBound(PointsView points) : low_(points.matrix().colwise().minCoeff()) {
+DistanceBound::DistanceBound(PointsView points, const Context& context)
+    : low_(points.matrix().colwise().minCoeff()) {
   const Vector3 extent = Vector3(points.matrix().colwise().maxCoeff()) - low_;
   const double thickness = 1e-2 * extent.maxCoeff();
   const double volume = extent.cwiseMax(thickness).prod();
@@ -49,8 +52,9 @@ DistanceBound::DistanceBound(PointsView points) : low_(points.matrix().colwise()
   size_ = (extent / cell_).array().cast<int>() + 1;
 
   bound_.assign(static_cast<std::size_t>(size_.cast<Index>().prod()), far);
-  for (Index i = 0; i < points.size(); ++i)
+  interruptible_for(context, points.size(), [&](Index i) {
     bound_[index(((points[i] - low_) / cell_).array().cast<int>().min(size_ - 1))] = 0;
+  });
 
   const std::array<Index, 3> stride{static_cast<Index>(size_.y()) * size_.z(), size_.z(), 1};
   const int longest = size_.maxCoeff();
@@ -61,6 +65,7 @@ DistanceBound::DistanceBound(PointsView points) : low_(points.matrix().colwise()
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     for (int i = 0; i < size_[a]; ++i)
       for (int j = 0; j < size_[b]; ++j) {
+        context.check();
         float* start = &bound_[i * stride[a] + j * stride[b]];
         for (int k = 0; k < size_[axis]; ++k) line[k] = start[k * stride[axis]];
         transform(line, vertex, border, out);

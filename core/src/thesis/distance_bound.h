@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
 #include <vector>
@@ -11,7 +12,7 @@ namespace symsurf {
 /// "Distance transforms of sampled functions", 2012). About two cells a point.
 class DistanceBound {
  public:
-  explicit DistanceBound(PointsView points);
+  DistanceBound(PointsView points, const Context& context);
 
   /// Of a place inside the cloud's bounding box.
   double operator()(const Vector3& x) const {

@@ -66,8 +66,8 @@ class NormalSearch {
  public:
   template <typename Belongs>
   NormalSearch(PointsView normals, const std::vector<std::int32_t>& order, bool as_lines,
-               const Belongs& belongs)
-      : NormalSearch(normals, chosen(order, belongs), as_lines) {}
+               const Context& context, const Belongs& belongs)
+      : NormalSearch(normals, chosen(order, belongs), as_lines, context) {}
 
   /// The k most parallel, best first, without the point `itself`. `near` is a guess at the place
   /// of the best, and becomes it.
@@ -105,14 +105,16 @@ class NormalSearch {
   }
 
  private:
-  NormalSearch(PointsView normals, std::vector<std::int32_t> indices, bool as_lines)
+  NormalSearch(PointsView normals, std::vector<std::int32_t> indices, bool as_lines,
+               const Context& context)
       : as_lines_(as_lines),
         indices_(std::move(indices)),
         runs_((indices_.size() + fan - 1) / fan),
-        boxes_(places(normals, indices_), indices_) {
-    for (std::size_t p = 0; p < indices_.size(); ++p)
+        boxes_(places(normals, indices_), indices_, context) {
+    interruptible_for(context, static_cast<Index>(indices_.size()), [&](Index p) {
       for (int axis = 0; axis < 3; ++axis)
         runs_[p / fan][axis * fan + p % fan] = normals[indices_[p]][axis];
+    });
   }
 
   template <typename Belongs>
@@ -134,10 +136,10 @@ class NormalSearch {
   BoxTree boxes_;
 };
 
-std::vector<std::int32_t> curve_order(PointsView normals) {
+std::vector<std::int32_t> curve_order(PointsView normals, const Context& context) {
   std::vector<Vector3> places(normals.size());
   for (Index i = 0; i < normals.size(); ++i) places[i] = normals[i];
-  return z_order(places);
+  return z_order(places, context);
 }
 
 }  // namespace
@@ -146,11 +148,13 @@ ParallelNormals::ParallelNormals(PointsView points, PointsView normals, bool as_
                                  const Context& context)
     : points_(points),
       normals_(normals),
+      context_(context),
       as_lines_(as_lines),
-      order_(curve_order(normals)),
+      order_(curve_order(normals, context)),
       most_parallel_(order_.size() * listed, -1) {
   constexpr Index grain = 2048;
-  const NormalSearch search(normals_, order_, as_lines_, [](std::int32_t) { return true; });
+  const NormalSearch search(normals_, order_, as_lines_, context,
+                            [](std::int32_t) { return true; });
   parallel_for(context, static_cast<Index>(order_.size()), grain, [&](Index begin, Index end) {
     std::vector<Parallel> found;
     Index near = begin;
@@ -168,20 +172,20 @@ double ParallelNormals::projection_error(const Separation& separation) const {
     partner[separation.upper[k]] = separation.partner[k];
 
   const auto is_lower = [&](std::int32_t i) { return !separation.is_upper[i]; };
-  const NormalSearch lower(normals_, order_, as_lines_, is_lower);
+  const NormalSearch lower(normals_, order_, as_lines_, context_, is_lower);
   double sum = 0;
   std::vector<Parallel> found;
   Index near = 0;
-  for (std::size_t p = 0; p < order_.size(); ++p) {
+  interruptible_for(context_, static_cast<Index>(order_.size()), [&](Index p) {
     const std::int32_t i = order_[p];
-    if (partner[i] < 0) continue;
-    const auto begin = most_parallel_.begin() + static_cast<Index>(p) * listed;
+    if (partner[i] < 0) return;
+    const auto begin = most_parallel_.begin() + p * listed;
     const auto q =
         std::find_if(begin, begin + listed, [&](std::int32_t j) { return j < 0 || is_lower(j); });
     const bool is_listed = q != begin + listed && *q >= 0;
     if (!is_listed) lower.most_parallel(normals_[i], 1, i, near, found);
     sum += (points_[partner[i]] - points_[is_listed ? *q : found.front().index]).squaredNorm();
-  }
+  });
   return sum / static_cast<double>(separation.upper.size());
 }
 

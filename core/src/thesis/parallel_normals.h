@@ -23,6 +23,7 @@ class ParallelNormals {
 
  private:
   PointsView points_, normals_;
+  const Context context_;
   bool as_lines_;
   std::vector<std::int32_t> order_;          // of the normals along the Z-order curve
   std::vector<std::int32_t> most_parallel_;  // of each point, in order_; -1: no more

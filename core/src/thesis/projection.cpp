@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../parallel.h"
 #include "../radix_sort.h"
 
 namespace symsurf {
@@ -58,20 +59,22 @@ struct Place {
 
 // In the order of strips, and along each; ties as given.
 std::vector<std::int32_t> sort(PointsView points, const std::vector<std::int32_t>& chosen,
-                               const Strips& strips, std::vector<Place>& places) {
+                               const Strips& strips, std::vector<Place>& places,
+                               const Context& context) {
   std::vector<Place> unsorted(chosen.size());
   std::vector<std::uint64_t> keys(chosen.size());
   std::vector<std::int32_t> order(chosen.size());
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
+  const auto count = static_cast<Index>(chosen.size());
+  interruptible_for(context, count, [&](Index k) {
     const Vector3 w = points[chosen[k]] - strips.origin;
     const Place place{strips.e1.dot(w), strips.e2.dot(w), chosen[k]};
     unsorted[k] = place;
     keys[k] = static_cast<std::uint64_t>(strips.strip(place.v)) << key_bits | strips.along(place.u);
     order[k] = static_cast<std::int32_t>(k);
-  }
-  radix_sort(keys, order);
+  });
+  radix_sort(keys, order, context);
   places.resize(chosen.size());
-  for (std::size_t k = 0; k < chosen.size(); ++k) places[k] = unsorted[order[k]];
+  interruptible_for(context, count, [&](Index k) { places[k] = unsorted[order[k]]; });
   return order;
 }
 
@@ -164,21 +167,22 @@ class Sweep {
 }  // namespace
 
 LinePartners nearest_to_lines(PointsView points, const std::vector<std::int32_t>& queries,
-                              const std::vector<std::int32_t>& targets, const Vector3& direction) {
+                              const std::vector<std::int32_t>& targets, const Vector3& direction,
+                              const Context& context) {
   const Strips strips(points, targets, direction);
   std::vector<Place> target_places, query_places;
-  sort(points, targets, strips, target_places);
-  const std::vector<std::int32_t> order = sort(points, queries, strips, query_places);
+  sort(points, targets, strips, target_places, context);
+  const std::vector<std::int32_t> order = sort(points, queries, strips, query_places, context);
 
   LinePartners found;
   found.target.resize(queries.size());
   found.squared.resize(queries.size());
   Sweep sweep(points, direction, strips, target_places);
-  for (std::size_t k = 0; k < queries.size(); ++k) {
+  interruptible_for(context, static_cast<Index>(queries.size()), [&](Index k) {
     sweep.nearest(query_places[k]);
     found.target[order[k]] = sweep.index();
     found.squared[order[k]] = sweep.squared();
-  }
+  });
   return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct LinePartners {
   std::vector<double> squared;
 };
 LinePartners nearest_to_lines(PointsView points, const std::vector<std::int32_t>& queries,
-                              const std::vector<std::int32_t>& targets, const Vector3& direction);
+                              const std::vector<std::int32_t>& targets, const Vector3& direction,
+                              const Context& context);
 
 }  // namespace symsurf

@@ -7,8 +7,12 @@
 
 namespace symsurf {
 
-Separator::Separator(PointsView points, const PointTree& tree)
-    : points_(points), tree_(tree), distance_bound_(points), centroid_(Vector3::Zero()) {
+Separator::Separator(PointsView points, const PointTree& tree, const Context& context)
+    : points_(points),
+      tree_(tree),
+      context_(context),
+      distance_bound_(points, context),
+      centroid_(Vector3::Zero()) {
   for (Index i = 0; i < points.size(); ++i) centroid_ += points[i];
   centroid_ /= static_cast<double>(points.size());
 }
@@ -26,7 +30,7 @@ Separation Separator::operator()(const Vector3& normal) const {
   result.lower = static_cast<Index>(lower.size());
   if (result.upper.empty() || lower.empty()) return result;
 
-  LinePartners partners = nearest_to_lines(points_, result.upper, lower, normal);
+  LinePartners partners = nearest_to_lines(points_, result.upper, lower, normal, context_);
   result.partner = std::move(partners.target);
   result.squared = std::move(partners.squared);
   return result;
@@ -50,6 +54,7 @@ double Separator::clearance(const Separation& separation) const {
   PointTree::Queries waiting;
   int waits = 0;
   const auto search = [&] {
+    context_.check();
     const double reach = shortest + std::min(shortest, distance_bound_.cell());
     const auto found = tree_.nearest(waiting, reach * reach, near);
     anchor = waiting.col(waits - 1);

@@ -26,7 +26,8 @@ struct Separation {
 /// to a line along v is nearest in the projection along v.
 class Separator {
  public:
-  Separator(PointsView points, const PointTree& tree);
+  /// `context` is asked on any thread whether to go on.
+  Separator(PointsView points, const PointTree& tree, const Context& context);
 
   /// Without partners where one side is empty.
   Separation operator()(const Vector3& normal) const;
@@ -37,6 +38,7 @@ class Separator {
  private:
   PointsView points_;
   const PointTree& tree_;
+  const Context context_;
   DistanceBound distance_bound_;
   Vector3 centroid_;
 };

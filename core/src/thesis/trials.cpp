@@ -54,7 +54,7 @@ Result best_separation(const Cloud& cloud, Index steps,
                        const Context& context) {
   const std::vector<Vector3> directions = half_sphere(steps);
   const PointTree tree(cloud.points, context.stage(0, 0.02));
-  const Separator separate(cloud.points, tree);
+  const Separator separate(cloud.points, tree, context);
 
   std::vector<Trial> trials(directions.size());
   const auto count = static_cast<Index>(directions.size());
