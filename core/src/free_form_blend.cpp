@@ -73,7 +73,7 @@ bool FreeForm::Blend::value(const Vector3& x, double& value, Vector3& gradient) 
 // agree: steps are a little off, their limit is not.
 bool FreeForm::Blend::descend(const Vector3& x, double precision, Vector3& y,
                               Vector3& normal) const {
-  constexpr int most_steps = 30;
+  const int most_steps = precision < 1e-6 ? 30 : 10;
   const double longest = 0.5 * reach_, enough = precision * (reach_ + (x - y).norm());
   Jet here;
   double lambda = 0;

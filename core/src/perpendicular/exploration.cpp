@@ -70,9 +70,10 @@ std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& se
   return growths;
 }
 
-std::vector<Sheet> explore(const SearchCloud& cloud, std::vector<Growth> trials, double best,
-                           const Context& context) {
-  std::vector<Sheet> sheets;
+void explore(const SearchCloud& cloud, std::vector<Growth> trials, std::vector<Sheet>& sheets,
+             const Context& context) {
+  double best = 0;
+  for (const Sheet& sheet : sheets) best = std::max(best, sheet.explained);
   std::size_t grown = 0;
   for (Growth& growth : trials) {
     context.report(static_cast<double>(grown) / most_sheets);
@@ -94,7 +95,6 @@ std::vector<Sheet> explore(const SearchCloud& cloud, std::vector<Growth> trials,
     sheets.push_back(std::move(sheet));
     if (enough) break;
   }
-  return sheets;
 }
 
 }  // namespace symsurf::perpendicular

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "../vectorised.h"
+
 namespace symsurf::perpendicular {
 
 namespace {
@@ -17,6 +19,27 @@ struct Equation {
   Vector3 right;
   double weight = 0;
 };
+
+// What an equation adds to the normal equations at weight 1: the lower triangle, row by row, the
+// right side, and a zero to fill the vector.
+using Products = std::array<double, 28>;
+
+Products products_of(const Equation& q) {
+  Products products{};
+  auto* next = products.data();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j, ++next)
+      for (const Row& row : q.rows) *next += row[i] * row[j];
+  for (int i = 0; i < 6; ++i, ++next)
+    for (int a = 0; a < 3; ++a) *next += q.right[a] * q.rows[a][i];
+  return products;
+}
+
+SYMSURF_VECTORISED void add_weighted(const double* products, const double* weights,
+                                     std::size_t count, double* __restrict sum) {
+  for (std::size_t e = 0; e < count; ++e)
+    for (std::size_t k = 0; k < 28; ++k) sum[k] += weights[e] * products[28 * e + k];
+}
 
 double tukey(double residual, double scale) {
   const double u = residual / (4.7 * scale);
@@ -52,7 +75,10 @@ bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<C
   const double unit = weights.radius;  // coordinates in units of the radius: well scaled
 
   static thread_local std::vector<Equation> equations;
+  static thread_local std::vector<Products> products;
+  static thread_local std::vector<double> trusted;
   equations.clear();
+  products.clear();
   double total = 0;
   for (const Carried& c : data) {
     const Vector3 at = patch.frame * (c.foot - centre), n = patch.frame * c.normal;
@@ -89,6 +115,7 @@ bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<C
       q.rows[a] = metric(a, 0) * shift[0] + metric(a, 1) * shift[1] + metric(a, 2) * shift[2];
     q.right = metric * right;
     equations.push_back(q);
+    products.push_back(products_of(q));
   }
   if (equations.size() < 3) return false;
 
@@ -112,17 +139,16 @@ bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<C
       std::nth_element(sorted.begin(), middle, sorted.end());
       scale = std::max(weights.robust_scale, 1.5 * *middle);
     }
-    Normal matrix = Normal::Zero();
-    Row right = Row::Zero();
-    for (std::size_t e = 0; e < equations.size(); ++e) {
-      const Equation& q = equations[e];
-      const double weight = pass > 0 ? q.weight * tukey(misses[e], scale) : q.weight;
-      if (weight == 0) continue;
-      for (int a = 0; a < 3; ++a) {
-        matrix.selfadjointView<Eigen::Lower>().rankUpdate(q.rows[a], weight);
-        right += weight * q.right[a] * q.rows[a];
-      }
-    }
+    trusted.resize(equations.size());
+    for (std::size_t e = 0; e < equations.size(); ++e)
+      trusted[e] = equations[e].weight * (pass > 0 ? tukey(misses[e], scale) : 1);
+    Products sum{};
+    add_weighted(products.front().data(), trusted.data(), products.size(), sum.data());
+    Normal matrix;
+    const double* at = sum.data();
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j, ++at) matrix(i, j) = matrix(j, i) = *at;
+    const Row right = Row::Map(at);
     // Little data: prefer flat to wild.
     for (int k = 3; k < 6; ++k)
       matrix(k, k) += 1e-3 * total / static_cast<double>(equations.size());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double exact_miss = 0.25;  // spacings, in the median
 constexpr double flat_enough = 0.995;
-constexpr double foot_precision = 1e-9;
+constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
 
 struct Smoothing {
   Index neighbours;  // data a patch is fitted to
@@ -137,10 +137,11 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
                           fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!sheet.mirror) return;
     const FreeForm& mirror = *sheet.mirror;
+    const double precision = sheet.exact ? exact_foot_precision : foot_precision;
     match(
         cloud,
         [&](const Vector3& x, Vector3& foot, Vector3& normal) {
-          return mirror.foot(x, foot_precision, foot, normal);
+          return mirror.foot(x, precision, foot, normal);
         },
         sheet.exact ? 0.8 : 1.3, sheet);
     if (sheet.carried.size() < 6) {
@@ -148,7 +149,7 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
       return;
     }
     sheet.explained = explained(cloud, sheet);
-    if (round > 2 && sheet.carried.size() <= matched + matched / 200) return;
+    if (round > 1 && sheet.carried.size() <= matched + matched / 200) return;
     matched = sheet.carried.size();
   }
 }

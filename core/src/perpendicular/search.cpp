@@ -1,6 +1,7 @@
 #include "search.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "assembly.h"
 #include "exploration.h"
@@ -37,11 +38,8 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
     search.cloud.smooth();
     begun = begin(search.cloud, cloud.seed, context.stage(0.4, 0.6));
   }
-  search.sheets = explore(search.cloud, std::move(begun.along), 0, context.stage(0.6, 0.7));
-  double best = 0;
-  for (const Sheet& sheet : search.sheets) best = std::max(best, sheet.explained);
-  for (Sheet& sheet : explore(search.cloud, std::move(begun.across), best, context.stage(0.7, 0.8)))
-    search.sheets.push_back(std::move(sheet));
+  explore(search.cloud, std::move(begun.along), search.sheets, context.stage(0.6, 0.7));
+  explore(search.cloud, std::move(begun.across), search.sheets, context.stage(0.7, 0.8));
   search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.8, 1));
   return search;
 }
