@@ -18,7 +18,8 @@ template <typename Fill>
 vtkNew<vtkCellArray> cells_of(vtkIdType count, int corners, const Fill& fill) {
   vtkNew<vtkTypeInt64Array> offsets, connectivity;
   offsets->SetNumberOfValues(count + 1);
-  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, i * corners);
+  vtkTypeInt64* offset = offsets->GetPointer(0);
+  for (vtkIdType i = 0; i <= count; ++i) offset[i] = i * corners;
   connectivity->SetNumberOfValues(count * corners);
   fill(connectivity->GetPointer(0));
   vtkNew<vtkCellArray> cells;

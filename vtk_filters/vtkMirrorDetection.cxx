@@ -72,8 +72,9 @@ vtkNew<vtkSignedCharArray> sides_of(symsurf::PointsView points, const symsurf::R
   auto sides = filled<vtkSignedCharArray>("MirrorSide", points.size(), 0);
   if (!result.mirror) return sides;
   const Eigen::VectorXd distances = result.mirror->signed_distance(points, context);
-  for (symsurf::Index i = 0; i < points.size(); ++i)
-    sides->SetValue(i, static_cast<signed char>((distances[i] > 0) - (distances[i] < 0)));
+  std::transform(distances.begin(), distances.end(), sides->GetPointer(0), [](double distance) {
+    return static_cast<signed char>((distance > 0) - (distance < 0));
+  });
   return sides;
 }
 
@@ -83,10 +84,12 @@ void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCha
   const auto partners = filled<vtkIdTypeArray>("MirrorPartner", count, -1);
   const auto residuals =
       filled<vtkDoubleArray>("MirrorResidual", count, std::numeric_limits<double>::quiet_NaN());
+  vtkIdType* partner = partners->GetPointer(0);
+  double* residual = residuals->GetPointer(0);
   for (symsurf::Index row = 0; row < result.pairs.rows(); ++row) {
     const vtkIdType i = result.pairs(row, 0) - points_before;
-    partners->SetValue(i, result.pairs(row, 1));
-    residuals->SetValue(i, result.residuals[row]);
+    partner[i] = result.pairs(row, 1);
+    residual[i] = result.residuals[row];
   }
   vtkPointData* data = output->GetPointData();
   data->AddArray(partners);
