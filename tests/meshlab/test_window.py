@@ -1,7 +1,7 @@
 """MeshLab's own window on a virtual screen: the menu, the dialog and the result.
 
-Needs the MeshLab that `make meshlab-gui` builds. The pictures are left beside it, in `pictures`,
-to be looked at.
+Needs the MeshLab that `make test` and `make meshlab-gui` build. The pictures are left beside it, in
+`pictures`, to be looked at.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-import pymeshlab
 import pytest
 
+from airplane import bent_airplane, write_obj
 from conftest import BUILD, plugin_file
-from shapes import lump
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
 
@@ -68,11 +67,6 @@ class Window:
         self._xdotool("mousemove", x, y, "click", 1)
         time.sleep(1)
 
-    def drag(self, start: tuple[int, int], end: tuple[int, int]) -> None:
-        self._xdotool("mousemove", *start, "mousedown", 1)
-        self._xdotool("mousemove", *end, "mouseup", 1)
-        time.sleep(2)
-
     def press(self, *keys: str) -> None:
         self._xdotool("key", "--delay", 300, *keys)
 
@@ -110,19 +104,17 @@ def window(tmp_path):
     loaded = PROGRAM.parent / "plugins" / "filter_symsurf.so"
     loaded.unlink(missing_ok=True)
     shutil.copy(plugin_file("float"), loaded)
-    shape = lump(0, around=192, up=96)
-    mesh_set = pymeshlab.MeshSet()
-    mesh_set.add_mesh(pymeshlab.Mesh(shape.points, shape.faces))
-    mesh_set.save_current_mesh(str(tmp_path / "lump.ply"))
-    opened = Window(tmp_path, tmp_path / "lump.ply")
+    opened = Window(tmp_path, write_obj(tmp_path / "airplane.obj", *bent_airplane()))
     yield opened
     opened.close()
 
 
-def reds(picture: np.ndarray) -> int:
-    """Pixels in the 3D view of the colour that MeshLab's ramp gives to a quality of 0."""
+def pixels(picture: np.ndarray, strong: int) -> int:
+    """How many in the 3D view have one colour and next to nothing of the others. MeshLab's ramp
+    runs from red (0), no residual, over green (1) to blue, the largest."""
     view = picture[95:660, 5:800]
-    return int(np.sum((view[..., 0] > 100) & (view[..., 1:] < 40).all(axis=-1)))
+    others = np.delete(view, strong, axis=-1)
+    return int(np.sum((view[..., strong] > 100) & (others < 40).all(axis=-1)))
 
 
 def place_in_submenu(title: str) -> tuple[int, int]:
@@ -143,9 +135,9 @@ def test_menu_dialog_and_result(window):
     window.click(*apply)
     log = window.wait_for_log("Applied filter: Mirror plane")
     window.click(*close)
-    window.drag((300, 500), (480, 420))
     after = window.picture("result")
     assert window.alive()
-    assert float(re.search(r"Mirror plane: score: (\S+)", log)[1]) > 0.9
-    # Exact symmetry: no residual anywhere.
-    assert reds(before) == 0 and reds(after) > 10000
+    assert float(re.search(r"Mirror plane: score: (\S+)", log)[1]) > 0.7
+    # The body is as good as exact, the wings are not.
+    assert pixels(before, 0) == pixels(before, 1) == 0
+    assert pixels(after, 0) > 5000 and pixels(after, 1) > 500
