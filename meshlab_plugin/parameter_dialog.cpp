@@ -54,6 +54,7 @@ double shortest_decimal(double given, double unit) {
   // Percentages pass through three roundings to float.
   const double tolerance = 1.5 * std::numeric_limits<float>::epsilon() * std::abs(given);
   const double exact = given / unit;
+  if (!std::isfinite(exact)) return exact;
   for (int digits = 1; digits <= std::numeric_limits<float>::digits10; ++digits) {
     std::stringstream text;
     text.imbue(std::locale::classic());

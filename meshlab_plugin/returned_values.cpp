@@ -37,6 +37,19 @@ QVariant square(const Eigen::MatrixXd& m) {
   return QVariant::fromValue(out);
 }
 
+// Matrices small enough to be read are written out.
+std::string logged(const Value& value) {
+  const auto* matrix = std::get_if<Eigen::MatrixXd>(&value);
+  if (!matrix || matrix->size() > 16) return to_string(value);
+  std::string text;
+  for (const auto& row : matrix->rowwise()) {
+    text += text.empty() ? "(" : "; ";
+    for (Index i = 0; i < row.size(); ++i)
+      text += (i > 0 ? ", " : "") + to_string(Value(static_cast<double>(row[i])));
+  }
+  return text + ")";
+}
+
 struct ToVariant {
   std::optional<QVariant> operator()(bool v) const { return QVariant(v); }
   std::optional<QVariant> operator()(Index v) const {
@@ -72,7 +85,7 @@ std::map<std::string, QVariant> returned_values(const Result& result) {
 
 std::vector<std::string> logged_values(const Result& result) {
   std::vector<std::string> lines;
-  for (const auto& [name, value] : figures(result)) lines.push_back(name + ": " + to_string(value));
+  for (const auto& [name, value] : figures(result)) lines.push_back(name + ": " + logged(value));
   return lines;
 }
 

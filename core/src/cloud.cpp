@@ -11,6 +11,9 @@ namespace {
 // A cloud thinner than this, against its length, is a line.
 constexpr double line_thinness = 1e-8;
 
+// Fourth powers of lengths are computed with, and must be numbers.
+constexpr double least_extent = 1e-50, greatest_extent = 1e50;
+
 }  // namespace
 
 void require_count(Index given, Index needed) {
@@ -26,6 +29,9 @@ void require_area(PointsView points, Index total) {
   Index longest;
   const double extent = (high - low).maxCoeff(&longest);
   if (!(extent > 0)) throw InvalidInput(all + "are equal");
+  if (extent < least_extent || extent > greatest_extent)
+    throw InvalidInput("the points extend over " + to_string(Value(extent)) + "; allowed is " +
+                       to_string(Value(least_extent)) + " to " + to_string(Value(greatest_extent)));
   Index first, last;
   points.matrix().col(longest).minCoeff(&first);
   points.matrix().col(longest).maxCoeff(&last);

@@ -17,8 +17,8 @@ void require_finite(PointsView rows, const char* what, Index first = 0);
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);
 
-/// Throws InvalidInput where all points are equal or lie on one line; `total`: how many they stand
-/// for.
+/// Throws InvalidInput where all points are equal, lie on one line, or extend less than 1e-50 or
+/// more than 1e50; `total`: how many they stand for.
 void require_area(PointsView points, Index total);
 
 }  // namespace symsurf

@@ -62,6 +62,15 @@ TEST(BadInput, AllOnOneLine) {
   }
 }
 
+TEST(BadInput, BeyondWhatNumbersHold) {
+  for (const double size : {1e-200, 1e-60, 1e60, 1e200})
+    expect_refused("allowed is 1e-50 to 1e+50", size * RandomCloud(0).box(50));
+  const Points points = RandomCloud(0).box(50);
+  const double score = detect(points, {.method = "plane"}).score;
+  for (const double size : {std::ldexp(1, -160), std::ldexp(1, 160)})
+    EXPECT_NEAR(detect(Points(size * points), {.method = "plane"}).score, score, 1e-9);
+}
+
 TEST(BadInput, AlmostOnOneLineIsNoError) {
   Points points = line({0, 0, 0}, {1, 0, 0}, 20);
   points.col(1) = 1e-5 * RandomCloud(0).box(20).col(1);

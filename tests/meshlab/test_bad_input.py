@@ -61,6 +61,8 @@ LAYERS = {
     "not a number": (with_number(np.nan), "point 17 is .*nan.*; coordinates must be finite"),
     "infinity": (with_number(-np.inf), "point 17 is .*inf.*; coordinates must be finite"),
     "all equal": (np.ones((100, 3)), "all 100 points are equal"),
+    "huge": (1e200 * cloud().points, "extend over .*; allowed is"),
+    "tiny": (1e-200 * cloud().points, "extend over .*; allowed is"),
     "on a line": (np.outer(np.arange(100), (1, 2, 3)), "all 100 points lie on one line"),
 }
 
@@ -90,12 +92,12 @@ def numbers_out_of_range():
         for p in method.parameters:
             if p.type not in ("integer", "real"):
                 continue
-            for value in (p.minimum - 1, p.maximum + 1):
-                if math.isfinite(value) and abs(value) < 2**31:
-                    yield pytest.param(method.name, p, value, id=f"{method.name}-{p.name}-{value}")
+            outside = [v for v in (p.minimum - 1, p.maximum + 1) if abs(v) < 2**31]
+            for value in outside if p.type == "integer" else [*outside, math.inf, math.nan]:
+                yield pytest.param(method.name, p, value, id=f"{method.name}-{p.name}-{value}")
 
 
-@pytest.mark.parametrize(("method", "p", "value"), numbers_out_of_range())
+@pytest.mark.parametrize(("method", "p", "value"), list(numbers_out_of_range()))
 def test_numbers_out_of_range(method, p, value):
     shape = cloud()
     if p.type == "integer":
@@ -111,7 +113,7 @@ def choices():
         yield from ((method.name, p.name) for p in method.parameters if p.type == "choice")
 
 
-@pytest.mark.parametrize(("method", "name"), choices())
+@pytest.mark.parametrize(("method", "name"), list(choices()))
 def test_unknown_choice(method, name):
     filter_name = "compute_mirror_" + method
     assert_refused(cloud().mesh_set(), filter_name, "not-there", **{name: "not-there"})
