@@ -35,7 +35,7 @@ meshlab:
 
 # Sees the plugin in MeshLab's own window, which it builds; leaves build/meshlab-gui/pictures.
 meshlab-gui:
-	@.ci/setup meshlab_gui tests
+	@.ci/setup meshlab_gui python_tests
 	@build/venv/bin/python -m pytest tests/meshlab
 
 # What MeshLab costs, how long it takes to cancel, and its own plane detector beside ours.
