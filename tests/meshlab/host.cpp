@@ -39,7 +39,7 @@ void cancels_at_every_report(Run& run) {
   int reports = 1;
   for (int last = 0; last < reports; ++last) {
     MeshDocument document;
-    add_lump(document, 600);
+    add_lump(document, 300);
     const std::string before = state(document);
     int seen = 0;
     bool stopped = false;
@@ -59,7 +59,7 @@ void cancels_at_every_report(Run& run) {
 
 void survives_a_throwing_callback(Run& run) {
   MeshDocument document;
-  add_lump(document, 600);
+  add_lump(document, 300);
   const std::string before = state(document);
   on_progress = [](int) -> bool { throw std::runtime_error("the host's own trouble"); };
   const std::string message = run(document, progress_callback);
@@ -85,11 +85,11 @@ void refuses_what_is_not_there(Run& run) {
 // Deleted vertices count for nothing, and partners are numbered by vertex.
 void skips_deleted_vertices(Run& run) {
   MeshDocument whole, holes;
-  add_lump(whole, 500);
-  add_lump(holes, 1000);
+  add_lump(whole, 250);
+  add_lump(holes, 500);
   CMeshO& full = whole.mm()->cm;
   CMeshO& mesh = holes.mm()->cm;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     if (i % 2 == 0)
       mesh.vert[i].P() = full.vert[i / 2].P();
     else
@@ -99,7 +99,7 @@ void skips_deleted_vertices(Run& run) {
   expect(run(whole).empty() && run(holes).empty(), run.name() + ": does not run");
   auto partner = Allocator::GetPerVertexAttribute<Scalarm>(full, "partner");
   auto sparse = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 250; ++i) {
     expect(full.vert[i].Q() == mesh.vert[2 * i].Q(), run.name() + ": quality");
     expect(sparse[2 * i] == (partner[i] < 0 ? -1 : 2 * partner[i]), run.name() + ": partner");
   }
@@ -107,7 +107,7 @@ void skips_deleted_vertices(Run& run) {
 
 void print_mirror(Run& run, unsigned int mask) {
   MeshDocument document;
-  add_lump(document, 500);
+  add_lump(document, 250);
   expect(run(document).empty(), run.name() + ": does not run");
   expect(run.mask() == mask, run.name() + ": says that it changed something else");
   for (const auto& [name, value] : run.values()) {

@@ -31,7 +31,7 @@ class Shape:
         return mesh_set
 
 
-def cloud(seed: int = 0, size: int = 600) -> Shape:
+def cloud(seed: int = 0, size: int = 160) -> Shape:
     """A lump without faces, mirrored in x, its points in no order."""
     rng = np.random.default_rng(seed)
     half = rng.normal(size=(size // 2, 3)) * (1, 2, 3)
@@ -40,7 +40,7 @@ def cloud(seed: int = 0, size: int = 600) -> Shape:
     return Shape(rng.permutation(points), None, seed)
 
 
-def mesh(seed: int = 0, around: int = 32, across: int = 16) -> Shape:
+def mesh(seed: int = 0, around: int = 24, across: int = 10) -> Shape:
     """A ring that swells to one side: its middle plane is its one plane of symmetry."""
     u, v = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
     a, b = 2 * np.pi * u / around, 2 * np.pi * (v + 0.5) / across

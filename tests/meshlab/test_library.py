@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import subprocess
 from pathlib import Path
@@ -52,6 +53,7 @@ def test_a_double_host_refuses_the_float_build(float_plugin):
         pymeshlab.load_plugin(str(float_plugin))
 
 
+@functools.cache
 def in_host(scalar: str) -> subprocess.CompletedProcess:
     host = BUILD / "meshlab" / f"meshlab_host_{scalar}"
     if not host.exists():
