@@ -6,15 +6,15 @@
 
 namespace symsurf::benchmarks {
 
-Points bumpy_object(Index count) {
-  std::mt19937_64 random(1);
+Points bumpy_object(Index count, unsigned seed) {
+  std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   const Matrix3 rotation =
       Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
           .normalized()
           .toRotationMatrix();
   Points points(count, 3);
-  Vector3 x;
+  Vector3 x = Vector3::Zero();
   for (Index i = 0; i < count; ++i) {
     if (i % 2 == 0) {
       const Vector3 u = Vector3(normal(random), normal(random), normal(random)).normalized();

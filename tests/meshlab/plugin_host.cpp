@@ -32,9 +32,10 @@ void add_lump(MeshDocument& document, int size) {
 
 std::string Run::operator()(MeshDocument& document, vcg::CallBackPos* progress) {
   mask_ = 0;
+  RichParameterList parameters = plugin_.initParameterList(action_, document);
+  if (one_thread_) parameters.setValue("threads", IntValue(1));
   try {
-    values_ = plugin_.applyFilter(action_, plugin_.initParameterList(action_, document), document,
-                                  mask_, progress);
+    values_ = plugin_.applyFilter(action_, parameters, document, mask_, progress);
   } catch (const MLException& error) {
     return error.what();
   }

@@ -20,12 +20,14 @@ void add_lump(MeshDocument& document, int size);
 extern std::function<bool(int percent)> on_progress;
 bool progress_callback(int percent, const char*);
 
-/// One filter, run with its default parameters.
+/// One filter, run with its default parameters, or with one thread.
 class Run {
  public:
   Run(FilterPlugin& plugin, QAction* action) : plugin_(plugin), action_(action) {}
 
   std::string name() const { return plugin_.pythonFilterName(action_).toStdString(); }
+
+  void use_one_thread() { one_thread_ = true; }
 
   /// The message of the MLException, empty when there was none. Anything else ends the program, as
   /// it would end MeshLab.
@@ -40,4 +42,5 @@ class Run {
   QAction* action_;
   std::map<std::string, QVariant> values_;
   unsigned int mask_ = 0;
+  bool one_thread_ = false;
 };
