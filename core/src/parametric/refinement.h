@@ -111,6 +111,7 @@ template <typename Shape>
 Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& start, Index wanted,
                                                      int steps) const {
   constexpr double narrowest = 0.003;
+  constexpr double along_sheet = 0.01;
   const Index stride = stride_for(wanted);
   Candidate<Shape> candidate = start;
   double tolerance = widest;
@@ -125,7 +126,9 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& sta
                                 candidate.shape.reflect_direction(s.position, s.surfel->normal),
                                 s.surfel->flatness, *match.partner);
       residuals.push_back(agreement.squared);
-      sum.add(s.position, match.gap, agreement.metric(), weight * agreement.weight(tolerance));
+      const double trusted =
+          agreement.weight(tolerance) * inside_sheet(match.gap, *match.partner, spacing_);
+      sum.add(s.position, match.gap, agreement.metric(along_sheet), weight * trusted);
     }
     if (residuals.size() < 5) break;
     double moved;

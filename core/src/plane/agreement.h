@@ -59,4 +59,13 @@ inline double displaced(double distance, double tolerance) {
   return std::clamp(2 * std::abs(distance) / tolerance - 1, 0.0, 1.0);
 }
 
+/// 0..1. Past a rim images find their partners on it, whose tangent plane says nothing there;
+/// inside a sheet the nearest point is hardly further along it than half the spacing.
+inline double inside_sheet(const Vector3& gap, const Surfel& partner, double spacing) {
+  const double off = gap.dot(partner.normal);
+  const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - off * off));
+  const double past = 3 * partner.flatness * std::max(0.0, along / spacing - 0.5);
+  return std::exp(-past * past / 2);
+}
+
 }  // namespace symsurf

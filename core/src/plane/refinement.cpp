@@ -29,15 +29,6 @@ std::uint32_t place_on_curve(const Vector3& x) {
   return place;
 }
 
-// 0..1. Past a rim images find their partners on it, whose tangent plane says nothing there; inside
-// a sheet the nearest point is hardly further along it than half the spacing.
-double inside_sheet(const Vector3& gap, const Surfel& partner, double spacing) {
-  const double off = gap.dot(partner.normal);
-  const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - off * off));
-  const double past = 3 * partner.flatness * std::max(0.0, along / spacing - 0.5);
-  return std::exp(-past * past / 2);
-}
-
 }  // namespace
 
 Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
