@@ -31,11 +31,12 @@ std::vector<DirectionCandidate> distinct(std::vector<DirectionCandidate> candida
   return kept;
 }
 
-void climb(MidSheet& sheet, DirectionCandidate& candidate) {
+void climb(MidSheet& sheet, DirectionCandidate& candidate, const Context& context) {
   for (double step = first_step; step >= last_step; step /= 2) {
     const auto across = orthogonal_to(candidate.direction);
     const Vector3 centre = candidate.direction;
     for (int k = 0; k < 6; ++k) {
+      context.check();
       const double angle = k * pi / 3;
       const Vector3 moved =
           centre + step * across * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -60,8 +61,10 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
   std::vector<DirectionCandidate> candidates;
   for (Index i = 0; i < tried; ++i) candidates.push_back({spread_direction(i, tried)});
   for (const ChordPeak& hint : hints) candidates.push_back({hint.direction});
-  for (DirectionCandidate& c : candidates)
+  for (DirectionCandidate& c : candidates) {
+    context.check();
     c.explained = MidSheet::most_explained(cloud, c.direction);
+  }
   std::stable_sort(candidates.begin(), candidates.end(), better);
 
   MidSheet sheet(cloud);
@@ -77,7 +80,7 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
     best.push_back(candidates[i].explained);
   }
   candidates = distinct(std::move(candidates), count);
-  for (DirectionCandidate& candidate : candidates) climb(sheet, candidate);
+  for (DirectionCandidate& candidate : candidates) climb(sheet, candidate, context);
   return distinct(std::move(candidates), count);
 }
 

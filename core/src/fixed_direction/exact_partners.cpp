@@ -25,15 +25,18 @@ Points midpoints(const WorkingCloud& cloud, const std::vector<ChordPair>& pairs)
 
 }  // namespace
 
-FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks) {
+FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks,
+                             const Context& context) {
   FieldEstimate best;
   double best_rank = 0;
   for (std::size_t k = 0; k < peaks.size() && k < tried_peaks; ++k) {
+    context.check();
     const SharpDirection sharp = sharpened(cloud, peaks[k].direction, cone);
     if (sharp.angle > exact_angle || sharp.chords < least_pairs) continue;
     const double tolerance = std::max(rounding, 4 * sharp.angle);
     const auto rough_pairs = nested_pairs(cloud, sharp.direction, tolerance);
     if (static_cast<Index>(rough_pairs.size()) < least_pairs) continue;
+    context.check();
     const Vector3 v = common_direction(cloud, rough_pairs);
     const auto pairs = nested_pairs(cloud, v, tolerance);
     double squareness = 0;

@@ -10,6 +10,7 @@ namespace symsurf {
 /// The mirror of a cloud whose points have exact partners along one direction, to rounding; an
 /// estimate without nodes where they have none. Of several directions that many pairs share, as in
 /// clouds on a grid, the one that meets the sheets most squarely.
-FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks);
+FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks,
+                             const Context& context);
 
 }  // namespace symsurf

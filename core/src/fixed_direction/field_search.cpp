@@ -30,14 +30,17 @@ constexpr int rounds = 6;
 // Ranks directions by what their surface explains and by the partners found along them.
 class Ranking {
  public:
-  explicit Ranking(const WorkingCloud& cloud) : cloud_(cloud), sheet_(cloud, evidence_reach) {}
+  Ranking(const WorkingCloud& cloud, const Context& context)
+      : cloud_(cloud), context_(context), sheet_(cloud, evidence_reach) {}
 
   void consider(const Vector3& direction) {
     const double explained = sheet_.explained(direction);
+    context_.check();
     PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction);
     if (evidence.significance > suspected) {
       // Partners that are there vote for better heights than chance does, and stand out more.
       sheet_.explained(evidence.direction, evidence.scatter);
+      context_.check();
       const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction);
       if (again.significance > evidence.significance) evidence = again;
     }
@@ -55,6 +58,7 @@ class Ranking {
 
  private:
   const WorkingCloud& cloud_;
+  const Context& context_;
   MidSheet sheet_;
   PartnerEvidence best_;
   double rank_ = -1;
@@ -74,20 +78,22 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
     peaks = chord_peaks(cloud, peaks_a_scale);
   context.report(0.2);
 
-  const FieldEstimate exact = exact_partners(cloud, peaks);
+  const FieldEstimate exact = exact_partners(cloud, peaks, context);
   statistics["partners"] = std::string(exact.explained > exact_share ? "exact" : "sheets");
   if (exact.explained > exact_share) return exact;
   context.report(0.3);
 
-  Ranking ranking(cloud);
+  Ranking ranking(cloud, context);
   for (const ChordPeak& peak : peaks) {
     ranking.consider(peak.direction);
     context.report(0.4);
   }
   if (!given && ranking.best().significance < strong_evidence)
     for (const DirectionCandidate& candidate :
-         explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7)))
+         explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7))) {
       ranking.consider(candidate.direction);
+      context.report(0.7);
+    }
 
   const PartnerEvidence& start = ranking.best();
   statistics["partner_significance"] = start.significance;
