@@ -67,7 +67,7 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
 
-  MidSheet sheet(cloud);
+  MidSheet sheet(cloud, context);
   std::vector<double> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     context.report(0.8 * static_cast<double>(i) / static_cast<double>(candidates.size()));

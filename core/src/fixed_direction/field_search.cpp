@@ -31,17 +31,17 @@ constexpr int rounds = 6;
 class Ranking {
  public:
   Ranking(const WorkingCloud& cloud, const Context& context)
-      : cloud_(cloud), context_(context), sheet_(cloud, evidence_reach) {}
+      : cloud_(cloud), context_(context), sheet_(cloud, context, evidence_reach) {}
 
   void consider(const Vector3& direction) {
     const double explained = sheet_.explained(direction);
     context_.check();
-    PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction);
+    PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction, context_);
     if (evidence.significance > suspected) {
       // Partners that are there vote for better heights than chance does, and stand out more.
       sheet_.explained(evidence.direction, evidence.scatter);
       context_.check();
-      const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction);
+      const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction, context_);
       if (again.significance > evidence.significance) evidence = again;
     }
     const double common = std::min(1.0, evidence.share / common_share);
@@ -99,7 +99,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   statistics["partner_significance"] = start.significance;
   const double roughness =
       median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
-  const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch);
+  const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch, context);
   context.report(0.75);
   return SheetRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
 }

@@ -16,8 +16,9 @@ constexpr double rough = 1.5;      // spacings
 
 }  // namespace
 
-MidSheet::MidSheet(const WorkingCloud& cloud, double reach)
+MidSheet::MidSheet(const WorkingCloud& cloud, const Context& context, double reach)
     : cloud_(cloud),
+      context_(context),
       reach_(reach * cloud.spacing),
       cell_(std::max(1.5, reach) * cloud.spacing),
       flat_(cloud.size(), 3),
@@ -105,7 +106,8 @@ void MidSheet::collect_votes(double scatter) {
     votes_.push_back({i, j, static_cast<std::int32_t>(r * columns_ + c), static_cast<float>(height),
                       static_cast<float>(sheet_(i, 2) * sheet_(j, 2) * std::exp(-aside * narrow))});
   };
-  for (Index r = 0; r < rows_; ++r)
+  for (Index r = 0; r < rows_; ++r) {
+    context_.check();
     for (Index c = 0; c < columns_; ++c) {
       const Index here = r * columns_ + c;
       for (std::int32_t p = start_[here]; p < start_[here + 1]; ++p) {
@@ -118,6 +120,7 @@ void MidSheet::collect_votes(double scatter) {
         }
       }
     }
+  }
 }
 
 // The window of heights with most weight wins its cell.
@@ -133,6 +136,7 @@ void MidSheet::count_votes() {
   voted_.assign(columns_ * rows_, 0);
   const float width = static_cast<float>(window * cloud_.spacing);
   for (Index cell = 0; cell < columns_ * rows_; ++cell) {
+    context_.check();
     const auto begin = by_cell_.begin() + vote_start_[cell];
     const auto end = by_cell_.begin() + vote_start_[cell + 1];
     std::sort(begin, end);

@@ -16,7 +16,7 @@ class MidSheet {
  public:
   /// Kept between directions, so that trying many of them allocates nothing.
   /// Points no farther apart in projection than `reach` spacings vote.
-  explicit MidSheet(const WorkingCloud& cloud, double reach = 1.3);
+  MidSheet(const WorkingCloud& cloud, const Context& context, double reach = 1.3);
 
   /// How well the surface for this direction explains the cloud, 0 to 1: the share of points that
   /// it carries onto another sheet, where it is smooth, each weighed by how squarely its sheet
@@ -56,6 +56,7 @@ class MidSheet {
   double roughness(Index cell) const;
 
   const WorkingCloud& cloud_;
+  const Context context_;
   Eigen::Matrix<double, 3, 2> across_;
   double reach_;
   double cell_;          // edge

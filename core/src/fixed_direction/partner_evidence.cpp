@@ -32,7 +32,7 @@ struct Count {
 }  // namespace
 
 PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
-                                 const Vector3& direction) {
+                                 const Vector3& direction, const Context& context) {
   const std::vector<MidSheet::Chord> chords = sheet.chords();
   PartnerEvidence best{direction, 0, 0, 0};
   if (chords.size() < 10) return best;
@@ -42,6 +42,7 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
     const double scatter = spacings * cloud.spacing;
     const double narrow = 1 / (scatter * scatter);
     for (int shift = 0; shift <= shifts; ++shift) {
+      context.check();
       Count count;
       double sum = 0, lever = 0, own = 0;
       Eigen::Vector2d pull = Eigen::Vector2d::Zero();

@@ -15,6 +15,6 @@ struct PartnerEvidence {
 /// Tries scatters from a fraction of the spacing up to the sheet's reach; at each, a mean shift
 /// of the direction, freed of the pull of the evenly spread chance partners.
 PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
-                                 const Vector3& direction);
+                                 const Vector3& direction, const Context& context);
 
 }  // namespace symsurf

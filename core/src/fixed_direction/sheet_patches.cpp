@@ -16,10 +16,12 @@ constexpr int crossings = 3;  // Newton steps of a line onto a patch
 
 }  // namespace
 
-SheetPatches::SheetPatches(const WorkingCloud& cloud, Index neighbours) : patches_(cloud.size()) {
+SheetPatches::SheetPatches(const WorkingCloud& cloud, Index neighbours, const Context& context)
+    : patches_(cloud.size()) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   std::vector<Neighbour> near;
   for (Index i = 0; i < cloud.size(); ++i) {
+    context.check();
     Patch& patch = patches_[i];
     patch.normal = cloud.normal(i);
     const Eigen::Matrix<double, 3, 2> tangent = orthogonal_to(patch.normal);

@@ -10,7 +10,7 @@ namespace symsurf {
 /// plane, fitted to its neighbours.
 class SheetPatches {
  public:
-  SheetPatches(const WorkingCloud& cloud, Index neighbours);
+  SheetPatches(const WorkingCloud& cloud, Index neighbours, const Context& context);
 
   /// How far x must move along the unit direction to lie on the patch about point j; NaN where the
   /// patch and the direction are nearly parallel.

@@ -46,7 +46,11 @@ struct Frame {
 
 SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches,
                                  const Context& context)
-    : cloud_(cloud), patches_(patches), context_(context), rims_(cloud), votes_(cloud, 1.5) {}
+    : cloud_(cloud),
+      patches_(patches),
+      context_(context),
+      rims_(cloud),
+      votes_(cloud, context, 1.5) {}
 
 FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
   votes_.explained(direction, scatter);
