@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,15 +32,12 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
                        const Context& context) {
   constexpr Index grain = 1024;
   Partners partners(points.size());
-  if (points.size() <= PointGrid::small_cloud) {
-    const PointGrid grid(points);
-    if (grid.fullest() <= PointGrid::crowded) {
-      parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-          partners.set(i, grid.nearest(mirror.reflect(points[i]), limit * limit));
-      });
-      return partners;
-    }
+  if (const std::optional<PointGrid> grid = PointGrid::where_faster(points)) {
+    parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i)
+        partners.set(i, grid->nearest(mirror.reflect(points[i]), limit * limit));
+    });
+    return partners;
   }
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {

@@ -15,11 +15,7 @@ const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN())
 }  // namespace
 
 NearestPoints::NearestPoints(const Cloud& cloud, const PointTree& own, const Context& context)
-    : cloud_(cloud), own_(own), context_(context) {
-  if (own.size() == 0 || own.size() > PointGrid::small_cloud) return;
-  grid_.emplace(cloud.points);
-  if (grid_->fullest() > PointGrid::crowded) grid_.reset();
-}
+    : cloud_(cloud), own_(own), grid_(PointGrid::where_faster(cloud.points)), context_(context) {}
 
 NearestPoints::Found NearestPoints::found(const Neighbour& neighbour) const {
   if (neighbour.index < 0) return {none, infinity};

@@ -28,6 +28,14 @@ PointGrid::PointGrid(PointsView points)
   fill(points);
 }
 
+std::optional<PointGrid> PointGrid::where_faster(PointsView points) {
+  constexpr Index small_cloud = 8192, crowded = 64;  // points; points in a cell
+  if (points.empty() || points.size() > small_cloud) return std::nullopt;
+  PointGrid grid(points);
+  if (grid.fullest_ > crowded) return std::nullopt;
+  return grid;
+}
+
 // Cells that hold a few points where they hold any. Sheets fill cells as the square of the cell's
 // length, so a guess and a correction are enough.
 void PointGrid::choose_cell(PointsView points) {

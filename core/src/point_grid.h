@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "point_tree.h"
@@ -12,14 +13,12 @@ namespace symsurf {
 /// cells of a uniform grid, a row of cells one run of points (Bentley, Weide and Yao 1980).
 class PointGrid {
  public:
-  /// Up to that many points it is built in no time, and stays in cache.
-  static constexpr Index small_cloud = 8192;
-
+  /// Of at least one point.
   explicit PointGrid(PointsView points);
 
-  /// The most points in any cell: where they crowd, a tree is faster.
-  Index fullest() const { return fullest_; }
-  static constexpr Index crowded = 64;
+  /// The grid of a cloud that is small enough to stay in cache and nowhere crowded; none where a
+  /// tree is faster.
+  static std::optional<PointGrid> where_faster(PointsView points);
 
   /// What PointTree::nearest gives.
   Neighbour nearest(const Vector3& query, double limit) const { return best<1>(query, limit)[0]; }
