@@ -71,17 +71,22 @@ struct Case {
   Owner owner;
 };
 
+// The points in the order of the processes that have them.
+Points joined(const Points& points, const std::vector<std::vector<Index>>& rows) {
+  std::vector<Index> order;
+  for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
+  return points(order, Eigen::all);
+}
+
 class SharedPoints : public testing::TestWithParam<Case> {};
 
 TEST_P(SharedPoints, GiveThePlaneOfTheWhole) {
   for (unsigned seed = 0; seed < 2; ++seed) {
     const Points points = scan(seed);
     const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
-    std::vector<Index> order;
-    for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
     Options options;
     options.method = "plane";
-    const Result whole = detect(points(order, Eigen::all).eval(), options, Context({}, 1));
+    const Result whole = detect(joined(points, rows), options, Context({}, 1));
     const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 
     const auto& expected = dynamic_cast<const Plane&>(*whole.mirror);
@@ -122,11 +127,9 @@ TEST_P(SharedPoints, GiveEveryProcessTheSameBits) {
 TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
   const Points points = scan(4).topRows(1000);
   const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
-  std::vector<Index> order;
-  for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
   Options options;
   options.method = "sphere";
-  const Result whole = detect(points(order, Eigen::all).eval(), options, Context({}, 1));
+  const Result whole = detect(joined(points, rows), options, Context({}, 1));
   Index row = 0;
   for (const Result& result : detected(points, rows, options)) {
     EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
