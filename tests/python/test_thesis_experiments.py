@@ -192,6 +192,15 @@ def test_clean_fixed_data_is_exact(tmp_path):
         assert printed["coverage"] == 1
 
 
+def refused(line: str, says: str, folder) -> int:
+    """Its exit code, once it has said one clear line."""
+    shell("generate fixed --resolution 6 --output points.xyz", folder)
+    done = run_here(line, folder)
+    assert done.stdout == ""
+    assert says in done.stderr and len(done.stderr.splitlines()) == 1
+    return done.returncode
+
+
 @pytest.mark.parametrize(
     ("line", "says"),
     [
@@ -213,10 +222,7 @@ def test_clean_fixed_data_is_exact(tmp_path):
     ],
 )
 def test_bad_input_is_one_clear_line_and_no_file(tmp_path, line, says):
-    shell("generate fixed --resolution 6 --output points.xyz", tmp_path)
-    done = run_here(f"{line} --output made.xyz", tmp_path)
-    assert done.returncode == 2 and done.stdout == ""
-    assert says in done.stderr and len(done.stderr.splitlines()) == 1
+    assert refused(f"{line} --output made.xyz", says, tmp_path) == 2
     assert not (tmp_path / "made.xyz").exists()
     assert not (tmp_path / "made.truth.json").exists()
 
@@ -233,10 +239,7 @@ def test_bad_input_is_one_clear_line_and_no_file(tmp_path, line, says):
     ],
 )
 def test_bad_detections_are_one_clear_line(tmp_path, options, says):
-    shell("generate fixed --resolution 6 --output points.xyz", tmp_path)
-    done = run_here(f"detect points.xyz {options}", tmp_path)
-    assert done.returncode in (1, 2) and done.stdout == ""
-    assert says in done.stderr and len(done.stderr.splitlines()) == 1
+    assert refused(f"detect points.xyz {options}", says, tmp_path) in (1, 2)
 
 
 def test_undefined_places_are_skipped_and_counted(tmp_path):

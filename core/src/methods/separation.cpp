@@ -8,8 +8,8 @@ namespace {
 // Mean squared distance of the partners from their lines (3.3).
 double projection_error(const Separation& separation) {
   double sum = 0;
-  for (const double squared : separation.squared) sum += squared;
-  return sum / static_cast<double>(separation.squared.size());
+  for (const double squared : separation.squared()) sum += squared;
+  return sum / static_cast<double>(separation.squared().size());
 }
 
 Result run_separation(const Cloud& cloud, const ParameterValues& values, const Context& context) {

@@ -1,49 +1,58 @@
 #include "separation.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "projection.h"
+#include <limits>
 
 namespace symsurf {
 
 Separator::Separator(PointsView points, const PointTree& tree, const Context& context)
-    : points_(points),
-      tree_(tree),
+    : tree_(tree),
       context_(context),
       distance_bound_(points, context),
+      sorted_(points.size(), 3),
       centroid_(Vector3::Zero()) {
   for (Index i = 0; i < points.size(); ++i) centroid_ += points[i];
   centroid_ /= static_cast<double>(points.size());
+  for (Index p = 0; p < points.size(); ++p) sorted_.row(p) = points[tree.order()[p]].transpose();
 }
 
-Separation Separator::operator()(const Vector3& normal) const {
-  Separation result;
-  result.normal = normal;
-  result.is_upper.resize(points_.size());
-  std::vector<std::int32_t> lower;
-  for (const std::int32_t i : tree_.order()) {
-    const bool is_upper = (points_[i] - centroid_).dot(normal) > 0;
-    result.is_upper[i] = is_upper;
-    (is_upper ? result.upper : lower).push_back(i);
-  }
-  result.lower = static_cast<Index>(lower.size());
-  if (result.upper.empty() || lower.empty()) return result;
+Separation Separator::room() const {
+  return {.partners = LinePartners(PointsView(sorted_), tree_.order())};
+}
 
-  LinePartners partners = nearest_to_lines(points_, result.upper, lower, normal, context_);
-  result.partner = std::move(partners.target);
-  result.squared = std::move(partners.squared);
-  return result;
+void Separator::operator()(const Vector3& normal, Separation& separation) const {
+  const PointsView points(sorted_);
+  const std::vector<std::int32_t>& names = tree_.order();
+  separation.normal = normal;
+  separation.is_upper.resize(points.size());
+  std::vector<std::int32_t>&upper = separation.upper, &lower = separation.lower;
+  upper.clear();
+  lower.clear();
+  for (Index p = 0; p < points.size(); ++p) {
+    const bool is_upper = (points[p] - centroid_).dot(normal) > 0;
+    separation.is_upper[names[p]] = is_upper;
+    (is_upper ? upper : lower).push_back(static_cast<std::int32_t>(p));
+  }
+  if (upper.empty() || lower.empty()) return;
+
+  separation.partners.find(upper, lower, normal, context_);
+  separation.partner = separation.partners.rows();
+  separation.midpoint.resize(upper.size());
+  separation.half_chord = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < upper.size(); ++k) {
+    const Vector3 x = points[upper[k]], y = (x + points[separation.partner[k]]) / 2;
+    separation.midpoint[k] = y;
+    separation.half_chord = std::min(separation.half_chord, (x - y).norm());
+  }
+  for (std::vector<std::int32_t>* rows : {&upper, &lower, &separation.partner})
+    for (std::int32_t& row : *rows) row = names[row];
 }
 
 double Separator::clearance(const Separation& separation) const {
-  const std::size_t count = separation.upper.size();
-  const auto midpoint = [&](std::size_t k) -> Vector3 {
-    return (points_[separation.upper[k]] + points_[separation.partner[k]]) / 2;
-  };
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < count; ++k)
-    shortest = std::min(shortest, (points_[separation.upper[k]] - midpoint(k)).norm());
+  const std::vector<Vector3>& midpoint = separation.midpoint;
+  const std::size_t count = midpoint.size();
+  double shortest = separation.half_chord;
   // A midpoint needs a search only where neither the grid nor the distance known at an anchor a,
   // less |y - a|, rules it out; and the fewer, the sooner a short distance is known.
   constexpr double rounding = 1e-9;
@@ -55,20 +64,18 @@ double Separator::clearance(const Separation& separation) const {
   int waits = 0;
   const auto search = [&] {
     context_.check();
-    const double reach = shortest + std::min(shortest, distance_bound_.cell());
-    const auto found = tree_.nearest(waiting, reach * reach, near);
+    const auto found = tree_.nearest(waiting, shortest * shortest, near);
+    const Neighbour& last = found[waits - 1];
     anchor = waiting.col(waits - 1);
-    known = reach;
-    for (int i = 0; i < waits; ++i) {
-      const double distance = found[i].index < 0 ? reach : std::sqrt(found[i].squared_distance);
-      shortest = std::min(shortest, distance);
-      if (i == waits - 1) known = distance;
-    }
+    known = last.index < 0 ? shortest : std::sqrt(last.squared_distance);
+    for (const Neighbour& neighbour : found)
+      if (neighbour.index >= 0)
+        shortest = std::min(shortest, std::sqrt(neighbour.squared_distance));
     waits = 0;
   };
   for (const std::size_t stride : {ahead, std::size_t{1}})
     for (std::size_t k = 0; k < count && shortest > 0; k += stride) {
-      const Vector3 y = midpoint(k);
+      const Vector3& y = midpoint[k];
       const double settled = shortest * (1 + rounding);
       if (distance_bound_(y) > settled || known - (y - anchor).norm() > settled) continue;
       if (waits == 0) waiting.colwise() = y;

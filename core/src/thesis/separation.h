@@ -7,6 +7,7 @@
 
 #include "../point_tree.h"
 #include "distance_bound.h"
+#include "line_partners.h"
 
 namespace symsurf {
 
@@ -15,31 +16,37 @@ namespace symsurf {
 /// distances: the lowest index).
 struct Separation {
   Vector3 normal;
-  std::vector<std::int32_t> upper;    ///< X1
-  std::vector<std::int32_t> partner;  ///< of each, in X2
-  std::vector<double> squared;        ///< the partner's squared distance from the line
-  std::vector<char> is_upper;         ///< by index of the point
-  Index lower = 0;                    ///< size of X2
+  std::vector<std::int32_t> upper, lower;  ///< X1, X2
+  std::vector<std::int32_t> partner;       ///< of each of X1, in X2
+  std::vector<Vector3> midpoint;           ///< of each of X1 and its partner
+  double half_chord = 0;                   ///< the least distance of a midpoint from its two points
+  std::vector<char> is_upper;              ///< by index of the point
+  LinePartners partners;
+
+  /// The partner's squared distance from the line, of each of X1.
+  const std::vector<double>& squared() const { return partners.squared(); }
 };
 
-/// Steps 3 to 9 of the thesis's Algorithms 1 and 2 for any number of planes, n log n each: nearest
-/// to a line along v is nearest in the projection along v.
+/// Steps 3 to 9 of the thesis's Algorithms 1 and 2 for any number of planes, n log n each.
 class Separator {
  public:
   /// `context` is asked on any thread whether to go on.
   Separator(PointsView points, const PointTree& tree, const Context& context);
 
+  /// Room for one separation after the other, on one thread.
+  Separation room() const;
+
   /// Without partners where one side is empty.
-  Separation operator()(const Vector3& normal) const;
+  void operator()(const Vector3& normal, Separation& separation) const;
 
   /// The shortest distance from any point to any midpoint (step 11).
   double clearance(const Separation& separation) const;
 
  private:
-  PointsView points_;
   const PointTree& tree_;
   const Context context_;
   DistanceBound distance_bound_;
+  Points sorted_;  // as the tree has them
   Vector3 centroid_;
 };
 

@@ -32,7 +32,7 @@ void fill_pairs(Result& result, PointsView points, const Separation& separation)
   for (Index row = 0; row < count; ++row) {
     const Index i = separation.upper[order[row]], j = separation.partner[order[row]];
     result.pairs.row(row) << i, j;
-    result.residuals[row] = std::sqrt(separation.squared[order[row]]);
+    result.residuals[row] = std::sqrt(separation.squared()[order[row]]);
     result.surface_points.row(row) = (points[i] + points[j]).transpose() / 2;
   }
 }
@@ -58,18 +58,22 @@ Result best_separation(const Cloud& cloud, Index steps,
 
   std::vector<Trial> trials(directions.size());
   const auto count = static_cast<Index>(directions.size());
-  parallel_for(context.stage(0.02, 0.95), count, 1, [&](Index k, Index) {
-    const Separation separation = separate(directions[k]);
-    Trial& trial = trials[k];
-    trial.upper = static_cast<Index>(separation.upper.size());
-    trial.lower = separation.lower;
-    if (trial.skipped()) {
-      trial.error = trial.clearance = trial.score = std::numeric_limits<double>::quiet_NaN();
-      return;
+  constexpr Index grain = 4;
+  parallel_for(context.stage(0.02, 0.95), count, grain, [&](Index begin, Index end) {
+    Separation separation = separate.room();
+    for (Index k = begin; k < end; ++k) {
+      separate(directions[k], separation);
+      Trial& trial = trials[k];
+      trial.upper = static_cast<Index>(separation.upper.size());
+      trial.lower = static_cast<Index>(separation.lower.size());
+      if (trial.skipped()) {
+        trial.error = trial.clearance = trial.score = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
+      trial.error = projection_error(separation);
+      trial.clearance = separate.clearance(separation);
+      trial.score = std::log(trial.clearance + 1) + std::exp(-trial.error);
     }
-    trial.error = projection_error(separation);
-    trial.clearance = separate.clearance(separation);
-    trial.score = std::log(trial.clearance + 1) + std::exp(-trial.error);
   });
 
   Index best = -1, skipped = 0;
@@ -84,7 +88,9 @@ Result best_separation(const Cloud& cloud, Index steps,
                        " planes tried leaves one side without points");
 
   Result result;
-  fill_pairs(result, cloud.points, separate(directions[best]));
+  Separation separation = separate.room();
+  separate(directions[best], separation);
+  fill_pairs(result, cloud.points, separation);
   result.score = sheet_score(cloud.points, result, context.stage(0.95, 1));
   result.statistics = {
       {"direction", directions[best]},           {"projection_error", trials[best].error},
