@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "../parallel.h"
 
@@ -43,24 +42,30 @@ void LinePartners::find(const std::vector<std::int32_t>& queries,
   std::int32_t last = targets.front();
   interruptible_for(context, static_cast<Index>(queries.size()), [&](Index q) {
     const Vector3 x = points_[queries[q]];
-    std::int32_t best = last;
-    double least = std::numeric_limits<double>::infinity();
-    float limit = std::numeric_limits<float>::infinity();
     // What counts is the distance from the line itself, not that of rounded projections.
-    const auto consider = [&](std::int32_t row) {
+    const auto measured = [&](std::int32_t row) {
       const Vector3 w = points_[row] - x;
       const Vector3& v = direction;
       const double along = w.x() * v.x() + w.y() * v.y() + w.z() * v.z();
       const double dx = w.x() - along * v.x(), dy = w.y() - along * v.y(),
                    dz = w.z() - along * v.z();
-      const double squared = dx * dx + dy * dy + dz * dz;
-      if (squared > least || (squared == least && names_[row] >= names_[best])) return;
+      return dx * dx + dy * dy + dz * dz;
+    };
+    const auto limit_of = [&](double squared) {
+      const float distance = static_cast<float>(scale_ * std::sqrt(squared)) + place_rounding;
+      return distance * distance;
+    };
+    std::int32_t best = last;
+    double least = measured(best);
+    float limit = limit_of(least);
+    const auto consider = [&](std::int32_t row) {
+      if (row == best) return;
+      const double squared = measured(row);
+      if (squared > least || (squared == least && names_[row] > names_[best])) return;
       best = row;
       least = squared;
-      const float distance = static_cast<float>(scale_ * std::sqrt(squared)) + place_rounding;
-      limit = distance * distance;
+      limit = limit_of(least);
     };
-    consider(last);
     const float u = query_places_.u[q], v = query_places_.v[q];
     const auto look = [&](Index strip) { return strips_.near(strip, u, v, limit, consider); };
     Index above = strips_.strip(v), below = above - 1;

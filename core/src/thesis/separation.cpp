@@ -10,16 +10,14 @@ Separator::Separator(PointsView points, const PointTree& tree, const Context& co
     : tree_(tree),
       context_(context),
       distance_bound_(points, context),
-      sorted_(points.size(), 3),
+      sorted_(points.matrix()(tree.order(), Eigen::all)),
+      partners_(PointsView(sorted_), tree.order()),
       centroid_(Vector3::Zero()) {
   for (Index i = 0; i < points.size(); ++i) centroid_ += points[i];
   centroid_ /= static_cast<double>(points.size());
-  for (Index p = 0; p < points.size(); ++p) sorted_.row(p) = points[tree.order()[p]].transpose();
 }
 
-Separation Separator::room() const {
-  return {.partners = LinePartners(PointsView(sorted_), tree_.order())};
-}
+Separation Separator::room() const { return {.partners = partners_}; }
 
 void Separator::operator()(const Vector3& normal, Separation& separation) const {
   const PointsView points(sorted_);

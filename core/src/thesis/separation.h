@@ -32,6 +32,7 @@ class Separator {
  public:
   /// `context` is asked on any thread whether to go on.
   Separator(PointsView points, const PointTree& tree, const Context& context);
+  Separator(const Separator&) = delete;
 
   /// Room for one separation after the other, on one thread.
   Separation room() const;
@@ -46,7 +47,8 @@ class Separator {
   const PointTree& tree_;
   const Context context_;
   DistanceBound distance_bound_;
-  Points sorted_;  // as the tree has them
+  Points sorted_;          // as the tree has them
+  LinePartners partners_;  // of sorted_
   Vector3 centroid_;
 };
 

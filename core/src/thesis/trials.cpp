@@ -58,7 +58,7 @@ Result best_separation(const Cloud& cloud, Index steps,
 
   std::vector<Trial> trials(directions.size());
   const auto count = static_cast<Index>(directions.size());
-  constexpr Index grain = 4;
+  constexpr Index grain = 8;
   parallel_for(context.stage(0.02, 0.95), count, grain, [&](Index begin, Index end) {
     Separation separation = separate.room();
     for (Index k = begin; k < end; ++k) {
