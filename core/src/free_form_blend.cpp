@@ -23,69 +23,90 @@ FreeForm::Blend::Blend(std::vector<Patch> patches)
     bend(0, 0) = 2 * p.height[3];
     bend(0, 1) = bend(1, 0) = p.height[4];
     bend(1, 1) = 2 * p.height[5];
-    hessians_.push_back(-p.frame.transpose() * bend * p.frame);
+    pieces_.push_back({p.centre, 1 / (p.radius * p.radius), p.height[0],
+                       p.frame.transpose() * Vector3(-p.height[1], -p.height[2], 1),
+                       -p.frame.transpose() * bend * p.frame});
   }
 }
 
-bool FreeForm::Blend::jet(const Vector3& x, Jet& jet) const {
-  double weights = 0, value = 0;
+void FreeForm::Blend::around(const Vector3& x, double slack,
+                             std::vector<std::int32_t>& patches) const {
+  patches.clear();
+  tree_.within(x, reach_ + slack, [&](Index i, double squared) {
+    const double farthest = patches_[i].radius + slack;
+    if (squared < farthest * farthest) patches.push_back(static_cast<std::int32_t>(i));
+  });
+}
+
+bool FreeForm::Blend::jet(const Vector3& x, const std::vector<std::int32_t>& patches,
+                          Jet& jet) const {
+  double weights = 0, value = 0, weights_bend = 0;
   Vector3 slope = Vector3::Zero(), weights_slope = Vector3::Zero(), value_slope = Vector3::Zero();
   Matrix3 hessian = Matrix3::Zero(), mixed = Matrix3::Zero();
-  tree_.within(x, reach_, [&](Index i, double squared) {
-    const Patch& p = patches_[i];
-    const double inside = 1 - squared / (p.radius * p.radius);
-    if (inside <= 0) return;
+  for (const std::int32_t i : patches) {
+    const Piece& p = pieces_[i];
+    const Vector3 d = x - p.centre;
+    const double inside = 1 - d.squaredNorm() * p.per_squared_radius;
+    if (inside <= 0) continue;
     const double weight = inside * inside * inside;
-    const Vector3 d = x - p.centre, local = p.frame * d;
-    const double s = local.x(), t = local.y();
-    const auto& h = p.height;
-    const double q =
-        local.z() - (h[0] + h[1] * s + h[2] * t + h[3] * s * s + h[4] * s * t + h[5] * t * t);
-    const Vector3 g(-(h[1] + 2 * h[3] * s + h[4] * t), -(h[2] + h[4] * s + 2 * h[5] * t), 1);
-    const Vector3 weight_slope = -6 * inside * inside / (p.radius * p.radius) * d;
+    const Vector3 bent = p.bend * d;
+    const double q = d.dot(p.slope + 0.5 * bent) - p.height;
+    const Vector3 g = p.slope + bent;
+    const double fall = -6 * inside * inside * p.per_squared_radius;
+    const Vector3 weight_slope = fall * d;
     weights += weight;
     value += weight * q;
-    const Vector3 turned = p.frame.transpose() * g;
-    slope += weight * turned;
+    slope += weight * g;
     weights_slope += weight_slope;
     value_slope += weight_slope * q;
-    hessian += weight * hessians_[i];
-    mixed += weight_slope * turned.transpose();
-  });
+    hessian += weight * p.bend;
+    // Half of each: the sum with its transpose makes up the rest.
+    const double weight_bend = 12 * inside * p.per_squared_radius * p.per_squared_radius;
+    mixed += d * (fall * g + weight_bend * q * d).transpose();
+    weights_bend += fall * q;
+  }
   if (!(weights > 0)) return false;
   jet.value = value / weights;
   jet.gradient = (slope + value_slope - jet.value * weights_slope) / weights;
   mixed -= weights_slope * jet.gradient.transpose();
+  hessian.diagonal().array() += weights_bend;
   jet.hessian = (hessian + mixed + mixed.transpose()) / weights;
   return true;
 }
 
 bool FreeForm::Blend::value(const Vector3& x, double& value, Vector3& gradient) const {
+  std::vector<std::int32_t> patches;
+  around(x, 0, patches);
   Jet here;
-  if (!jet(x, here)) return false;
+  if (!jet(x, patches, here)) return false;
   value = here.value;
   gradient = here.gradient;
   return true;
 }
 
 // Newton's method on the conditions of the closest point, x - y = lambda g and f(y) = 0. The
-// hessian leaves out the weights' second derivatives, which vanish on the surface where the patches
-// agree: steps are a little off, their limit is not.
+// hessian leaves out what vanishes with f.
 bool FreeForm::Blend::descend(const Vector3& x, double precision, Vector3& y,
                               Vector3& normal) const {
-  const int most_steps = precision < 1e-6 ? 30 : 10;
+  const int most_steps = precision < 1e-6 ? 20 : 10;
   const double longest = 0.5 * reach_, enough = precision * (reach_ + (x - y).norm());
+  static thread_local std::vector<std::int32_t> patches;
+  const double slack = 0.2 * reach_;
+  Vector3 middle = y;
+  around(middle, slack, patches);
   Jet here;
   double lambda = 0;
   for (int step = 0; step < most_steps; ++step) {
-    if (!jet(y, here)) return false;
+    if ((y - middle).squaredNorm() > slack * slack) around(middle = y, slack, patches);
+    if (!jet(y, patches, here)) return false;
     const Vector3& g = here.gradient;
     const double squared = g.squaredNorm();
     if (!(squared > 0)) return false;
     if (step == 0) lambda = g.dot(x - y) / squared;
     Matrix3 a = Matrix3::Identity() + lambda * here.hessian;
     // Beyond the centre of curvature the step would climb: walk along the tangent plane instead.
-    if (Eigen::LLT<Matrix3>(a).info() != Eigen::Success) a.setIdentity();
+    const double minor = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
+    if (!(a(0, 0) > 0 && minor > 0 && a.determinant() > 0)) a.setIdentity();
     const Matrix3 inverse = a.inverse();
     const Vector3 ag = inverse * g, gap = x - y;
     lambda = (ag.dot(gap) + here.value) / ag.dot(g);

@@ -2,6 +2,9 @@
 
 #include <symsurf/free_form.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "point_tree.h"
 
 namespace symsurf {
@@ -25,11 +28,22 @@ struct FreeForm::Blend {
     Vector3 gradient;
     Matrix3 hessian;
   };
-  bool jet(const Vector3& x, Jet& jet) const;
+  // The patches that have a say somewhere within `slack` of x.
+  void around(const Vector3& x, double slack, std::vector<std::int32_t>& patches) const;
+  bool jet(const Vector3& x, const std::vector<std::int32_t>& patches, Jet& jet) const;
   bool descend(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const;
 
+  // A patch's height above its centre + d as a quadratic in d: slope . d + d . bend d / 2 - height.
+  struct Piece {
+    Vector3 centre;
+    double per_squared_radius;
+    double height;
+    Vector3 slope;
+    Matrix3 bend;
+  };
+
   std::vector<Patch> patches_;
-  std::vector<Matrix3> hessians_;
+  std::vector<Piece> pieces_;
   double reach_ = 0;  // the largest radius
   Points centres_;
   PointTree tree_;

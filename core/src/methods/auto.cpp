@@ -1,7 +1,6 @@
 #include <map>
 #include <utility>
 
-#include "../mirror_score.h"
 #include "methods.h"
 
 namespace symsurf {
@@ -17,9 +16,6 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   for (const Method& method : methods())
     if (method.automatic && cloud.points.size() >= method.minimum_points) tried.push_back(&method);
 
-  const PointTree tree(cloud.points, context.stage(0, 0.05));
-  const MirrorScore one_score(cloud, tree, context.stage(0.05, 0.1));
-  const Context trials = context.stage(0.1, 1);
   Result best;
   std::string runner_up;
   double best_score = -1, second_score = -1;
@@ -27,11 +23,10 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   for (std::size_t i = 0; i < tried.size() && best_score < convincing; ++i) {
     const double share = 1.0 / static_cast<double>(tried.size());
     const Context part =
-        trials.stage(static_cast<double>(i) * share, static_cast<double>(i + 1) * share);
+        context.stage(static_cast<double>(i) * share, static_cast<double>(i + 1) * share);
     const ParameterValues defaults(tried[i]->name, tried[i]->parameters, {});
     Result result = tried[i]->run(cloud, defaults, part);
     result.parameters = defaults.all();
-    if (result.mirror) one_score.fill(result);
     const double score = result.score;
     scores["score_" + tried[i]->name] = score;
     if (score > best_score) {

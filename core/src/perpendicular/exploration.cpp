@@ -19,7 +19,8 @@ constexpr double same_direction = 0.9;
 constexpr double hopeless = 0.4, convincing = 0.85;
 
 // Seeds to try: the best supported first, but far from each other before they crowd.
-std::vector<Seed> spread_out(const SearchCloud& cloud, const std::vector<Seed>& seeds) {
+std::vector<Seed> spread_out(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+                             std::size_t most) {
   struct Place {
     Vector3 middle, direction;
   };
@@ -28,7 +29,7 @@ std::vector<Seed> spread_out(const SearchCloud& cloud, const std::vector<Seed>& 
   for (const double spacings : same_place) {
     const double apart = spacings * cloud.spacing;
     for (const Seed& seed : seeds) {
-      if (chosen.size() == most_trials || seed.support < least_support) break;
+      if (chosen.size() == most || seed.support < least_support) break;
       const Vector3 x = cloud.point(seed.first), y = cloud.point(seed.second);
       const Place here{(x + y) / 2, (x - y).normalized()};
       const bool seen = std::any_of(places.begin(), places.end(), [&](const Place& other) {
@@ -56,9 +57,10 @@ bool known(const SearchCloud& cloud, const Growth& growth, const Sheet& sheet) {
 
 }  // namespace
 
-std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& seeds) {
+std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+                           std::size_t most) {
   std::vector<Growth> growths;
-  for (const Seed& seed : spread_out(cloud, seeds)) {
+  for (const Seed& seed : spread_out(cloud, seeds, most)) {
     Growth growth(cloud, seed);
     growth.grow(trial_points);
     if (static_cast<Index>(growth.accepted().size()) < trial_points / 2) continue;
@@ -70,12 +72,12 @@ std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& se
   return growths;
 }
 
-void explore(const SearchCloud& cloud, std::vector<Growth> trials, std::vector<Sheet>& sheets,
+void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds, std::vector<Sheet>& sheets,
              const Context& context) {
   double best = 0;
   for (const Sheet& sheet : sheets) best = std::max(best, sheet.explained);
   std::size_t grown = 0;
-  for (Growth& growth : trials) {
+  for (Growth& growth : trials(cloud, seeds, most_trials)) {
     context.report(static_cast<double>(grown) / most_sheets);
     if (std::any_of(sheets.begin(), sheets.end(),
                     [&](const Sheet& sheet) { return known(cloud, growth, sheet); }))

@@ -22,6 +22,7 @@ Growth::Growth(const SearchCloud& cloud, const Seed& seed)
       partner_(cloud.size(), -1),
       guide_(cloud.size(), -1),
       patch_of_(cloud.size(), -1),
+      slot_of_(cloud.size(), 0),
       tries_(cloud.size(), 0) {
   const Vector3 x = cloud.point(seed.first), y = cloud.point(seed.second);
   Patch plane;
@@ -95,21 +96,33 @@ void Growth::settle() {
 void Growth::refit(std::int32_t i) {
   cloud_->context.check();
   static thread_local std::vector<Carried> data;
+  static thread_local std::vector<std::int32_t> listed;
   data.clear();
-  const Carried& own = carried_[patch_of_[i]];
+  listed.clear();
+  // Whoever is met more than once is nearer the middle of it all, and weighs more.
+  const auto meet = [&](std::int32_t j) {
+    if (partner_[j] < 0) return;
+    const auto slot = static_cast<std::size_t>(slot_of_[j]);
+    if (slot < listed.size() && listed[slot] == j) {
+      data[slot].weight += 1;
+    } else {
+      slot_of_[j] = static_cast<std::int32_t>(listed.size());
+      listed.push_back(j);
+      data.push_back(carried(j));
+    }
+  };
   // Where partners are exact few data say more than many; elsewhere reach farther.
   const int stride = exact_ ? SearchCloud::ring : 5;
   for (const std::int32_t end : {i, partner_[i]}) {
-    if (partner_[end] >= 0) data.push_back(carried_[patch_of_[end]]);
+    meet(end);
     for (int k = 0; k < SearchCloud::ring; ++k) {
       const std::int32_t other = cloud_->neighbours(end, k);
-      if (partner_[other] >= 0) data.push_back(carried_[patch_of_[other]]);
-      for (int l = stride - 1; l < SearchCloud::ring; l += stride) {
-        const std::int32_t farther = cloud_->neighbours(other, l);
-        if (partner_[farther] >= 0) data.push_back(carried_[patch_of_[farther]]);
-      }
+      meet(other);
+      for (int l = stride - 1; l < SearchCloud::ring; l += stride)
+        meet(cloud_->neighbours(other, l));
     }
   }
+  const Carried& own = carried(i);
   FitWeights weights;
   weights.radius = fit_radius * cloud_->spacing;
   weights.along = along_;

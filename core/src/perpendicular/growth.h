@@ -41,6 +41,7 @@ class Growth {
   const SearchCloud* cloud_;
   std::vector<std::int32_t> accepted_, frontier_;
   std::vector<std::int32_t> partner_, guide_, patch_of_;
+  std::vector<std::int32_t> slot_of_;  // in the data of the latest patch they had a say in
   std::vector<char> tries_;
   std::vector<Patch> patches_;
   std::vector<Carried> carried_;

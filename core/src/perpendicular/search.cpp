@@ -11,35 +11,27 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-struct Trials {
-  std::vector<Growth> along, across;
+constexpr std::size_t few_trials = 6;
 
-  bool exact() const {
-    const auto is_exact = [](const Growth& growth) {
-      return growth.exact() && growth.closeness() > 0.6;
-    };
-    return std::any_of(along.begin(), along.end(), is_exact) ||
-           std::any_of(across.begin(), across.end(), is_exact);
-  }
-};
-
-// What the search starts from: seeds and the first steps from them.
-Trials begin(const SearchCloud& cloud, std::uint64_t seed, const Context& context) {
-  const Seeds seeds = find_seeds(cloud, seed, context);
-  return {trials(cloud, seeds.along), trials(cloud, seeds.across)};
+// Whether points have exact partners: smoothing would spoil them.
+bool has_exact_partners(const SearchCloud& cloud, const Seeds& seeds) {
+  for (const std::vector<Seed>* kind : {&seeds.along, &seeds.across})
+    for (const Growth& growth : trials(cloud, *kind, few_trials))
+      if (growth.exact() && growth.closeness() > 0.6) return true;
+  return false;
 }
 
 }  // namespace
 
 Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   Search search{SearchCloud(cloud, sample_size, context.stage(0, 0.2)), {}};
-  Trials begun = begin(search.cloud, cloud.seed, context.stage(0.2, 0.4));
-  if (search.cloud.noisy() && !begun.exact()) {
+  Seeds seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.2, 0.4));
+  if (search.cloud.noisy() && !has_exact_partners(search.cloud, seeds)) {
     search.cloud.smooth();
-    begun = begin(search.cloud, cloud.seed, context.stage(0.4, 0.6));
+    seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.4, 0.6));
   }
-  explore(search.cloud, std::move(begun.along), search.sheets, context.stage(0.6, 0.7));
-  explore(search.cloud, std::move(begun.across), search.sheets, context.stage(0.7, 0.8));
+  explore(search.cloud, seeds.along, search.sheets, context.stage(0.6, 0.7));
+  explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.8));
   search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.8, 1));
   return search;
 }
