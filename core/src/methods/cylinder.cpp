@@ -1,6 +1,8 @@
 #include <symsurf/cylinder.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "../cylinder/cylinder_candidates.h"
 #include "../matching.h"
@@ -12,9 +14,11 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 48;     // candidates that are settled on the surfels
-constexpr Index finalists = 8;    // of these, are fitted to the full cloud
-constexpr Index polished = 3;     // and of these, to ever more of it
+constexpr Index started = 48;         // candidates that are settled on the surfels
+constexpr Index finalists = 8;        // of these, are fitted to the full cloud
+constexpr Index polished = 3;         // and of these, to ever more of it
+constexpr std::size_t rescanned = 4;  // candidates whose axis is looked at more closely
+constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
 constexpr double hopeless = 0.6;  // of what the best explains: not worth fitting
 constexpr double alike = 0.04;    // cylinders closer than this are one
 constexpr double widest = 6;      // radius, in diagonals: wider ones are hardly told from planes
@@ -30,6 +34,14 @@ void drop_hopeless(std::vector<CylinderCandidate>& candidates) {
   });
 }
 
+// The same distance from the cloud's middle, with the axis turned about the line between them.
+UnitCylinder turned(const UnitCylinder& cylinder, double angle) {
+  const Vector3 u = cylinder.from_axis(Vector3::Zero()).normalized();
+  const Vector3 nearest = cylinder.point - cylinder.point.dot(cylinder.axis) * cylinder.axis;
+  const Vector3 axis = std::cos(angle) * cylinder.axis + std::sin(angle) * u.cross(cylinder.axis);
+  return {nearest, axis, cylinder.radius};
+}
+
 // On the thinned cloud alone.
 std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed,
                                                    const Context& context) {
@@ -42,6 +54,12 @@ std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::
   if (!candidates.empty()) drop_hopeless(candidates);
   for (CylinderCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(surfels, candidates, alike, 2 * finalists);
+  const std::size_t found = std::min(rescanned, candidates.size());
+  for (std::size_t i = 0; i < found; ++i)
+    for (const double angle : angles)
+      candidates.push_back(settled(
+          surfels, map, CylinderCandidate{turned(candidates[i].shape, angle)}, 0.02, 0.012, 4, 1));
   keep_distinct(surfels, candidates, alike, 2 * finalists);
   return candidates;
 }
