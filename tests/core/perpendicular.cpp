@@ -62,6 +62,19 @@ TEST(Perpendicular, FindsTheCurvedMirrorBetweenTwoSheets) {
   }
 }
 
+TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Sheets s = sheets_around(seed, roof_tile, 0.05, 0.2);
+    RandomCloud random(seed);
+    const double noise = 0.015 * diagonal(s.points);
+    for (Index i = 0; i < s.points.rows(); ++i)
+      s.points.row(i) += noise * random.in_box().transpose();
+    const Result result = detect(s.points, {.method = "perpendicular"});
+    EXPECT_EQ(result.surface_points.rows(), result.pairs.rows()) << seed;
+    EXPECT_TRUE(result.surface_points.allFinite()) << seed;
+  }
+}
+
 TEST(Perpendicular, FitsACylinderToIt) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);

@@ -63,6 +63,16 @@ TEST(SurfaceMirror, FindsTheClosestPoint) {
     }
 }
 
+TEST(SurfaceMirror, HasNoFootForWhatIsNoPoint) {
+  for (const Surface& f : surfaces())
+    for (const Mapping mapping : {Mapping::Fixed, Mapping::Perpendicular})
+      for (const double z : {NAN, INFINITY}) {
+        const SurfaceMirror mirror(f, mapping);
+        EXPECT_TRUE(std::isnan(mirror.signed_distance(Vector3(z, 0, 0)))) << f.name;
+        EXPECT_TRUE(mirror.foot(Vector3(z, 0, 0)).hasNaN()) << f.name;
+      }
+}
+
 TEST(SurfaceMirror, MovesWithItsPoints) {
   RandomCloud random(3);
   for (const Mapping mapping : {Mapping::Fixed, Mapping::Perpendicular})

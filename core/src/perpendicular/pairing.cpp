@@ -9,7 +9,8 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-// A point is not its own partner. Where partners are exact they agree about each other.
+// A point is not its own partner. Where partners are exact they agree about each other; elsewhere
+// the sheet may end before it reaches the middle between them.
 void drop_false_pairs(Result& result, Index size, bool mutual) {
   std::vector<Index> partner(size, -1);
   for (Index row = 0; row < result.pairs.rows(); ++row)
@@ -18,6 +19,7 @@ void drop_false_pairs(Result& result, Index size, bool mutual) {
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
     if (j == i || (mutual && partner[j] != i)) continue;
+    if (!result.surface_points.row(row).allFinite()) continue;
     result.pairs.row(kept) = result.pairs.row(row);
     result.residuals[kept] = result.residuals[row];
     result.surface_points.row(kept++) = result.surface_points.row(row);
@@ -36,9 +38,9 @@ void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, 
   const double limit = std::min(pair_distance, (sheet.exact ? 0.8 : 1.3) * searched.spacing);
   symsurf::add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
                      context.stage(0.2, 0.7));
-  drop_false_pairs(result, cloud.points.size(), sheet.exact);
   if (!sheet.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.7, 1));
+  drop_false_pairs(result, cloud.points.size(), sheet.exact);
 }
 
 }  // namespace symsurf::perpendicular

@@ -91,6 +91,7 @@ Vector3 closest_on_half_sphere(const Vector3& p) {
 }  // namespace
 
 Vector3 closest_point(const Surface& surface, const Vector3& p) {
+  if (!p.allFinite()) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   if (surface.name == "f6") return closest_on_half_sphere(p);
   Search search(surface, p);
   // The closest point is no farther than the one straight above or below.
