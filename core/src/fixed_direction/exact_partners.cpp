@@ -10,7 +10,6 @@ namespace symsurf {
 namespace {
 
 constexpr Index tried_peaks = 8;
-constexpr double cone = 0.03;         // radians about a peak
 constexpr double exact_angle = 1e-5;  // chords agree to this, or have no exact partners
 constexpr Index least_pairs = 8;
 constexpr double convincing_share = 0.7;  // of all points: no need to look further
@@ -26,7 +25,7 @@ Points midpoints(const WorkingCloud& cloud, const std::vector<ChordPair>& pairs)
 }  // namespace
 
 FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks,
-                             const Context& context) {
+                             double cone, const Context& context) {
   FieldEstimate best;
   double best_rank = 0;
   for (std::size_t k = 0; k < peaks.size() && k < tried_peaks; ++k) {

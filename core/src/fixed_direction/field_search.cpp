@@ -15,8 +15,9 @@ namespace {
 
 constexpr Index peaks_a_scale = 6, explaining = 3;
 constexpr Index searched_size = 2000;
-constexpr double exact_share = 0.2;     // of the points have exact partners: no chance
-constexpr double evidence_reach = 1.7;  // spacings
+constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
+constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
+constexpr double evidence_reach = 1.7;                     // spacings
 constexpr double suspected = 3;
 constexpr double no_evidence = 5;         // standard deviations that chance reaches
 constexpr double known_scatter = 7;       // from here on the scatter is believed
@@ -78,8 +79,8 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
     peaks = chord_peaks(cloud, peaks_a_scale);
   context.report(0.2);
 
-  const FieldEstimate exact = exact_partners(cloud, peaks, context);
-  statistics["partners"] = std::string(exact.explained > exact_share ? "exact" : "sheets");
+  const FieldEstimate exact = exact_partners(cloud, peaks, peak_cone, context);
+  statistics["partners"] = std::string("exact");
   if (exact.explained > exact_share) return exact;
   context.report(0.3);
 
@@ -97,6 +98,12 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
 
   const PartnerEvidence& start = ranking.best();
   statistics["partner_significance"] = start.significance;
+  if (start.significance > strong_evidence) {
+    const FieldEstimate again =
+        exact_partners(cloud, {{start.direction, 0}}, evidence_cone, context);
+    if (again.explained > exact_share) return again;
+  }
+  statistics["partners"] = std::string("sheets");
   const double roughness =
       median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
   const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch, context);
