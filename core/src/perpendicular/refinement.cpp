@@ -12,6 +12,8 @@ namespace {
 
 constexpr double exact_miss = 0.25;  // spacings, in the median
 constexpr double flat_enough = 0.995;
+constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
+constexpr double least_island = 0.15;                     // of the largest
 constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
 
 struct Smoothing {
@@ -31,6 +33,38 @@ Points feet_of(const std::vector<Carried>& carried) {
   Points feet(static_cast<Index>(carried.size()), 3);
   for (Index i = 0; i < feet.rows(); ++i) feet.row(i) = carried[i].foot.transpose();
   return feet;
+}
+
+// Pieces that hang together. Beside a true sheet, small ones are what chance has to offer.
+void drop_islands(const SearchCloud& cloud, std::vector<Carried>& carried) {
+  if (carried.empty()) return;
+  const Points feet = feet_of(carried);
+  const PointTree tree(feet);
+  std::vector<std::int32_t> island(carried.size(), -1);
+  std::vector<Index> sizes, open;
+  for (Index first = 0; first < feet.rows(); ++first) {
+    if (island[first] >= 0) continue;
+    const auto name = static_cast<std::int32_t>(sizes.size());
+    sizes.push_back(0);
+    island[first] = name;
+    open.push_back(first);
+    while (!open.empty()) {
+      const Index i = open.back();
+      open.pop_back();
+      ++sizes[name];
+      tree.within(feet.row(i), together * cloud.spacing, [&](Index other, double) {
+        if (island[other] >= 0) return;
+        if (std::abs(carried[other].normal.dot(carried[i].normal)) < together_normals) return;
+        island[other] = name;
+        open.push_back(other);
+      });
+    }
+  }
+  const auto least =
+      least_island * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+  std::size_t k = 0;
+  std::erase_if(carried,
+                [&](const Carried&) { return static_cast<double>(sizes[island[k++]]) < least; });
 }
 
 // Patches about one spacing apart, each fitted to the data around it.
@@ -133,6 +167,7 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
                                     ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
                                     : Smoothing{40, 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !sheet.mirror;
+    if (!sheet.exact) drop_islands(cloud, sheet.carried);
     sheet.mirror = fitted(cloud, sheet.carried,
                           fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!sheet.mirror) return;
