@@ -16,12 +16,13 @@ namespace {
 
 constexpr Index started = 48;         // candidates that are settled on the surfels
 constexpr Index finalists = 8;        // of these, are fitted to the full cloud
-constexpr Index polished = 3;         // and of these, to ever more of it
+constexpr std::size_t polished = 3;   // and of these, to ever more of it
 constexpr std::size_t rescanned = 4;  // candidates whose axis is looked at more closely
 constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
-constexpr double hopeless = 0.6;  // of what the best explains: not worth fitting
-constexpr double alike = 0.04;    // cylinders closer than this are one
-constexpr double widest = 6;      // radius, in diagonals: wider ones are hardly told from planes
+constexpr double by_chance = 0.35;  // what cylinders explain of random solids before that
+constexpr double hopeless = 0.6;    // of what the best explains: not worth fitting
+constexpr double alike = 0.04;      // cylinders closer than this are one
+constexpr double widest = 6;        // radius, in diagonals: wider ones are hardly told from planes
 
 Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
   return {frame.leave(cylinder.point), frame.axes * cylinder.axis, frame.size * cylinder.radius};
@@ -79,8 +80,9 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   keep_distinct(surfels, candidates, alike, finalists);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
   keep_distinct(surfels, candidates, alike, finalists);
-  for (Index i = 0; i < std::min<Index>(polished, static_cast<Index>(candidates.size())); ++i)
-    candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
+  for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i)
+    if (i == 0 || candidates[i].explained > by_chance)
+      candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
   keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
   drop_hopeless(candidates);
   context.report(0.7);
