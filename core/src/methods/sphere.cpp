@@ -1,104 +1,61 @@
 #include <symsurf/sphere.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "../matching.h"
 #include "../mirror_score.h"
 #include "../parametric/refinement.h"
-#include "../plane/maximise.h"
 #include "../sphere/partner_fit.h"
+#include "../sphere/sheet_slide.h"
 #include "../sphere/sphere_candidates.h"
-#include "../sphere/sphere_measure.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr Index started = 48;              // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;         // of these, have their measure maximised
-constexpr std::size_t finalists = 8;       // of these, are fitted to the full cloud
-constexpr std::size_t polished = 3;        // and of these, to ever more of it
-constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
-constexpr double promising = 0.65;         // and from here on worth sliding
-constexpr double least_rest = 0.25;        // of the cloud: worth a search of its own
-constexpr int slides = 3;                  // of one sphere, at the most
-constexpr double alike = 0.04;             // spheres closer than this are one
-constexpr Index measured = 500;            // surfels that the measure is taken over
-constexpr double bent = 0.6, largest = 3;  // radii, in diagonals: no plane, nothing but one
-constexpr double flat_radius = 30, as_much = 0.9;
+constexpr std::size_t finalists = 8;  // are fitted to the full cloud
+constexpr std::size_t polished = 3;   // and of these, to ever more of it
+constexpr double promising = 0.65;    // and from here on worth sliding
+constexpr double symmetric = 0.35;    // more than what shapes without a mirror explain
+constexpr double on_sheets = 0.97;    // of what it explained before
+constexpr double by_chance = 0.25;    // fewer partners than that prove nothing
+constexpr double least_rest = 0.25;   // of the cloud: worth a search of its own
+constexpr int slides = 3;             // of one sphere, at the most
 
 Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
   return {frame.leave(sphere.centre), frame.size * sphere.radius};
 }
 
-void drop_hopeless(std::vector<SphereCandidate>& candidates) {
-  const double least = hopeless * candidates.front().explained;
-  std::erase_if(candidates, [&](const SphereCandidate& c) { return c.explained < least; });
+// Through noise some points meet others by chance: that outweighs no sheet.
+void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
+  double most = 0;
+  for (const SphereCandidate& c : candidates) most = std::max(most, c.explained);
+  for (SphereCandidate& c : candidates)
+    if (c.partnered < by_chance && c.explained < on_sheets * most) c.partnered = 0;
 }
 
-// Spheres so large that a plane explains as much; where there is nothing else, they stay.
-void drop_planes(const Surfels& surfels, const SurfelMap& map,
-                 std::vector<SphereCandidate>& candidates) {
-  const auto is_plane = [&](const SphereCandidate& c) {
-    if (c.shape.radius > largest) return true;
-    if (c.shape.radius < bent) return false;
-    const Vector3 up = c.shape.centre.normalized();  // from the cloud's centroid
-    const Vector3 foot = c.shape.centre - c.shape.radius * up;
-    const SphereCandidate flat{{foot + flat_radius * up, flat_radius}};
-    const double explained = settled(surfels, map, flat, 0.03, 0.02, 4, 1).explained;
-    return explained > as_much * explained_share(surfels, map, c.shape, 0.02);
-  };
-  std::vector<SphereCandidate> spheres;
-  std::remove_copy_if(candidates.begin(), candidates.end(), std::back_inserter(spheres), is_plane);
-  if (!spheres.empty()) candidates = std::move(spheres);
-}
-
-// From each of the best candidates to the maximum next to it of Hruda's measure, where that
-// explains more.
-void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
-  const Index stride = std::max<Index>(1, surfels.size() / measured);
-  Points positions((surfels.size() + stride - 1) / stride, 3);
-  for (Index i = 0; i < positions.rows(); ++i)
-    positions.row(i) = surfels[i * stride].position.transpose();
-  const SphereMeasure measure(positions);
-  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
-    Eigen::Vector4d s;
-    s << candidates[i].shape.centre, candidates[i].shape.radius;
-    s = maximise<4>(measure, s, 0.02, 8);
-    const UnitSphere sphere{s.head<3>(), s[3]};
-    const double explained = explained_share(surfels, map, sphere, 0.02, 3);
-    if (explained > candidates[i].explained) candidates[i] = {sphere, explained};
-  }
-}
-
-// On the thinned cloud alone.
-std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
-                                               std::uint64_t seed, const Context& context) {
-  std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started, context);
-  if (candidates.empty()) candidates.push_back({});
-  for (SphereCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
-  drop_planes(surfels, map, candidates);
-  keep_distinct(surfels, candidates, alike, started);
-  climb(surfels, map, candidates);
-  drop_hopeless(candidates);
-  for (SphereCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
-  keep_distinct(surfels, candidates, alike, 2 * finalists);
-  return candidates;
-}
-
-// As far as each slide brings it nearer.
+// As far as each slide brings it nearer, and off no sheet.
 SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement<UnitSphere>& refinement,
                      const PartnerFit& partner_fit) {
   for (int k = 0; k < slides; ++k) {
-    const SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
+    SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
     if (next.partnered <= candidate.partnered) break;
+    next.explained = refinement.explained(next.shape, 800);
+    if (next.explained < on_sheets * candidate.explained) break;
     candidate = next;
   }
   return candidate;
+}
+
+// Onto partners; where noise hides these, and it is worth the time, along the sheets before.
+SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
+                              const ParametricRefinement<UnitSphere>& refinement,
+                              const PartnerFit& partner_fit) {
+  const SphereCandidate on_partners = slid(fitted, refinement, partner_fit);
+  if (on_partners.partnered >= by_chance || !is_best || fitted.explained < symmetric)
+    return on_partners;
+  return slid(slid_along_sheets(fitted, refinement), refinement, partner_fit);
 }
 
 // Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
@@ -119,8 +76,8 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   const ParametricRefinement<UnitSphere> refinement(rest, tree, surfels, context.stage(0.8, 1));
   const PartnerFit partner_fit(rest, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found;
-  for (const SphereCandidate& candidate :
-       promising_spheres(surfels, SurfelMap(surfels), cloud.seed, context.stage(0.2, 0.8))) {
+  for (const SphereCandidate& candidate : promising_spheres(
+           surfels, SurfelMap(surfels), cloud.seed, 2 * finalists, context.stage(0.2, 0.8))) {
     const SphereCandidate fitted = partner_fit(refinement.fitted(candidate, 400, 4));
     if (fitted.partnered > 0) found.push_back(fitted);
   }
@@ -131,7 +88,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   const SurfelMap map(surfels);
   std::vector<SphereCandidate> candidates =
-      promising_spheres(surfels, map, cloud.seed, context.stage(0.1, 0.4));
+      promising_spheres(surfels, map, cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
@@ -145,14 +102,16 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
        spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
                        context.stage(0.5, 0.6)))
     candidates.push_back(candidate);
-  keep_distinct(surfels, candidates, alike, finalists);
+  keep_distinct(surfels, candidates, alike_spheres, finalists);
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered == 0) {
       candidate = refinement.fitted(candidate, 800, 3);
       if (candidate.merit() >= promising * candidates.front().merit())
-        candidate = slid(candidate, refinement, partner_fit);
+        candidate =
+            through_noise(candidate, &candidate == &candidates.front(), refinement, partner_fit);
     }
-  keep_distinct(surfels, candidates, alike, finalists);
+  drop_chance_partners(candidates);
+  keep_distinct(surfels, candidates, alike_spheres, finalists);
   for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
@@ -163,7 +122,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
   drop_planes(surfels, map, candidates);
-  keep_distinct(surfels, candidates, alike, 1 + values.integer("max_candidates"));
+  keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
   context.report(0.7);
 
   // Partners tell more than sheets, which many spheres map onto each other about as well.

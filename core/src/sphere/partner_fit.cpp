@@ -6,6 +6,7 @@
 
 #include "../plane/agreement.h"
 #include "../quantile.h"
+#include "sheet_slide.h"
 
 namespace symsurf {
 
@@ -18,9 +19,7 @@ constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
-constexpr double widest_block = 4;    // in reaches of the search
-constexpr double slide = 0.5;         // of images from one place to the next
-constexpr std::array farthest{7, 4};  // places to either side, of the loosest and the next
+constexpr double widest_block = 4;  // in reaches of the search
 constexpr double near = 1.1;
 constexpr Index on_the_way = 120, second_look = 300;
 constexpr std::size_t looked_at = 24, attempts = 6;
@@ -172,12 +171,8 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& a, const Place& b) { return a.nearness > b.nearness; });
   };
-  for (int i = -farthest[0]; i <= farthest[0]; ++i)
-    for (int j = -farthest[1]; j <= farthest[1]; ++j) {
-      const Eigen::Vector4d by = slide * spacing_ * loosest * Eigen::Vector2d(i, j);
-      const UnitSphere there{start.shape.centre + by.head<3>(), start.shape.radius + by[3]};
-      if (there.radius > 0) places.push_back({there, nearness(there, on_the_way)});
-    }
+  for (const UnitSphere& there : spheres_around(start.shape, loosest, spacing_))
+    places.push_back({there, nearness(there, on_the_way)});
   if (places.empty()) return start;
   sort();
   const double usual = places[places.size() / 2].nearness;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "../parametric/pair_hypotheses.h"
+#include "../plane/maximise.h"
+#include "sphere_measure.h"
 
 namespace symsurf {
 
@@ -17,8 +20,15 @@ constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2
 // Of each size of spheres, the largest first. Diagonals.
 constexpr std::array least_radii{0.7, 0.3, 0.0};
 
-}  // namespace
+constexpr Index started = 48;              // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;         // of these, have their measure maximised
+constexpr Index measured = 500;            // surfels that the measure is taken over
+constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
+constexpr double bent = 0.6, largest = 3;  // radii, in diagonals: no plane, nothing but one
+constexpr double flat_radius = 30, as_much = 0.9;
 
+// Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point and
+// the normal of the sphere there; the curvature is scanned. The best `count` that differ.
 std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,
                                                const Context& context) {
@@ -40,6 +50,64 @@ std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const Sur
          best_of(chosen, surfels, map, count / static_cast<Index>(least_radii.size()), context))
       candidates.push_back(candidate);
   }
+  return candidates;
+}
+
+void drop_hopeless(std::vector<SphereCandidate>& candidates) {
+  const double least = hopeless * candidates.front().explained;
+  std::erase_if(candidates, [&](const SphereCandidate& c) { return c.explained < least; });
+}
+
+// From each of the best candidates to the maximum next to it of Hruda's measure, where that
+// explains more.
+void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
+  const Index stride = std::max<Index>(1, surfels.size() / measured);
+  Points positions((surfels.size() + stride - 1) / stride, 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) = surfels[i * stride].position.transpose();
+  const SphereMeasure measure(positions);
+  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
+    Eigen::Vector4d s;
+    s << candidates[i].shape.centre, candidates[i].shape.radius;
+    s = maximise<4>(measure, s, 0.02, 8);
+    const UnitSphere sphere{s.head<3>(), s[3]};
+    const double explained = explained_share(surfels, map, sphere, 0.02, 3);
+    if (explained > candidates[i].explained) candidates[i] = {sphere, explained};
+  }
+}
+
+}  // namespace
+
+void drop_planes(const Surfels& surfels, const SurfelMap& map,
+                 std::vector<SphereCandidate>& candidates) {
+  const auto is_plane = [&](const SphereCandidate& c) {
+    if (c.shape.radius > largest) return true;
+    if (c.shape.radius < bent) return false;
+    const Vector3 up = c.shape.centre.normalized();  // from the cloud's centroid
+    const Vector3 foot = c.shape.centre - c.shape.radius * up;
+    const SphereCandidate flat{{foot + flat_radius * up, flat_radius}};
+    const double explained = settled(surfels, map, flat, 0.03, 0.02, 4, 1).explained;
+    return explained > as_much * explained_share(surfels, map, c.shape, 0.02);
+  };
+  std::vector<SphereCandidate> spheres;
+  std::remove_copy_if(candidates.begin(), candidates.end(), std::back_inserter(spheres), is_plane);
+  if (!spheres.empty()) candidates = std::move(spheres);
+}
+
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
+                                               std::uint64_t seed, Index count,
+                                               const Context& context) {
+  std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started, context);
+  if (candidates.empty()) candidates.push_back({});
+  for (SphereCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  drop_planes(surfels, map, candidates);
+  keep_distinct(surfels, candidates, alike_spheres, started);
+  climb(surfels, map, candidates);
+  drop_hopeless(candidates);
+  for (SphereCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(surfels, candidates, alike_spheres, count);
   return candidates;
 }
 

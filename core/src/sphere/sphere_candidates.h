@@ -9,10 +9,17 @@ namespace symsurf {
 
 using SphereCandidate = Candidate<UnitSphere>;
 
-/// Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point
-/// and the normal of the sphere there; the curvature is scanned. The best `count` that differ.
-std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const SurfelMap& map,
+/// Spheres closer than this are one, by Action::difference.
+constexpr double alike_spheres = 0.04;
+
+/// The best `count` spheres that differ, on the thinned cloud alone: from pairs of surfels, of any
+/// radius, settled on the surfels; the first of them at a maximum of Hruda's measure.
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,
                                                const Context& context);
+
+/// Drops spheres so large that a plane explains as much; where there is nothing else, they stay.
+void drop_planes(const Surfels& surfels, const SurfelMap& map,
+                 std::vector<SphereCandidate>& candidates);
 
 }  // namespace symsurf
