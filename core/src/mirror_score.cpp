@@ -31,11 +31,13 @@ Vector3 image_normal(const Mirror& mirror, const Vector3& x, const Vector3& norm
 }  // namespace
 
 double distance_past(const Vector3& gap, const Surfel& partner, double spacing) {
-  const double length = gap.norm(), off_sheet = std::abs(gap.dot(partner.normal));
-  const double along_sheet = std::sqrt(std::max(0.0, length * length - off_sheet * off_sheet));
-  const double sheet = std::hypot(off_sheet, 0.3 * std::max(0.0, along_sheet - spacing));
-  const double blob = 0.6 * std::max(0.0, length - spacing);
-  return std::min(std::hypot(partner.flatness * sheet, (1 - partner.flatness) * blob), 3 * length);
+  const auto squared = [](double x) { return x * x; };
+  const double length = gap.norm(), off_sheet = gap.dot(partner.normal);
+  const double along_sheet = std::sqrt(std::max(0.0, squared(length) - squared(off_sheet)));
+  const double sheet = squared(off_sheet) + squared(0.3 * std::max(0.0, along_sheet - spacing));
+  const double blob = squared(0.6 * std::max(0.0, length - spacing));
+  const double flat = squared(partner.flatness), round = squared(1 - partner.flatness);
+  return std::min(std::sqrt(flat * sheet + round * blob), 3 * length);
 }
 
 MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)

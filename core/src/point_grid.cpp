@@ -46,7 +46,8 @@ void PointGrid::choose_cell(PointsView points) {
   const auto set = [&](double cell) {
     const double volume = (high_ - low_).cwiseMax(cell).prod();
     cell_ = std::max({cell, std::cbrt(volume / (most_cells * count)), 1e-3 * longest});
-    size_ = ((high_ - low_) / cell_).array().floor().cast<int>() + 1;
+    cells_ = 1 / cell_;
+    size_ = ((high_ - low_) * cells_).array().floor().cast<int>() + 1;
   };
   set(2 * longest / std::sqrt(count));
   std::vector<std::uint8_t> seen(static_cast<std::size_t>(size_.cast<Index>().prod()), 0);
@@ -79,7 +80,7 @@ void PointGrid::fill(PointsView points) {
 
 PointGrid::Cell PointGrid::cell_of(const Vector3& x) const {
   // Clamped while still double: a query may be anywhere.
-  const Eigen::Array3d cell = ((x - low_) / cell_).array();
+  const Eigen::Array3d cell = ((x - low_) * cells_).array();
   return cell.max(0.0).min((size_ - 1).cast<double>()).cast<int>();
 }
 

@@ -40,7 +40,7 @@ class PointGrid {
   std::array<Neighbour, k> best(const Vector3& query, double limit) const;
 
   Vector3 low_, high_;
-  double cell_ = 1;
+  double cell_ = 1, cells_ = 1;  // edge of a cell, cells along a unit of length
   Cell size_ = Cell::Ones();
   std::vector<std::int32_t> start_, order_;
   std::vector<Vector3> points_;  // cell by cell

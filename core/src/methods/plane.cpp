@@ -16,37 +16,34 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 30;               // candidates that are settled on the surfels
-constexpr std::size_t climbed = 2;          // of these, have their measure maximised
-constexpr std::size_t quickly_fitted = 10;  // of these, are fitted to the full cloud
-constexpr std::size_t finalists = 6;        // of these, are fitted carefully
-constexpr double convincing = 0.7;          // of what the best explains: worth the last digits
-constexpr double hopeless = 0.6;            // of what the best explains: not worth fitting
-constexpr double alike = 0.05;              // planes closer than this are one
-constexpr Index measured = 300;             // surfels that the measure is taken over
+constexpr Index started = 20;         // candidates that are settled on the surfels
+constexpr Index settled_well = 14;    // of these, on all of them
+constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
+constexpr Index finalists = 6;        // of these, are fitted carefully
+constexpr double convincing = 0.9;    // of what the best explains: worth the last digits
+constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
+constexpr double alike = 0.05;        // planes closer than this are one
+constexpr Index measured = 300;       // surfels that the measure is taken over
 
 Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
   const Vector3 normal = frame.axes * plane.normal;
   return Plane(normal, frame.size * plane.offset - normal.dot(frame.centroid));
 }
 
-// Hruda et al.: from each of the best candidates to the measure's maximum next to it, where that
-// explains more.
-void climb(const Surfels& surfels, const SurfelMap& map, std::vector<PlaneCandidate>& candidates) {
+// Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
+void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
   const Index stride = std::max<Index>(1, surfels.size() / measured);
   Points positions((surfels.size() + stride - 1) / stride, 3);
   for (Index i = 0; i < positions.rows(); ++i)
     positions.row(i) = surfels[i * stride].position.transpose();
   const SymmetryMeasure measure(positions);
-  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
-    Eigen::Vector4d p;
-    p << candidates[i].plane.normal, candidates[i].plane.offset;
-    p = maximise<4>(measure, p, 0.02, 8);
-    const double length = p.head<3>().norm();
-    const UnitPlane plane{p.head<3>() / length, p[3] / length};
-    const double explained = explained_share(surfels, map, plane, 0.02, 3);
-    if (explained > candidates[i].explained) candidates[i] = {plane, explained};
-  }
+  Eigen::Vector4d p;
+  p << candidate.plane.normal, candidate.plane.offset;
+  p = maximise<4>(measure, p, 0.02, 5);
+  const double length = p.head<3>().norm();
+  const UnitPlane plane{p.head<3>() / length, p[3] / length};
+  const double explained = explained_share(surfels, map, plane, 0.02, 3);
+  if (explained > candidate.explained) candidate = {plane, explained};
 }
 
 void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
@@ -63,11 +60,12 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
   keep_distinct(candidates, alike, started);
   context.report(0.5);
-  climb(surfels, map, candidates);
+  climb(surfels, map, candidates.front());
   drop_hopeless(candidates);
+  keep_distinct(candidates, alike, settled_well);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
-  keep_distinct(candidates, alike, started);
+  keep_distinct(candidates, alike, quickly_fitted);
   context.report(1);
   return candidates;
 }
@@ -88,7 +86,6 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
       part.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
     }
   };
-  if (candidates.size() > quickly_fitted) candidates.resize(quickly_fitted);
   refine(0.4, 0.43, [&](const PlaneCandidate& c) { return refinement.quick(c); });
   keep_distinct(candidates, alike, finalists);
   drop_hopeless(candidates);

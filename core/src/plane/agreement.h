@@ -7,6 +7,19 @@
 
 namespace symsurf {
 
+/// What offsets count between an image and its partner: in any direction, and, on top, off the
+/// sheet.
+struct Metric {
+  double isotropic, off_sheet;
+  Vector3 normal;  ///< of the sheet, unit
+
+  operator Matrix3() const {
+    Matrix3 m = off_sheet * normal * normal.transpose();
+    m.diagonal().array() += isotropic;
+    return m;
+  }
+};
+
 /// How well an image lands on its partner: its offset from the partner's tangent plane counts in
 /// full, along the plane hardly, because partners are samples of a sheet.
 struct Agreement {
@@ -27,11 +40,11 @@ struct Agreement {
     facing = (1 - turned) * (1 - turned);
   }
 
-  Matrix3 metric() const { return metric_with(isotropic); }
+  Metric metric() const { return {isotropic, partner.flatness, partner.normal}; }
 
   /// The same where an offset along a sheet counts that much.
-  Matrix3 metric(double along_sheet) const {
-    return metric_with(isotropic_share(partner.flatness, along_sheet));
+  Metric metric(double along_sheet) const {
+    return {isotropic_share(partner.flatness, along_sheet), partner.flatness, partner.normal};
   }
 
   /// 0..1. Where the gap is small in every direction, nobody asks for normals.
@@ -46,11 +59,6 @@ struct Agreement {
   static double isotropic_share(double flat, double along_sheet) {
     constexpr double inside_blob = 0.4;
     return along_sheet * flat + inside_blob * (1 - flat);
-  }
-  Matrix3 metric_with(double isotropic) const {
-    Matrix3 m = partner.flatness * partner.normal * partner.normal.transpose();
-    m.diagonal().array() += isotropic;
-    return m;
   }
 };
 

@@ -18,7 +18,7 @@ constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a ca
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.6;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr std::size_t first_count = 7000, second_count = 200;
+constexpr std::size_t first_count = 4500, second_count = 200;
 constexpr double least_moved = 0.35;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "agreement.h"
 #include "unit_plane.h"
 
 namespace symsurf {
@@ -13,15 +14,20 @@ class PlaneStep {
   explicit PlaneStep(const UnitPlane& plane)
       : plane_(plane), u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)) {}
 
-  void add(const Vector3& x, const Vector3& gap, const Matrix3& metric, double weight) {
-    const double l = plane_.distance(x);
-    Matrix3 slope;
-    slope.col(0) = -2 * (u_.dot(x) * plane_.normal + l * u_);
-    slope.col(1) = -2 * (v_.dot(x) * plane_.normal + l * v_);
-    slope.col(2) = -2 * plane_.normal;
-    const Matrix3 weighted = weight * metric * slope;
-    hessian_.noalias() += slope.transpose() * weighted;
-    gradient_.noalias() += weighted.transpose() * gap;
+  // The image's slopes are -2 (a n + l u), -2 (b n + l v) and -2 n, with a, b, l the coordinates of
+  // x along u, v and n: their products with one another and with any vector are short.
+  void add(const Vector3& x, const Vector3& gap, const Metric& metric, double weight) {
+    const double a = u_.dot(x), b = v_.dot(x), l = plane_.distance(x);
+    const auto along_slopes = [&](const Vector3& y) -> Vector3 {
+      const double n = plane_.normal.dot(y);
+      return {a * n + l * u_.dot(y), b * n + l * v_.dot(y), n};
+    };
+    const Vector3 off = along_slopes(metric.normal), pulled = along_slopes(gap);
+    Matrix3 slopes;
+    slopes << a * a + l * l, a * b, a, a * b, b * b + l * l, b, a, b, 1;
+    const double all = 4 * weight * metric.isotropic, sheet = 4 * weight * metric.off_sheet;
+    hessian_ += all * slopes + sheet * off * off.transpose();
+    gradient_ -= (all * pulled + sheet * metric.normal.dot(gap) * off) / 2;
   }
 
   /// The plane after the step, and how far it moved; the same plane where nothing holds it.

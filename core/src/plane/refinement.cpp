@@ -201,7 +201,7 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
     PlaneStep sum(plane);
     for (const Match& match : found)
       if (gap(match).norm() <= 3 * typical)
-        sum.add(samples_[match.sample].position, gap(match), Matrix3::Identity(), 1);
+        sum.add(samples_[match.sample].position, gap(match), {1, 0, Vector3::Zero()}, 1);
     double moved;
     plane = sum.taken(&moved);
     if (moved < 1e-15) break;

@@ -101,9 +101,10 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
   constexpr int guesses = 4;
   for (int guess = 0; guess < guesses; ++guess) {
     cell_ = longest / cells;
+    cells_ = 1 / cell_;
     // Off any lattice that the points may lie on: rounding must not decide between two cells.
     low_ = cloud.frame.low.array() - lattice_shift * cell_;
-    size_ = ((cloud.frame.high - low_) / cell_).array().floor().cast<int>() + 1;
+    size_ = ((cloud.frame.high - low_) * cells_).array().floor().cast<int>() + 1;
     std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
     for (Index i = 0; i < cloud.points.size(); ++i)
       seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
@@ -139,12 +140,15 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   if (context.communicator()) join(patches, context);
 
   // In the order of the cells, not in that of the points.
+  std::sort(patches.begin(), patches.end(),
+            [&](const Patch& a, const Patch& b) { return linear(a.cell) < linear(b.cell); });
+  for (std::size_t s = 0; s < patches.size(); ++s)
+    slot_[linear(patches[s].cell)] = static_cast<std::int32_t>(s);
   surfels_.reserve(patches.size());
-  for (const std::int32_t s : slot_) {
-    if (s < 0) continue;
+  for (const Patch& patch : patches) {
     Moments around;
-    const Cell from = (patches[s].cell.array() - 1).max(0);
-    const Cell to = (patches[s].cell.array() + 1).min(size_.array() - 1);
+    const Cell from = (patch.cell.array() - 1).max(0);
+    const Cell to = (patch.cell.array() + 1).min(size_.array() - 1);
     for (int x = from.x(); x <= to.x(); ++x)
       for (int y = from.y(); y <= to.y(); ++y) {
         const std::int32_t* row = &slot_[linear({x, y, 0})];
@@ -152,13 +156,10 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
           if (row[z] >= 0) around += patches[row[z]].moments;
       }
     const Thinnest thinnest = thinnest_direction(around.covariance());
-    surfels_.push_back({low_ + patches[s].moments.mean(), thinnest.direction,
+    surfels_.push_back({low_ + patch.moments.mean(), thinnest.direction,
                         thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
-                        patches[s].nearest.index, patches[s].sampled});
+                        patch.nearest.index, patch.sampled});
   }
-  std::int32_t next = 0;
-  for (std::int32_t& s : slot_)
-    if (s >= 0) s = next++;
 }
 
 // The patches of all processes, those of one cell made one.
@@ -180,7 +181,7 @@ void Surfels::join(std::vector<Patch>& patches, const Context& context) {
 }
 
 Index Surfels::containing(const Vector3& x) const {
-  const Vector3 at = (x - low_) / cell_;
+  const Vector3 at = (x - low_) * cells_;
   // Points on the far faces belong to the last cell, as in cell_of.
   if (!((at.array() >= 0).all() && (at.array() <= size_.cast<double>().array()).all())) return -1;
   return slot_[linear(cell_of(x))];

@@ -42,14 +42,14 @@ class Surfels {
   void sum_moments(const Cloud& cloud, const Context& context);
   void join(std::vector<Patch>& patches, const Context& context);
   Cell cell_of(const Vector3& x) const {
-    return ((x - low_) / cell_).cast<int>().cwiseMax(0).cwiseMin(size_ - Cell::Ones());
+    return ((x - low_) * cells_).cast<int>().cwiseMax(0).cwiseMin(size_ - Cell::Ones());
   }
   Index linear(const Cell& c) const {
     return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
   }
 
   Vector3 low_;
-  double cell_ = 1;
+  double cell_ = 1, cells_ = 1;  // edge of a cell, cells along a unit of length
   Cell size_;
   std::vector<Surfel> surfels_;
   std::vector<std::int32_t> slot_;  // of each cell in surfels_, -1: empty
