@@ -18,7 +18,9 @@ constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a ca
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.6;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr std::size_t first_count = 4500, second_count = 200;
+constexpr double first_count = 4500;  // pairs that are tried
+constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
+constexpr std::size_t second_count = 200;
 constexpr double least_moved = 0.35;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
@@ -105,6 +107,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   const Index glancing = std::max<Index>(1, surfels.size() / glance);
   const Index coarse = std::max<Index>(1, surfels.size() / first_look);
   std::vector<std::pair<std::uint32_t, UnitPlane>> planes;
+  double pairs = 0;
   for (Index i = 0; i < surfels.size(); i += step)
     for (Index j = i + step; j < surfels.size(); j += step) {
       const Surfel &a = surfels[i], &b = surfels[j];
@@ -112,14 +115,16 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
       const double length = chord.norm();
       if (length < shortest_chord) continue;
       UnitPlane plane{chord / length, 0};
+      const bool sheets = a.flatness * b.flatness > 0.25;
       const double cosine = plane.reflect_direction(a.normal).dot(b.normal);
-      if (std::abs(cosine) < facing_cosine && a.flatness * b.flatness > 0.25) continue;
+      if (sheets && std::abs(cosine) < facing_cosine) continue;
+      pairs += sheets ? 1 : blind;
       plane.offset = -plane.normal.dot(a.position + b.position) / 2;
       planes.emplace_back(ticket(i, j), plane);
     }
 
   std::map<std::int32_t, Average> bins;
-  const std::uint32_t every = static_cast<std::uint32_t>(planes.size() / first_count) + 1;
+  const std::uint32_t every = static_cast<std::uint32_t>(pairs / first_count) + 1;
   for (const auto& [ticket, plane] : planes) {
     if (ticket % every != 0) continue;
     if (explained_share(surfels, map, plane, search_tolerance, glancing) < least_explained)

@@ -16,7 +16,7 @@ namespace {
 constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double reach = 0.06;  // how far a partner may be
-constexpr double score_tolerance = 0.02;
+constexpr double score_tolerance = 0.015;
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
