@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "agreement.h"
@@ -18,7 +19,7 @@ constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a ca
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.6;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr double first_count = 4500;  // pairs that are tried
+constexpr double first_count = 5500;  // pairs that are tried
 constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
 constexpr std::size_t second_count = 200;
 constexpr double least_moved = 0.35;
@@ -124,9 +125,9 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
     }
 
   std::map<std::int32_t, Average> bins;
-  const std::uint32_t every = static_cast<std::uint32_t>(pairs / first_count) + 1;
+  const double last_ticket = first_count / pairs * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, plane] : planes) {
-    if (ticket % every != 0) continue;
+    if (ticket > last_ticket) continue;
     if (explained_share(surfels, map, plane, search_tolerance, glancing) < least_explained)
       continue;
     const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);
