@@ -20,7 +20,7 @@ constexpr Index started = 20;         // candidates that are settled on the surf
 constexpr Index settled_well = 14;    // of these, on all of them
 constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr Index finalists = 6;        // of these, are fitted carefully
-constexpr double convincing = 0.9;    // of what the best explains: worth the last digits
+constexpr double convincing = 0.95;   // of what the best explains: worth the last digits
 constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
 constexpr double alike = 0.05;        // planes closer than this are one
 constexpr Index measured = 300;       // surfels that the measure is taken over
@@ -91,10 +91,10 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   drop_hopeless(candidates);
   refine(0.43, 0.46, [&](const PlaneCandidate& c) { return refinement.careful(c); });
   keep_distinct(candidates, alike, finalists);
-  const double best_explained = candidates.front().explained;
-  const double good = std::min(best_explained, convincing * best_explained);
-  refine(0.46, 0.5,
-         [&](const PlaneCandidate& c) { return c.explained >= good ? refinement.final(c) : c; });
+  refine(0.46, 0.5, [&](const PlaneCandidate& c) {
+    const double most = candidates.front().explained;  // the best is done first
+    return c.explained >= std::min(most, convincing * most) ? refinement.final(c) : c;
+  });
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
 
   std::vector<std::shared_ptr<Mirror>> mirrors;

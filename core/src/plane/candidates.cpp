@@ -21,7 +21,7 @@ constexpr double contradiction = 0.6;  // how much an image beside the cloud spe
 constexpr double least_explained = 0.1;
 constexpr double first_count = 5500;  // pairs that are tried
 constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
-constexpr std::size_t second_count = 200;
+constexpr std::size_t looked_at = 1500, second_count = 200;
 constexpr double least_moved = 0.35;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
@@ -80,6 +80,12 @@ void sort_best_first(std::vector<PlaneCandidate>& candidates) {
       [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.explained > b.explained; });
 }
 
+void keep_best(std::vector<PlaneCandidate>& candidates, std::size_t count) {
+  if (candidates.size() <= count) return;
+  sort_best_first(candidates);
+  candidates.resize(count);
+}
+
 }  // namespace
 
 double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
@@ -124,21 +130,23 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
       planes.emplace_back(ticket(i, j), plane);
     }
 
-  std::map<std::int32_t, Average> bins;
+  std::vector<PlaneCandidate> found;
   const double last_ticket = first_count / pairs * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, plane] : planes) {
     if (ticket > last_ticket) continue;
-    if (explained_share(surfels, map, plane, search_tolerance, glancing) < least_explained)
-      continue;
+    const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
+    if (explained > least_explained) found.push_back({plane, explained});
+  }
+  keep_best(found, looked_at);
+
+  std::map<std::int32_t, Average> bins;
+  for (const auto& [plane, glanced] : found) {
     const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);
     if (explained > least_explained) bins[bin(plane)].add(plane, explained);
   }
-
-  std::vector<PlaneCandidate> found;
-  found.reserve(bins.size());
+  found.clear();
   for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
-  sort_best_first(found);
-  found.resize(std::min<std::size_t>(found.size(), second_count));
+  keep_best(found, second_count);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
     candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);
