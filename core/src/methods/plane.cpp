@@ -92,8 +92,9 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   refine(0.43, 0.46, [&](const PlaneCandidate& c) { return refinement.careful(c); });
   keep_distinct(candidates, alike, finalists);
   refine(0.46, 0.5, [&](const PlaneCandidate& c) {
-    const double most = candidates.front().explained;  // the best is done first
-    return c.explained >= std::min(most, convincing * most) ? refinement.final(c) : c;
+    if (&c == &candidates.front()) return refinement.final(c, -1);
+    const double least = convincing * candidates.front().explained;
+    return c.explained < least ? c : refinement.final(c, least);
   });
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
 

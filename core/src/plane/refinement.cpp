@@ -107,13 +107,14 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
 // what agrees closely, which nothing beside a hole pulls away.
-PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
+PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) const {
   constexpr double wide = 0.01, narrow = 0.003;
   constexpr int steps = 12;
   const Subset most = about(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
   const std::vector<Match> around = matches(rough, reach, most);
   const double roughly = explained(rough, around, most);
+  if (roughly < least) return {rough, roughly};
   const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around));
   const bool close = closely.explained > roughly;
   const UnitPlane plane =

@@ -25,8 +25,9 @@ class Refinement {
   /// The same on enough samples to rank planes.
   PlaneCandidate careful(const PlaneCandidate& start) const;
 
-  /// The same on all samples. Where partners are exact, it converges to rounding.
-  PlaneCandidate final(const PlaneCandidate& start) const;
+  /// The same on all samples. Where partners are exact, it converges to rounding. A plane that,
+  /// fitted again, explains less than `least` is left at that.
+  PlaneCandidate final(const PlaneCandidate& start, double least) const;
 
  private:
   // Every `stride`-th of the samples before `end`.
