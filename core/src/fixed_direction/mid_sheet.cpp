@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
+
+#include "../vectorised.h"
 
 namespace symsurf {
 
@@ -14,6 +17,30 @@ constexpr double steepest = 3;     // slope of a sheet that is still trusted
 constexpr double window = 1.0;     // spacings, of heights that agree
 constexpr double rough = 1.5;      // spacings
 
+// Floats as integers of the same order, side by side: sorting them compares but once.
+std::uint64_t packed(float height, float weight) {
+  const auto bits = std::bit_cast<std::uint32_t>(height);
+  const std::uint32_t ordered = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+  return static_cast<std::uint64_t>(ordered) << 32 | std::bit_cast<std::uint32_t>(weight);
+}
+
+float packed_height(std::uint64_t vote) {
+  const auto ordered = static_cast<std::uint32_t>(vote >> 32);
+  return std::bit_cast<float>(ordered & 0x80000000u ? ordered & 0x7fffffffu : ~ordered);
+}
+
+float packed_weight(std::uint64_t vote) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(vote));
+}
+
+SYMSURF_VECTORISED void squared_offsets(const double* u, const double* v, Index count, double u0,
+                                        double v0, double* squared) {
+  for (Index k = 0; k < count; ++k) {
+    const double du = u[k] - u0, dv = v[k] - v0;
+    squared[k] = du * du + dv * dv;
+  }
+}
+
 }  // namespace
 
 MidSheet::MidSheet(const WorkingCloud& cloud, const Context& context, double reach)
@@ -23,8 +50,11 @@ MidSheet::MidSheet(const WorkingCloud& cloud, const Context& context, double rea
       cell_(std::max(1.5, reach) * cloud.spacing),
       flat_(cloud.size(), 3),
       sheet_(cloud.size(), 3),
-      sorted_(cloud.size()),
-      cell_of_(cloud.size()) {}
+      cell_of_(cloud.size()),
+      u_(cloud.size()),
+      v_(cloud.size()),
+      places_(cloud.size()),
+      aside_(cloud.size()) {}
 
 double MidSheet::explained(const Vector3& direction, double scatter) {
   project(direction);
@@ -32,11 +62,16 @@ double MidSheet::explained(const Vector3& direction, double scatter) {
   collect_votes(scatter);
   count_votes();
   explained_.assign(cloud_.size(), 0);
+  smooth_.assign(voted_.size(), 0);
+  for (std::size_t cell = 0; cell < voted_.size(); ++cell) {
+    if (!voted_[cell]) continue;
+    const double r = roughness(static_cast<Index>(cell)) / (rough * cloud_.spacing);
+    smooth_[cell] = static_cast<float>(1 / (1 + r * r));
+  }
   const double agree = window * cloud_.spacing;
   for (const Vote& vote : votes_) {
     if (!voted_[vote.cell] || std::abs(vote.height - height_[vote.cell]) > agree) continue;
-    const double r = roughness(vote.cell) / (rough * cloud_.spacing);
-    const float e = static_cast<float>(1 / (1 + r * r));
+    const float e = smooth_[vote.cell];
     explained_[vote.first] = std::max(explained_[vote.first], e);
     explained_[vote.second] = std::max(explained_[vote.second], e);
   }
@@ -80,46 +115,60 @@ void MidSheet::sort_into_cells() {
   }
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   next_.assign(start_.begin(), start_.end() - 1);
-  for (Index i = 0; i < cloud_.size(); ++i)
-    sorted_[next_[cell_of_[i]]++] = static_cast<std::int32_t>(i);
+  for (Index i = 0; i < cloud_.size(); ++i) {
+    const std::int32_t at = next_[cell_of_[i]]++;
+    u_[at] = flat_(i, 0);
+    v_[at] = flat_(i, 1);
+    places_[at] = {flat_(i, 2), sheet_(i, 0), sheet_(i, 1), sheet_(i, 2),
+                   static_cast<std::int32_t>(i)};
+  }
 }
 
 void MidSheet::collect_votes(double scatter) {
   votes_.clear();
-  const double gap = least_gap * cloud_.spacing;
   const double narrow = 1 / (2 * scatter * scatter);
-  const auto meet = [&](Index i, Index j) {
-    const double du = flat_(j, 0) - flat_(i, 0), dv = flat_(j, 1) - flat_(i, 1);
-    const double aside = du * du + dv * dv;
-    if (aside > reach_ * reach_) return;
-    const double u = flat_(i, 0) + du / 2, v = flat_(i, 1) + dv / 2;
-    const double from_i = flat_(i, 2) + (sheet_(i, 0) * du + sheet_(i, 1) * dv) / 2;
-    const double from_j = flat_(j, 2) - (sheet_(j, 0) * du + sheet_(j, 1) * dv) / 2;
-    if (std::abs(from_i - from_j) < gap) return;
+  for (Index r = 0; r < rows_; ++r) {
+    context_.check();
+    for (Index c = 0; c < columns_; ++c) {
+      // Cells side by side lie so in memory: one run here and to the right, one in the next row.
+      const Index here = r * columns_ + c, right = c + 1 < columns_ ? 1 : 0, left = c > 0 ? 1 : 0;
+      const bool last = r + 1 == rows_;
+      const std::int32_t below = last ? 0 : start_[here + columns_ - left];
+      const std::int32_t below_end = last ? 0 : start_[here + columns_ + right + 1];
+      for (std::int32_t p = start_[here]; p < start_[here + 1]; ++p) {
+        vote(p, p + 1, start_[here + right + 1], narrow);
+        vote(p, below, below_end, narrow);
+      }
+    }
+  }
+}
+
+// Of the p-th point with those of a run.
+void MidSheet::vote(std::int32_t p, std::int32_t begin, std::int32_t end, double narrow) {
+  const double u_here = u_[p], v_here = v_[p];
+  squared_offsets(u_.data() + begin, v_.data() + begin, end - begin, u_here, v_here, aside_.data());
+  const double far = reach_ * reach_, gap = least_gap * cloud_.spacing;
+  const Place& i = places_[p];
+  for (std::int32_t q = begin; q < end; ++q) {
+    const double aside = aside_[q - begin];
+    if (aside > far) continue;
+    const Place& j = places_[q];
+    const double du = u_[q] - u_here, dv = v_[q] - v_here;
+    const double from_i = i.height + (i.slope_u * du + i.slope_v * dv) / 2;
+    const double from_j = j.height - (j.slope_u * du + j.slope_v * dv) / 2;
+    if (std::abs(from_i - from_j) < gap) continue;
+    const double u = u_here + du / 2, v = v_here + dv / 2;
     const Index c = static_cast<Index>((u - low_.x()) / cell_);
     const Index r = static_cast<Index>((v - low_.y()) / cell_);
     const double to_u = low_.x() + (static_cast<double>(c) + 0.5) * cell_ - u;
     const double to_v = low_.y() + (static_cast<double>(r) + 0.5) * cell_ - v;
-    const double slope_u = (sheet_(i, 0) + sheet_(j, 0)) / 2;
-    const double slope_v = (sheet_(i, 1) + sheet_(j, 1)) / 2;
+    const double slope_u = (i.slope_u + j.slope_u) / 2;
+    const double slope_v = (i.slope_v + j.slope_v) / 2;
     const double height = (from_i + from_j) / 2 + slope_u * to_u + slope_v * to_v;
-    votes_.push_back({i, j, static_cast<std::int32_t>(r * columns_ + c), static_cast<float>(height),
-                      static_cast<float>(sheet_(i, 2) * sheet_(j, 2) * std::exp(-aside * narrow))});
-  };
-  for (Index r = 0; r < rows_; ++r) {
-    context_.check();
-    for (Index c = 0; c < columns_; ++c) {
-      const Index here = r * columns_ + c;
-      for (std::int32_t p = start_[here]; p < start_[here + 1]; ++p) {
-        for (std::int32_t q = p + 1; q < start_[here + 1]; ++q) meet(sorted_[p], sorted_[q]);
-        for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
-          if (c + dc < 0 || c + dc >= columns_ || r + dr >= rows_) continue;
-          const Index there = (r + dr) * columns_ + c + dc;
-          for (std::int32_t q = start_[there]; q < start_[there + 1]; ++q)
-            meet(sorted_[p], sorted_[q]);
-        }
-      }
-    }
+    const double closeness = narrow > 0 ? std::exp(-aside * narrow) : 1;
+    votes_.push_back({i.point, j.point, static_cast<std::int32_t>(r * columns_ + c),
+                      static_cast<float>(height),
+                      static_cast<float>(i.square * j.square * closeness)});
   }
 }
 
@@ -130,7 +179,7 @@ void MidSheet::count_votes() {
   std::partial_sum(vote_start_.begin(), vote_start_.end(), vote_start_.begin());
   by_cell_.resize(votes_.size());
   next_.assign(vote_start_.begin(), vote_start_.end() - 1);
-  for (const Vote& vote : votes_) by_cell_[next_[vote.cell]++] = {vote.height, vote.weight};
+  for (const Vote& vote : votes_) by_cell_[next_[vote.cell]++] = packed(vote.height, vote.weight);
 
   height_.assign(columns_ * rows_, 0);
   voted_.assign(columns_ * rows_, 0);
@@ -143,11 +192,12 @@ void MidSheet::count_votes() {
     float best = 0, inside = 0, moment = 0;
     auto low = begin;
     for (auto high = begin; high != end; ++high) {
-      inside += high->second;
-      moment += high->second * high->first;
-      for (; high->first - low->first > width; ++low) {
-        inside -= low->second;
-        moment -= low->second * low->first;
+      const float top = packed_height(*high), weight = packed_weight(*high);
+      inside += weight;
+      moment += weight * top;
+      for (; top - packed_height(*low) > width; ++low) {
+        inside -= packed_weight(*low);
+        moment -= packed_weight(*low) * packed_height(*low);
       }
       if (inside > best) {
         best = inside;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "../orthogonal_to.h"
@@ -44,14 +44,19 @@ class MidSheet {
 
  private:
   struct Vote {
-    Index first, second;
-    std::int32_t cell;
+    std::int32_t first, second, cell;
     float height, weight;
+  };
+  // A point as the projection sees it.
+  struct Place {
+    double height, slope_u, slope_v, square;  // slopes of its sheet, |normal . direction|
+    std::int32_t point;
   };
 
   void project(const Vector3& direction);
   void sort_into_cells();
   void collect_votes(double scatter);
+  void vote(std::int32_t p, std::int32_t begin, std::int32_t end, double narrow);
   void count_votes();
   double roughness(Index cell) const;
 
@@ -64,11 +69,14 @@ class MidSheet {
   Index columns_ = 0, rows_ = 0;
   Points flat_;                                    // u, v, height
   Eigen::Array<double, Eigen::Dynamic, 3> sheet_;  // slope in u, in v, |normal . direction|
-  std::vector<std::int32_t> start_, sorted_, cell_of_;
+  std::vector<std::int32_t> start_, cell_of_;
+  std::vector<double> u_, v_;  // cell by cell
+  std::vector<Place> places_;  // cell by cell
+  std::vector<double> aside_;  // squared, of the points a point may meet
   std::vector<Vote> votes_;
   std::vector<std::int32_t> vote_start_, next_;
-  std::vector<std::pair<float, float>> by_cell_;  // height, weight
-  std::vector<float> height_;                     // voted, a cell
+  std::vector<std::uint64_t> by_cell_;  // height and weight in order, packed
+  std::vector<float> height_, smooth_;  // voted, a cell; what its bend lets it explain
   std::vector<char> voted_;
   std::vector<float> explained_;
 };
