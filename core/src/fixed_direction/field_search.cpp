@@ -14,6 +14,7 @@ namespace symsurf {
 namespace {
 
 constexpr Index peaks_a_scale = 6, explaining = 3;
+constexpr std::size_t most_examined = 6;  // directions, for partners
 constexpr Index searched_size = 2000;
 constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
 constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
@@ -24,6 +25,7 @@ constexpr double known_scatter = 7;       // from here on the scatter is believe
 constexpr double strong_evidence = 9;     // no need to look further
 constexpr double evidence_weight = 0.15;  // share of explained points a deviation is worth
 constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
+constexpr double as_much = 0.03;          // explained
 constexpr double rough_sheets = 0.1;      // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
@@ -34,7 +36,28 @@ class Ranking {
   Ranking(const WorkingCloud& cloud, const Context& context)
       : cloud_(cloud), context_(context), sheet_(cloud, context, evidence_reach) {}
 
-  void consider(const Vector3& direction) {
+  // Partners are looked for along those that explain most; once there is no doubt, only along
+  // those that explain about as much: neighbours of one another, that show them more or less.
+  void consider(const std::vector<Vector3>& directions) {
+    std::vector<std::pair<double, std::size_t>> explained;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      context_.check();
+      explained.emplace_back(-sheet_.explained(directions[k]), k);
+    }
+    std::sort(explained.begin(), explained.end());
+    explained.resize(std::min(explained.size(), most_examined));
+    for (const auto& [negative, k] : explained) {
+      if (convinced() && explained.front().first < negative - as_much) break;
+      examine(directions[k]);
+    }
+  }
+  bool convinced() const {
+    return best_.significance > strong_evidence && best_.share > common_share;
+  }
+  const PartnerEvidence& best() const { return best_; }
+
+ private:
+  void examine(const Vector3& direction) {
     const double explained = sheet_.explained(direction);
     context_.check();
     PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction, context_);
@@ -55,15 +78,20 @@ class Ranking {
     if (best_.significance <= known_scatter)
       best_.scatter = std::numeric_limits<double>::infinity();
   }
-  const PartnerEvidence& best() const { return best_; }
 
- private:
   const WorkingCloud& cloud_;
   const Context& context_;
   MidSheet sheet_;
   PartnerEvidence best_;
   double rank_ = -1;
 };
+
+template <typename Directed>
+std::vector<Vector3> directions(const std::vector<Directed>& of) {
+  std::vector<Vector3> all;
+  for (const Directed& one : of) all.push_back(one.direction);
+  return all;
+}
 
 WorkingCloud searched(const WorkingCloud& cloud) { return {cloud.points, searched_size}; }
 
@@ -85,16 +113,12 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   context.report(0.3);
 
   Ranking ranking(cloud, context);
-  for (const ChordPeak& peak : peaks) {
-    ranking.consider(peak.direction);
-    context.report(0.4);
-  }
+  ranking.consider(directions(peaks));
+  context.report(0.4);
   if (!given && ranking.best().significance < strong_evidence)
-    for (const DirectionCandidate& candidate :
-         explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7))) {
-      ranking.consider(candidate.direction);
-      context.report(0.7);
-    }
+    ranking.consider(directions(
+        explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7))));
+  context.report(0.7);
 
   const PartnerEvidence& start = ranking.best();
   statistics["partner_significance"] = start.significance;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
+
+#include "../vectorised.h"
 
 namespace symsurf {
 
@@ -29,6 +32,37 @@ struct Count {
   }
 };
 
+SYMSURF_VECTORISED void shifted_squares(const double* u, const double* v, const double* length,
+                                        std::size_t count, double at_u, double at_v, double scale,
+                                        double* squares) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const double du = u[k] - length[k] * at_u, dv = v[k] - length[k] * at_v;
+    squares[k] = (du * du + dv * dv) * scale;
+  }
+}
+
+// The chords' offsets side by side: most are passed over, at every shift.
+class Offsets {
+ public:
+  explicit Offsets(const std::vector<MidSheet::Chord>& chords) : squares_(chords.size()) {
+    for (const MidSheet::Chord& c : chords) {
+      u_.push_back(c.offset.x());
+      v_.push_back(c.offset.y());
+      length_.push_back(c.length);
+    }
+  }
+
+  // Of the offsets that are left when the direction moves to `at`.
+  const double* squares(const Eigen::Vector2d& at, double scale) {
+    shifted_squares(u_.data(), v_.data(), length_.data(), u_.size(), at.x(), at.y(), scale,
+                    squares_.data());
+    return squares_.data();
+  }
+
+ private:
+  std::vector<double> u_, v_, length_, squares_;
+};
+
 }  // namespace
 
 PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
@@ -37,6 +71,7 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
   PartnerEvidence best{direction, 0, 0, 0};
   if (chords.size() < 10) return best;
 
+  Offsets offsets(chords);
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   for (const double spacings : scatters) {
     const double scatter = spacings * cloud.spacing;
@@ -46,10 +81,12 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
       Count count;
       double sum = 0, lever = 0, own = 0;
       Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-      for (const MidSheet::Chord& c : chords) {
-        const Eigen::Vector2d o = c.offset - c.length * at;
-        const double squared = o.squaredNorm() * narrow;
+      const double* const squares = offsets.squares(at, narrow);
+      for (std::size_t k = 0; k < chords.size(); ++k) {
+        const double squared = squares[k];
         if (squared > ring_outer * ring_outer) continue;
+        const MidSheet::Chord& c = chords[k];
+        const Eigen::Vector2d o = c.offset - c.length * at;
         if (squared < inner * inner) {
           count.inside += c.weight;
           count.inside_squares += c.weight * c.weight;

@@ -46,11 +46,7 @@ struct Frame {
 
 SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches,
                                  const Context& context)
-    : cloud_(cloud),
-      patches_(patches),
-      context_(context),
-      rims_(cloud),
-      votes_(cloud, context, 1.5) {}
+    : cloud_(cloud), patches_(patches), context_(context), votes_(cloud, context, 1.5) {}
 
 FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
   votes_.explained(direction, scatter);
@@ -100,7 +96,8 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
   const Frame frame(v);
   Eigen::Vector2d pull = Eigen::Vector2d::Zero();
   double lever = 0;
-  RimAlignment rims(rims_, frame.across);
+  std::optional<RimAlignment> rims;
+  if (rims_) rims.emplace(*rims_, frame.across);
   for (const Match& m : found) {
     const double limit = std::max(typical, least_limit * cloud_.spacings[m.partner]);
     const double ratio = std::min(1.0, std::abs(m.gap) / limit);
@@ -119,11 +116,11 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
     const double arm = -2 * m.distance;
     pull += robust * square * arm * (frame.across.transpose() * m.aside);
     lever += robust * square * arm * arm;
-    if (by_rims_)
-      rims.add(m.point, m.partner, frame.across.transpose() * m.aside, arm, robust * square);
+    if (rims)
+      rims->add(m.point, m.partner, frame.across.transpose() * m.aside, arm, robust * square);
   }
-  if (by_rims_)
-    result.turn = rims.turn(frame.across.transpose() * start_);
+  if (rims)
+    result.turn = rims->turn(frame.across.transpose() * start_);
   else if (lever > 0)
     result.turn = turn_gain * pull / lever;
   return result;
@@ -140,7 +137,10 @@ void SheetRefinement::refit(FieldEstimate& estimate, Matches found) const {
 
 FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatter, int rounds) {
   start_ = direction;
-  by_rims_ = !std::isfinite(scatter);
+  if (std::isfinite(scatter))
+    rims_.reset();
+  else
+    rims_.emplace(cloud_);
   FieldEstimate estimate = voted(direction, scatter);
   for (int round = 1; round <= rounds && estimate.nodes.rows() > 0; ++round) {
     Matches found = matches(estimate);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "field_estimate.h"
 #include "height_regression.h"
 #include "mid_sheet.h"
@@ -32,9 +34,8 @@ class SheetRefinement {
   const WorkingCloud& cloud_;
   const SheetPatches& patches_;
   const Context context_;
-  SheetRims rims_;
+  std::optional<SheetRims> rims_;  // where no partners tell the direction
   Vector3 start_ = Vector3::Zero();
-  bool by_rims_ = false;  // no partners tell the direction
   MidSheet votes_;
 };
 
