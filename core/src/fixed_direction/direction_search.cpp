@@ -9,7 +9,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index tried = 180;    // directions on the half sphere, 12 degrees apart
+constexpr Index tried = 180;  // directions on the half sphere, 12 degrees apart
+constexpr Index screened_size = 1000;
 constexpr double apart = 0.12;  // radians between candidates
 constexpr double first_step = 0.09, last_step = 0.04;
 constexpr double pi = 3.14159265358979323846;
@@ -58,16 +59,17 @@ Vector3 spread_direction(Index i, Index count) {
 std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context) {
+  const WorkingCloud coarse(cloud.points, screened_size);
   std::vector<DirectionCandidate> candidates;
   for (Index i = 0; i < tried; ++i) candidates.push_back({spread_direction(i, tried)});
   for (const ChordPeak& hint : hints) candidates.push_back({hint.direction});
   for (DirectionCandidate& c : candidates) {
     context.check();
-    c.explained = MidSheet::most_explained(cloud, c.direction);
+    c.explained = MidSheet::most_explained(coarse, c.direction);
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
 
-  MidSheet sheet(cloud, context);
+  MidSheet screen(coarse, context);
   std::vector<double> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     context.report(0.8 * static_cast<double>(i) / static_cast<double>(candidates.size()));
@@ -76,11 +78,15 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
       candidates.resize(i);
       break;
     }
-    candidates[i].explained = sheet.explained(candidates[i].direction);
+    candidates[i].explained = screen.explained(candidates[i].direction);
     best.push_back(candidates[i].explained);
   }
   candidates = distinct(std::move(candidates), count);
-  for (DirectionCandidate& candidate : candidates) climb(sheet, candidate, context);
+  MidSheet sheet(cloud, context);
+  for (DirectionCandidate& candidate : candidates) {
+    candidate.explained = sheet.explained(candidate.direction);
+    climb(sheet, candidate, context);
+  }
   return distinct(std::move(candidates), count);
 }
 

@@ -13,7 +13,8 @@ struct DirectionCandidate {
 
 /// Directions under which a surface half-way between the sheets explains most of the cloud, best
 /// first, some degrees apart: the half sphere and the given hints are tried, as far as
-/// MidSheet::most_explained leaves hope, then the best of them are moved uphill.
+/// MidSheet::most_explained leaves hope, on fewer points, then the best of them are moved uphill on
+/// all.
 std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
                                                       const std::vector<ChordPeak>& hints,
                                                       Index count, const Context& context);

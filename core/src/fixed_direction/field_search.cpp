@@ -93,7 +93,14 @@ std::vector<Vector3> directions(const std::vector<Directed>& of) {
   return all;
 }
 
-WorkingCloud searched(const WorkingCloud& cloud) { return {cloud.points, searched_size}; }
+std::vector<Vector3> explaining_directions(const WorkingCloud& cloud,
+                                           const std::vector<ChordPeak>& peaks,
+                                           const Context& context) {
+  if (cloud.size() <= searched_size)
+    return directions(explaining_directions(cloud, peaks, explaining, context));
+  const WorkingCloud fewer(cloud.points, searched_size);
+  return directions(explaining_directions(fewer, peaks, explaining, context));
+}
 
 }  // namespace
 
@@ -116,8 +123,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   ranking.consider(directions(peaks));
   context.report(0.4);
   if (!given && ranking.best().significance < strong_evidence)
-    ranking.consider(directions(
-        explaining_directions(searched(cloud), peaks, explaining, context.stage(0.4, 0.7))));
+    ranking.consider(explaining_directions(cloud, peaks, context.stage(0.4, 0.7)));
   context.report(0.7);
 
   const PartnerEvidence& start = ranking.best();
