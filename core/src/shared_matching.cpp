@@ -26,6 +26,11 @@ struct Partner {
   Neighbour neighbour;  // numbered through all processes
 };
 
+// Squared: only nearer points count.
+double limit_of(const Question& question, const Partner& best) {
+  return std::min(question.limit, best.neighbour.squared_distance);
+}
+
 struct Box {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = -low;
@@ -80,23 +85,52 @@ class OwnPoints {
   Context context_;
 };
 
-// Asks another process about those images that its points may be nearer to, and answers it.
-void consult(const Communicator& processes, int other, const Box& box, const OwnPoints& own,
-             const std::vector<Question>& images, std::vector<Partner>& best) {
-  std::vector<Question> asked;
+// Those images that points within the box may be nearer to than their best so far.
+std::vector<std::size_t> within_reach(const Box& box, const std::vector<Question>& images,
+                                      const std::vector<Partner>& best) {
   std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const double limit = std::min(images[i].limit, best[i].neighbour.squared_distance);
-    if (!(box.squared_distance(images[i].image) <= limit)) continue;
-    asked.push_back({images[i].image, limit});
-    rows.push_back(i);
-  }
-  const auto questions = items_of<Question>(processes.swap(other, bytes_of(asked)));
-  const std::vector<Partner> given = own.answers(questions);
-  const auto answers = items_of<Partner>(processes.swap(other, bytes_of(given)));
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (box.squared_distance(images[i].image) <= limit_of(images[i], best[i])) rows.push_back(i);
+  return rows;
+}
+
+std::vector<Question> about(const std::vector<std::size_t>& rows,
+                            const std::vector<Question>& images, const std::vector<Partner>& best) {
+  std::vector<Question> asked;
+  asked.reserve(rows.size());
+  for (const std::size_t i : rows) asked.push_back({images[i].image, limit_of(images[i], best[i])});
+  return asked;
+}
+
+void keep_nearer(const std::vector<std::size_t>& rows, const std::vector<Partner>& answers,
+                 std::vector<Partner>& best) {
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (answers[k].neighbour.index >= 0 && answers[k].neighbour < best[rows[k]].neighbour)
       best[rows[k]] = answers[k];
+}
+
+// Asks another process about those images that its points may be nearer to, and answers it.
+void consult(const Communicator& processes, int other, const Box& box, const OwnPoints& own,
+             const std::vector<Question>& images, std::vector<Partner>& best) {
+  const std::vector<std::size_t> rows = within_reach(box, images, best);
+  const auto questions =
+      items_of<Question>(processes.swap(other, bytes_of(about(rows, images, best))));
+  const std::vector<Partner> given = own.answers(questions);
+  keep_nearer(rows, items_of<Partner>(processes.swap(other, bytes_of(given))), best);
+}
+
+// Whose box holds an image, or is nearest to it, mostly has its partner; found there first, it
+// leaves little to look for elsewhere.
+std::vector<std::size_t> at_home(int rank, const std::vector<Box>& boxes,
+                                 const std::vector<Question>& images) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const double own = boxes[rank].squared_distance(images[i].image);
+    if (std::all_of(boxes.begin(), boxes.end(),
+                    [&](const Box& box) { return own <= box.squared_distance(images[i].image); }))
+      rows.push_back(i);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -124,13 +158,22 @@ void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mi
     std::vector<Question> images;
     for (Index p = begin; p < end; ++p)
       images.push_back({mirror.reflect(own[consumed->order()[p]]), limit * limit});
-    std::vector<Partner> best = answering.answers(images);
+    std::vector<Partner> best(images.size());
+    const auto ask_own = [&](const std::vector<std::size_t>& rows) {
+      keep_nearer(rows, answering.answers(about(rows, images, best)), best);
+    };
+    const std::vector<std::size_t> home = at_home(processes.rank(), boxes, images);
+    ask_own(home);
     // Each round pairs the processes off: whoever is mine, I am his.
     for (int round = 0; round < processes.size(); ++round) {
       const int other = (round - processes.rank() + processes.size()) % processes.size();
       if (other != processes.rank())
         consult(processes, other, boxes[other], answering, images, best);
     }
+    std::vector<std::size_t> rest = within_reach(boxes[processes.rank()], images, best);
+    std::erase_if(rest,
+                  [&](std::size_t i) { return std::binary_search(home.begin(), home.end(), i); });
+    ask_own(rest);
     for (Index p = begin; p < end; ++p) {
       const Index i = consumed->order()[p];
       const auto& [opposite, neighbour] = best[p - begin];

@@ -73,7 +73,7 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
-  const Surfels fine(cloud, 4 * sample_size, context.stage(0.1, 0.2));
+  const Surfels fine(cloud, 4 * sample_size, context.stage(0.1, 0.2), coarse.spacing() / 2);
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
   PointTree tree(cloud.points, context.stage(0.25, 0.4));

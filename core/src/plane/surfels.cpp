@@ -88,16 +88,19 @@ struct Surfels::Patch {
   }
 };
 
-Surfels::Surfels(const Cloud& cloud, Index count, const Context& context) : low_(cloud.frame.low) {
-  choose_cell(cloud, count, context.stage(0, 0.5));
+Surfels::Surfels(const Cloud& cloud, Index count, const Context& context,
+                 std::optional<double> guess)
+    : low_(cloud.frame.low) {
+  choose_cell(cloud, count, context.stage(0, 0.5), guess);
   sum_moments(cloud, context.stage(0.5, 1));
 }
 
 // Sheets fill cells as the square of the resolution, so two or three guesses are enough.
-void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& context) {
+void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& context,
+                          std::optional<double> guess) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
   const double wanted = static_cast<double>(std::min(count, cloud.total));
-  double cells = std::min<double>(finest_cells, 1 + std::sqrt(wanted));
+  double cells = std::min<double>(finest_cells, guess ? longest / *guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
   for (int guess = 0; guess < guesses; ++guess) {
     cell_ = longest / cells;

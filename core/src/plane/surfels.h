@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 namespace symsurf {
@@ -23,7 +24,9 @@ struct Surfel {
 /// out, density hardly counts and 10^6 points cost one pass.
 class Surfels {
  public:
-  Surfels(const Cloud& cloud, Index count, const Context& context);
+  /// `guess`: the edge of a cell to try first, where something tells.
+  Surfels(const Cloud& cloud, Index count, const Context& context,
+          std::optional<double> guess = std::nullopt);
 
   Index size() const { return static_cast<Index>(surfels_.size()); }
   const Surfel& operator[](Index i) const { return surfels_[i]; }
@@ -38,7 +41,8 @@ class Surfels {
   using Cell = Eigen::Vector3i;
   struct Patch;
 
-  void choose_cell(const Cloud& cloud, Index count, const Context& context);
+  void choose_cell(const Cloud& cloud, Index count, const Context& context,
+                   std::optional<double> guess);
   void sum_moments(const Cloud& cloud, const Context& context);
   void join(std::vector<Patch>& patches, const Context& context);
   Cell cell_of(const Vector3& x) const {
