@@ -126,9 +126,10 @@ std::vector<std::size_t> at_home(int rank, const std::vector<Box>& boxes,
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < images.size(); ++i) {
     const double own = boxes[rank].squared_distance(images[i].image);
-    if (std::all_of(boxes.begin(), boxes.end(),
-                    [&](const Box& box) { return own <= box.squared_distance(images[i].image); }))
-      rows.push_back(i);
+    const auto no_nearer = [&](const Box& box) {
+      return own <= box.squared_distance(images[i].image);
+    };
+    if (own == 0 || std::all_of(boxes.begin(), boxes.end(), no_nearer)) rows.push_back(i);
   }
   return rows;
 }
@@ -156,6 +157,7 @@ void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mi
     const OwnPoints answering(own, *consumed, share.first, part.stage(0, 0));
     const Index begin = std::min(size, c * chunk), end = std::min(size, begin + chunk);
     std::vector<Question> images;
+    images.reserve(end - begin);
     for (Index p = begin; p < end; ++p)
       images.push_back({mirror.reflect(own[consumed->order()[p]]), limit * limit});
     std::vector<Partner> best(images.size());
