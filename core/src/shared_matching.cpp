@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index chunk = 1 << 16;  // images at a time
+constexpr Index own_chunk = 1 << 14, sent_chunk = 1 << 16;  // images at a time
 constexpr Index grain = 4096;
 
 struct Question {
@@ -25,11 +26,6 @@ struct Partner {
   Vector3 point = Vector3::Zero();
   Neighbour neighbour;  // numbered through all processes
 };
-
-// Squared: only nearer points count.
-double limit_of(const Question& question, const Partner& best) {
-  return std::min(question.limit, best.neighbour.squared_distance);
-}
 
 struct Box {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
@@ -50,152 +46,192 @@ Box box_of(PointsView points) {
 }
 
 // Answers from the own points what is asked about images that follow each other.
-class OwnPoints {
- public:
-  OwnPoints(PointsView points, const PointTree& tree, Index first, const Context& context)
-      : points_(points), tree_(tree), first_(first), context_(context) {}
-
-  std::vector<Partner> answers(const std::vector<Question>& questions) const {
-    const Index count = static_cast<Index>(questions.size());
-    std::vector<Partner> partners(questions.size());
-    parallel_for(context_, count, grain, [&](Index begin, Index end) {
-      Index near = 0;
-      for (Index q = begin; q < end; q += PointTree::block) {
-        double farthest = 0;
-        PointTree::Queries images;
-        for (Index k = 0; k < PointTree::block; ++k) {
-          const Question& asked = questions[std::min(q + k, end - 1)];
-          images.col(k) = asked.image;
-          farthest = std::max(farthest, asked.limit);
-        }
-        const auto found = tree_.nearest(images, farthest, near);
-        for (Index k = 0; k < PointTree::block && q + k < end; ++k)
-          if (found[k].index >= 0 && found[k].squared_distance <= questions[q + k].limit)
-            partners[q + k] = {points_[found[k].index],
-                               {first_ + found[k].index, found[k].squared_distance}};
+std::vector<Partner> answers(const std::vector<Question>& questions, PointsView own,
+                             const PointTree& tree, Index first, const Context& context) {
+  const Index count = static_cast<Index>(questions.size());
+  std::vector<Partner> partners(questions.size());
+  parallel_for(context, count, grain, [&](Index begin, Index end) {
+    Index near = 0;
+    for (Index q = begin; q < end; q += PointTree::block) {
+      double farthest = 0;
+      PointTree::Queries images;
+      for (Index k = 0; k < PointTree::block; ++k) {
+        const Question& asked = questions[std::min(q + k, end - 1)];
+        images.col(k) = asked.image;
+        farthest = std::max(farthest, asked.limit);
       }
-    });
-    return partners;
+      const auto found = tree.nearest(images, farthest, near);
+      for (Index k = 0; k < PointTree::block && q + k < end; ++k)
+        if (found[k].index >= 0 && found[k].squared_distance <= questions[q + k].limit)
+          partners[q + k] = {own[found[k].index],
+                             {first + found[k].index, found[k].squared_distance}};
+    }
+  });
+  return partners;
+}
+
+// The partners of the own points among the points of all processes. Images are named by the place
+// of their points along the tree's curve.
+class SharedMatching {
+ public:
+  SharedMatching(PointsView own, PointTree&& tree, const Mirror& mirror, double limit,
+                 const Context& context)
+      : own_(own),
+        tree_(std::move(tree)),
+        mirror_(mirror),
+        context_(context),
+        processes_(*context.communicator()),
+        first_(share_of(context, own.size()).first),
+        boxes_(concatenated(context, std::vector<Box>{box_of(own)})),
+        index_(own.size(), -1),
+        squared_(Eigen::VectorXd::Constant(own.size(), limit * limit)),
+        opposite_(own.size(), 3) {}
+
+  // An image's partner is mostly where the image lies: found there first, it leaves little to look
+  // for elsewhere.
+  void match() {
+    look_at_home();
+    // Each round pairs the processes off: whoever is mine, I am his.
+    for (int round = 0; round < processes_.size(); ++round) {
+      const int other = (round - processes_.rank() + processes_.size()) % processes_.size();
+      if (other != processes_.rank()) consult(other);
+    }
+    const Places rest = within_reach(away_, processes_.rank());
+    for (std::size_t at = 0; at < rest.size(); at += own_chunk)
+      ask_own(part_of(rest, at, own_chunk));
+  }
+
+  void into(Result& result) && {
+    tree_.reset();
+    const Index size = own_.size();
+    const Index found = size - std::count(index_.begin(), index_.end(), -1);
+    result.pairs.resize(found, 2);
+    for (Index i = 0, row = 0; i < size; ++i) {
+      if (index_[i] < 0) continue;
+      result.pairs.row(row) << first_ + i, index_[i];
+      squared_[row] = std::sqrt(squared_[i]);
+      opposite_.row(row++) = (own_[i].transpose() + opposite_.row(i)) / 2;
+    }
+    result.residuals = std::move(squared_);
+    result.surface_points = std::move(opposite_);
+    result.residuals.conservativeResize(found);
+    result.surface_points.conservativeResize(found, 3);
   }
 
  private:
-  PointsView points_;
-  const PointTree& tree_;
-  Index first_;
-  Context context_;
-};
+  using Places = std::vector<std::int32_t>;
 
-// Those images that points within the box may be nearer to than their best so far.
-std::vector<std::size_t> within_reach(const Box& box, const std::vector<Question>& images,
-                                      const std::vector<Partner>& best) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < images.size(); ++i)
-    if (box.squared_distance(images[i].image) <= limit_of(images[i], best[i])) rows.push_back(i);
-  return rows;
-}
+  Index point_at(std::int32_t place) const { return tree_->order()[place]; }
+  Vector3 image_at(std::int32_t place) const { return mirror_.reflect(own_[point_at(place)]); }
 
-std::vector<Question> about(const std::vector<std::size_t>& rows,
-                            const std::vector<Question>& images, const std::vector<Partner>& best) {
-  std::vector<Question> asked;
-  asked.reserve(rows.size());
-  for (const std::size_t i : rows) asked.push_back({images[i].image, limit_of(images[i], best[i])});
-  return asked;
-}
-
-void keep_nearer(const std::vector<std::size_t>& rows, const std::vector<Partner>& answers,
-                 std::vector<Partner>& best) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (answers[k].neighbour.index >= 0 && answers[k].neighbour < best[rows[k]].neighbour)
-      best[rows[k]] = answers[k];
-}
-
-// Asks another process about those images that its points may be nearer to, and answers it.
-void consult(const Communicator& processes, int other, const Box& box, const OwnPoints& own,
-             const std::vector<Question>& images, std::vector<Partner>& best) {
-  const std::vector<std::size_t> rows = within_reach(box, images, best);
-  const auto questions =
-      items_of<Question>(processes.swap(other, bytes_of(about(rows, images, best))));
-  const std::vector<Partner> given = own.answers(questions);
-  keep_nearer(rows, items_of<Partner>(processes.swap(other, bytes_of(given))), best);
-}
-
-// Whose box holds an image, or is nearest to it, mostly has its partner; found there first, it
-// leaves little to look for elsewhere.
-std::vector<std::size_t> at_home(int rank, const std::vector<Box>& boxes,
-                                 const std::vector<Question>& images) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const double own = boxes[rank].squared_distance(images[i].image);
-    const auto no_nearer = [&](const Box& box) {
-      return own <= box.squared_distance(images[i].image);
-    };
-    if (own == 0 || std::all_of(boxes.begin(), boxes.end(), no_nearer)) rows.push_back(i);
+  static Places part_of(const Places& places, std::size_t from, std::size_t count) {
+    const std::size_t begin = std::min(from, places.size());
+    return Places(places.begin() + begin, places.begin() + std::min(begin + count, places.size()));
   }
-  return rows;
-}
+
+  bool at_home(const Vector3& image) const {
+    const double own = boxes_[processes_.rank()].squared_distance(image);
+    return own == 0 || std::all_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
+             return own <= box.squared_distance(image);
+           });
+  }
+
+  // The images that points of that process may be nearer to than their best so far.
+  bool within_reach(const Vector3& image, Index point, int process) const {
+    return boxes_[process].squared_distance(image) <= squared_[point];
+  }
+  Places within_reach(const Places& places, int process) const {
+    Places kept;
+    for (const std::int32_t place : places)
+      if (within_reach(image_at(place), point_at(place), process)) kept.push_back(place);
+    return kept;
+  }
+
+  void look_at_home() {
+    const Index size = own_.size();
+    for (Index begin = 0; begin < size; begin += own_chunk) {
+      const Index end = std::min(size, begin + own_chunk);
+      Places home;
+      std::vector<Vector3> images;
+      for (Index p = begin; p < end; ++p) {
+        const auto place = static_cast<std::int32_t>(p);
+        images.push_back(image_at(place));
+        (at_home(images.back()) ? home : away_).push_back(place);
+      }
+      ask_own(home);
+      for (Index p = begin; p < end; ++p) {
+        const auto place = static_cast<std::int32_t>(p);
+        for (int other = 0; other < processes_.size(); ++other)
+          if (other != processes_.rank() &&
+              within_reach(images[p - begin], point_at(place), other)) {
+            open_.push_back(place);
+            break;
+          }
+      }
+      context_.report(static_cast<double>(end) / static_cast<double>(size));
+    }
+  }
+
+  // Asks another process about the images that are open, and answers it.
+  void consult(int other) {
+    const Places places = within_reach(open_, other);
+    const auto counts = items_of<std::size_t>(
+        processes_.swap(other, bytes_of(std::vector<std::size_t>{places.size()})));
+    const std::size_t most = std::max(places.size(), counts.front());
+    for (std::size_t at = 0; at < most; at += sent_chunk) {
+      const Places asked = part_of(places, at, sent_chunk);
+      const auto given = items_of<Question>(processes_.swap(other, bytes_of(questions(asked))));
+      keep_nearer(asked, items_of<Partner>(processes_.swap(other, bytes_of(answered(given)))));
+    }
+  }
+
+  void ask_own(const Places& places) { keep_nearer(places, answered(questions(places))); }
+
+  std::vector<Question> questions(const Places& places) const {
+    std::vector<Question> asked;
+    asked.reserve(places.size());
+    for (const std::int32_t place : places)
+      asked.push_back({image_at(place), squared_[point_at(place)]});
+    return asked;
+  }
+
+  std::vector<Partner> answered(const std::vector<Question>& questions) const {
+    return answers(questions, own_, *tree_, first_, context_.stage(0, 0));
+  }
+
+  void keep_nearer(const Places& places, const std::vector<Partner>& partners) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto& [point, neighbour] = partners[k];
+      const Index i = point_at(places[k]);
+      if (neighbour.index < 0) continue;
+      if (index_[i] >= 0 && !(neighbour < Neighbour{index_[i], squared_[i]})) continue;
+      index_[i] = neighbour.index;
+      squared_[i] = neighbour.squared_distance;
+      opposite_.row(i) = point.transpose();
+    }
+  }
+
+  PointsView own_;
+  std::optional<PointTree> tree_;
+  const Mirror& mirror_;
+  const Context& context_;
+  const Communicator& processes_;
+  Index first_;
+  std::vector<Box> boxes_;
+  Places away_, open_;  // not at home; that others' points may be nearer to
+  // The best so far: numbered through all processes, -1 none; squared distance; the point.
+  std::vector<Index> index_;
+  Eigen::VectorXd squared_;
+  Points opposite_;
+};
 
 }  // namespace
 
 void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mirror& mirror,
                       double limit, const Context& context) {
-  auto consumed = std::make_unique<const PointTree>(std::move(tree));
-  const Communicator& processes = *context.communicator();
-  const Index size = own.size();
-  const Share share = share_of(context, size);
-  const std::vector<Box> boxes = concatenated(context, std::vector<Box>{box_of(own)});
-  const std::vector<Index> sizes = concatenated(context, std::vector<Index>{size});
-  const Index chunks = (*std::max_element(sizes.begin(), sizes.end()) + chunk - 1) / chunk;
-
-  std::vector<Index> partner(size);
-  Eigen::VectorXd& residuals = result.residuals;
-  Points& surface_points = result.surface_points;
-  residuals.resize(size);
-  surface_points.resize(size, 3);
-  for (Index c = 0; c < chunks; ++c) {
-    const Context part = context.stage(static_cast<double>(c) / static_cast<double>(chunks),
-                                       static_cast<double>(c + 1) / static_cast<double>(chunks));
-    const OwnPoints answering(own, *consumed, share.first, part.stage(0, 0));
-    const Index begin = std::min(size, c * chunk), end = std::min(size, begin + chunk);
-    std::vector<Question> images;
-    images.reserve(end - begin);
-    for (Index p = begin; p < end; ++p)
-      images.push_back({mirror.reflect(own[consumed->order()[p]]), limit * limit});
-    std::vector<Partner> best(images.size());
-    const auto ask_own = [&](const std::vector<std::size_t>& rows) {
-      keep_nearer(rows, answering.answers(about(rows, images, best)), best);
-    };
-    const std::vector<std::size_t> home = at_home(processes.rank(), boxes, images);
-    ask_own(home);
-    // Each round pairs the processes off: whoever is mine, I am his.
-    for (int round = 0; round < processes.size(); ++round) {
-      const int other = (round - processes.rank() + processes.size()) % processes.size();
-      if (other != processes.rank())
-        consult(processes, other, boxes[other], answering, images, best);
-    }
-    std::vector<std::size_t> rest = within_reach(boxes[processes.rank()], images, best);
-    std::erase_if(rest,
-                  [&](std::size_t i) { return std::binary_search(home.begin(), home.end(), i); });
-    ask_own(rest);
-    for (Index p = begin; p < end; ++p) {
-      const Index i = consumed->order()[p];
-      const auto& [opposite, neighbour] = best[p - begin];
-      partner[i] = neighbour.index;
-      residuals[i] = std::sqrt(neighbour.squared_distance);
-      surface_points.row(i) = (own[i] + opposite).transpose() / 2;
-    }
-  }
-  consumed.reset();
-
-  const Index found = size - std::count(partner.begin(), partner.end(), -1);
-  result.pairs.resize(found, 2);
-  for (Index i = 0, row = 0; i < size; ++i) {
-    if (partner[i] < 0) continue;
-    result.pairs.row(row) << share.first + i, partner[i];
-    residuals[row] = residuals[i];
-    surface_points.row(row++) = surface_points.row(i).eval();
-  }
-  residuals.conservativeResize(found);
-  surface_points.conservativeResize(found, 3);
+  SharedMatching matching(own, std::move(tree), mirror, limit, context);
+  matching.match();
+  std::move(matching).into(result);
 }
 
 }  // namespace symsurf
