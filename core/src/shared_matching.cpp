@@ -78,14 +78,16 @@ class SharedMatching {
                  const Context& context)
       : own_(own),
         tree_(std::move(tree)),
-        mirror_(mirror),
         context_(context),
         processes_(*context.communicator()),
         first_(share_of(context, own.size()).first),
         boxes_(concatenated(context, std::vector<Box>{box_of(own)})),
         index_(own.size(), -1),
         squared_(Eigen::VectorXd::Constant(own.size(), limit * limit)),
-        opposite_(own.size(), 3) {}
+        opposite_(own.size(), 3) {
+    images_.reserve(own.size());
+    for (const std::int32_t i : tree_->order()) images_.push_back(mirror.reflect(own[i]));
+  }
 
   // An image's partner is mostly where the image lies: found there first, it leaves little to look
   // for elsewhere.
@@ -96,33 +98,32 @@ class SharedMatching {
       const int other = (round - processes_.rank() + processes_.size()) % processes_.size();
       if (other != processes_.rank()) consult(other);
     }
-    const Places rest = within_reach(away_, processes_.rank());
-    for (std::size_t at = 0; at < rest.size(); at += own_chunk)
-      ask_own(part_of(rest, at, own_chunk));
+    std::erase_if(away_, [&](std::int32_t p) { return !within_reach(p, processes_.rank()); });
+    for (std::size_t at = 0; at < away_.size(); at += own_chunk)
+      ask_own(part_of(away_, at, own_chunk));
   }
 
   void into(Result& result) && {
-    tree_.reset();
     const Index size = own_.size();
+    Places place_of(size);
+    for (Index p = 0; p < size; ++p) place_of[tree_->order()[p]] = static_cast<std::int32_t>(p);
+    tree_.reset();
+    images_ = {};
     const Index found = size - std::count(index_.begin(), index_.end(), -1);
     result.pairs.resize(found, 2);
+    result.residuals.resize(found);
+    result.surface_points.resize(found, 3);
     for (Index i = 0, row = 0; i < size; ++i) {
-      if (index_[i] < 0) continue;
-      result.pairs.row(row) << first_ + i, index_[i];
-      squared_[row] = std::sqrt(squared_[i]);
-      opposite_.row(row++) = (own_[i].transpose() + opposite_.row(i)) / 2;
+      const std::int32_t p = place_of[i];
+      if (index_[p] < 0) continue;
+      result.pairs.row(row) << first_ + i, index_[p];
+      result.residuals[row] = std::sqrt(squared_[p]);
+      result.surface_points.row(row++) = (own_[i].transpose() + opposite_.row(p)) / 2;
     }
-    result.residuals = std::move(squared_);
-    result.surface_points = std::move(opposite_);
-    result.residuals.conservativeResize(found);
-    result.surface_points.conservativeResize(found, 3);
   }
 
  private:
   using Places = std::vector<std::int32_t>;
-
-  Index point_at(std::int32_t place) const { return tree_->order()[place]; }
-  Vector3 image_at(std::int32_t place) const { return mirror_.reflect(own_[point_at(place)]); }
 
   static Places part_of(const Places& places, std::size_t from, std::size_t count) {
     const std::size_t begin = std::min(from, places.size());
@@ -136,15 +137,9 @@ class SharedMatching {
            });
   }
 
-  // The images that points of that process may be nearer to than their best so far.
-  bool within_reach(const Vector3& image, Index point, int process) const {
-    return boxes_[process].squared_distance(image) <= squared_[point];
-  }
-  Places within_reach(const Places& places, int process) const {
-    Places kept;
-    for (const std::int32_t place : places)
-      if (within_reach(image_at(place), point_at(place), process)) kept.push_back(place);
-    return kept;
+  // May points of that process be nearer to the image than its best so far?
+  bool within_reach(std::int32_t place, int process) const {
+    return boxes_[process].squared_distance(images_[place]) <= squared_[place];
   }
 
   void look_at_home() {
@@ -152,29 +147,19 @@ class SharedMatching {
     for (Index begin = 0; begin < size; begin += own_chunk) {
       const Index end = std::min(size, begin + own_chunk);
       Places home;
-      std::vector<Vector3> images;
-      for (Index p = begin; p < end; ++p) {
-        const auto place = static_cast<std::int32_t>(p);
-        images.push_back(image_at(place));
-        (at_home(images.back()) ? home : away_).push_back(place);
-      }
+      for (Index p = begin; p < end; ++p)
+        (at_home(images_[p]) ? home : away_).push_back(static_cast<std::int32_t>(p));
       ask_own(home);
-      for (Index p = begin; p < end; ++p) {
-        const auto place = static_cast<std::int32_t>(p);
-        for (int other = 0; other < processes_.size(); ++other)
-          if (other != processes_.rank() &&
-              within_reach(images[p - begin], point_at(place), other)) {
-            open_.push_back(place);
-            break;
-          }
-      }
       context_.report(static_cast<double>(end) / static_cast<double>(size));
     }
   }
 
-  // Asks another process about the images that are open, and answers it.
+  // Asks another process about the images that it may have partners for, and answers it.
   void consult(int other) {
-    const Places places = within_reach(open_, other);
+    Places places;
+    for (std::size_t p = 0; p < images_.size(); ++p)
+      if (within_reach(static_cast<std::int32_t>(p), other))
+        places.push_back(static_cast<std::int32_t>(p));
     const auto counts = items_of<std::size_t>(
         processes_.swap(other, bytes_of(std::vector<std::size_t>{places.size()})));
     const std::size_t most = std::max(places.size(), counts.front());
@@ -190,8 +175,7 @@ class SharedMatching {
   std::vector<Question> questions(const Places& places) const {
     std::vector<Question> asked;
     asked.reserve(places.size());
-    for (const std::int32_t place : places)
-      asked.push_back({image_at(place), squared_[point_at(place)]});
+    for (const std::int32_t place : places) asked.push_back({images_[place], squared_[place]});
     return asked;
   }
 
@@ -202,7 +186,7 @@ class SharedMatching {
   void keep_nearer(const Places& places, const std::vector<Partner>& partners) {
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto& [point, neighbour] = partners[k];
-      const Index i = point_at(places[k]);
+      const std::int32_t i = places[k];
       if (neighbour.index < 0) continue;
       if (index_[i] >= 0 && !(neighbour < Neighbour{index_[i], squared_[i]})) continue;
       index_[i] = neighbour.index;
@@ -213,12 +197,12 @@ class SharedMatching {
 
   PointsView own_;
   std::optional<PointTree> tree_;
-  const Mirror& mirror_;
   const Context& context_;
   const Communicator& processes_;
   Index first_;
   std::vector<Box> boxes_;
-  Places away_, open_;  // not at home; that others' points may be nearer to
+  std::vector<Vector3> images_;  // this and all else by place
+  Places away_;                  // not at home
   // The best so far: numbered through all processes, -1 none; squared distance; the point.
   std::vector<Index> index_;
   Eigen::VectorXd squared_;
