@@ -99,7 +99,9 @@ Surfels::Surfels(const Cloud& cloud, Index count, const Context& context,
 void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& context,
                           std::optional<double> guess) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
-  const double wanted = static_cast<double>(std::min(count, cloud.total));
+  // More than one point a cell: alone it tells of no patch.
+  const double wanted =
+      std::min(static_cast<double>(count), 0.7 * static_cast<double>(cloud.total));
   double cells = std::min<double>(finest_cells, guess ? longest / *guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
   for (int guess = 0; guess < guesses; ++guess) {
