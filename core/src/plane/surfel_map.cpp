@@ -7,7 +7,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr int steps = 2;          // how far a surfel reaches, in cells of the map
+constexpr int steps = 2;            // how far a surfel reaches, in cells of the map
 constexpr double refinement = 1.5;  // cells of the map along a cell of the surfels
 
 }  // namespace

@@ -17,7 +17,7 @@ Separator::Separator(PointsView points, const PointTree& tree, const Context& co
   centroid_ /= static_cast<double>(points.size());
 }
 
-Separation Separator::room() const { return {.partners = partners_}; }
+Separation Separator::room() const { return Separation(partners_); }
 
 void Separator::operator()(const Vector3& normal, Separation& separation) const {
   const PointsView points(sorted_);

@@ -23,6 +23,8 @@ struct Separation {
   std::vector<char> is_upper;              ///< by index of the point
   LinePartners partners;
 
+  explicit Separation(const LinePartners& empty) : partners(empty) {}
+
   /// The partner's squared distance from the line, of each of X1.
   const std::vector<double>& squared() const { return partners.squared(); }
 };
