@@ -4,16 +4,29 @@
 #include <cmath>
 #include <limits>
 
+#include "../parallel.h"
+
 namespace symsurf {
+
+namespace {
+
+Points in_order(PointsView points, const std::vector<std::int32_t>& order, const Context& context) {
+  Points sorted(points.size(), 3);
+  interruptible_for(context, points.size(),
+                    [&](Index p) { sorted.row(p) = points[order[p]].transpose(); });
+  return sorted;
+}
+
+}  // namespace
 
 Separator::Separator(PointsView points, const PointTree& tree, const Context& context)
     : tree_(tree),
       context_(context),
       distance_bound_(points, context),
-      sorted_(points.matrix()(tree.order(), Eigen::all)),
+      sorted_(in_order(points, tree.order(), context)),
       partners_(PointsView(sorted_), tree.order()),
       centroid_(Vector3::Zero()) {
-  for (Index i = 0; i < points.size(); ++i) centroid_ += points[i];
+  interruptible_for(context, points.size(), [&](Index i) { centroid_ += points[i]; });
   centroid_ /= static_cast<double>(points.size());
 }
 
@@ -27,34 +40,35 @@ void Separator::operator()(const Vector3& normal, Separation& separation) const 
   std::vector<std::int32_t>&upper = separation.upper, &lower = separation.lower;
   upper.clear();
   lower.clear();
-  for (Index p = 0; p < points.size(); ++p) {
+  interruptible_for(context_, points.size(), [&](Index p) {
     const bool is_upper = (points[p] - centroid_).dot(normal) > 0;
     separation.is_upper[names[p]] = is_upper;
     (is_upper ? upper : lower).push_back(static_cast<std::int32_t>(p));
-  }
+  });
   if (upper.empty() || lower.empty()) return;
 
   separation.partners.find(upper, lower, normal, context_);
   separation.partner = separation.partners.rows();
   separation.midpoint.resize(upper.size());
   separation.half_chord = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < upper.size(); ++k) {
+  interruptible_for(context_, static_cast<Index>(upper.size()), [&](Index k) {
     const Vector3 x = points[upper[k]], y = (x + points[separation.partner[k]]) / 2;
     separation.midpoint[k] = y;
     separation.half_chord = std::min(separation.half_chord, (x - y).norm());
-  }
+  });
   for (std::vector<std::int32_t>* rows : {&upper, &lower, &separation.partner})
-    for (std::int32_t& row : *rows) row = names[row];
+    interruptible_for(context_, static_cast<Index>(rows->size()),
+                      [&](Index k) { (*rows)[k] = names[(*rows)[k]]; });
 }
 
 double Separator::clearance(const Separation& separation) const {
   const std::vector<Vector3>& midpoint = separation.midpoint;
-  const std::size_t count = midpoint.size();
+  const auto count = static_cast<Index>(midpoint.size());
   double shortest = separation.half_chord;
   // A midpoint needs a search only where neither the grid nor the distance known at an anchor a,
   // less |y - a|, rules it out; and the fewer, the sooner a short distance is known.
   constexpr double rounding = 1e-9;
-  constexpr std::size_t ahead = 61;
+  constexpr Index ahead = 61;
   Vector3 anchor = Vector3::Zero();
   double known = -1;
   Index near = 0;
@@ -71,15 +85,16 @@ double Separator::clearance(const Separation& separation) const {
         shortest = std::min(shortest, std::sqrt(neighbour.squared_distance));
     waits = 0;
   };
-  for (const std::size_t stride : {ahead, std::size_t{1}})
-    for (std::size_t k = 0; k < count && shortest > 0; k += stride) {
-      const Vector3& y = midpoint[k];
+  for (const Index stride : {ahead, Index{1}})
+    interruptible_for(context_, (count + stride - 1) / stride, [&](Index step) {
+      if (shortest == 0) return;
+      const Vector3& y = midpoint[step * stride];
       const double settled = shortest * (1 + rounding);
-      if (distance_bound_(y) > settled || known - (y - anchor).norm() > settled) continue;
+      if (distance_bound_(y) > settled || known - (y - anchor).norm() > settled) return;
       if (waits == 0) waiting.colwise() = y;
       waiting.col(waits++) = y;
       if (waits == PointTree::block) search();
-    }
+    });
   if (waits > 0) search();
   return shortest;
 }

@@ -3,7 +3,7 @@
 #include <symsurf/errors.h>
 
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "../parallel.h"
 #include "half_sphere.h"
@@ -21,19 +21,18 @@ struct Trial {
 };
 
 void fill_pairs(Result& result, PointsView points, const Separation& separation) {
-  const Index count = static_cast<Index>(separation.upper.size());
-  std::vector<Index> order(count);
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return separation.upper[a] < separation.upper[b]; });
+  std::vector<std::int32_t> place(points.size(), -1);
+  const auto count = static_cast<Index>(separation.upper.size());
+  for (Index k = 0; k < count; ++k) place[separation.upper[k]] = static_cast<std::int32_t>(k);
   result.pairs.resize(count, 2);
   result.residuals.resize(count);
   result.surface_points.resize(count, 3);
-  for (Index row = 0; row < count; ++row) {
-    const Index i = separation.upper[order[row]], j = separation.partner[order[row]];
+  for (Index i = 0, row = 0; i < points.size(); ++i) {
+    if (place[i] < 0) continue;
+    const Index j = separation.partner[place[i]];
     result.pairs.row(row) << i, j;
-    result.residuals[row] = std::sqrt(separation.squared()[order[row]]);
-    result.surface_points.row(row) = (points[i] + points[j]).transpose() / 2;
+    result.residuals[row] = std::sqrt(separation.squared()[place[i]]);
+    result.surface_points.row(row++) = (points[i] + points[j]).transpose() / 2;
   }
 }
 
