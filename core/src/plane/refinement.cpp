@@ -97,12 +97,12 @@ Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_
 
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   const Subset few = about(few_samples);
-  const UnitPlane plane = fitted(start.plane, 0.02, few, 2);
-  return {plane, explained(plane, matches(plane, reach, few), few)};
+  return rated(fitted(start.plane, 0.02, few, 2), few);
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  return rated(fitted(start.plane, 0.01, about(most_samples), 2));
+  const Subset most = about(most_samples);
+  return rated(fitted(start.plane, 0.01, most, 2), most);
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
@@ -115,16 +115,15 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   const std::vector<Match> around = matches(rough, reach, most);
   const double roughly = explained(rough, around, most);
   if (roughly < least) return {rough, roughly};
-  const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around));
+  const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around), most);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
       fitted(close ? closely.plane : rough, close ? narrow : wide / 2, all(), 2);
   return {fitted_to_exact_pairs(plane), std::max(closely.explained, roughly)};
 }
 
-PlaneCandidate Refinement::rated(const UnitPlane& plane) const {
-  const Subset most = about(most_samples);
-  return {plane, explained(plane, matches(plane, reach, most), most)};
+PlaneCandidate Refinement::rated(const UnitPlane& plane, Subset subset) const {
+  return {plane, explained(plane, matches(plane, reach, subset), subset)};
 }
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what

@@ -47,7 +47,7 @@ class Refinement {
 
   Subset about(Index wanted) const;
   Subset all() const;
-  PlaneCandidate rated(const UnitPlane& plane) const;
+  PlaneCandidate rated(const UnitPlane& plane, Subset subset) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
