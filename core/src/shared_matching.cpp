@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -125,9 +126,11 @@ class SharedMatching {
  private:
   using Places = std::vector<std::int32_t>;
 
-  static Places part_of(const Places& places, std::size_t from, std::size_t count) {
+  using Part = std::span<const std::int32_t>;
+
+  static Part part_of(Part places, std::size_t from, std::size_t count) {
     const std::size_t begin = std::min(from, places.size());
-    return Places(places.begin() + begin, places.begin() + std::min(begin + count, places.size()));
+    return places.subspan(begin, std::min(count, places.size() - begin));
   }
 
   bool at_home(const Vector3& image) const {
@@ -164,15 +167,15 @@ class SharedMatching {
         processes_.swap(other, bytes_of(std::vector<std::size_t>{places.size()})));
     const std::size_t most = std::max(places.size(), counts.front());
     for (std::size_t at = 0; at < most; at += sent_chunk) {
-      const Places asked = part_of(places, at, sent_chunk);
+      const Part asked = part_of(places, at, sent_chunk);
       const auto given = items_of<Question>(processes_.swap(other, bytes_of(questions(asked))));
       keep_nearer(asked, items_of<Partner>(processes_.swap(other, bytes_of(answered(given)))));
     }
   }
 
-  void ask_own(const Places& places) { keep_nearer(places, answered(questions(places))); }
+  void ask_own(Part places) { keep_nearer(places, answered(questions(places))); }
 
-  std::vector<Question> questions(const Places& places) const {
+  std::vector<Question> questions(Part places) const {
     std::vector<Question> asked;
     asked.reserve(places.size());
     for (const std::int32_t place : places) asked.push_back({images_[place], squared_[place]});
@@ -183,7 +186,7 @@ class SharedMatching {
     return answers(questions, own_, *tree_, first_, context_.stage(0, 0));
   }
 
-  void keep_nearer(const Places& places, const std::vector<Partner>& partners) {
+  void keep_nearer(Part places, const std::vector<Partner>& partners) {
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto& [point, neighbour] = partners[k];
       const std::int32_t i = places[k];
