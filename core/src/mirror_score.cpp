@@ -45,7 +45,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Contex
       context_(context),
       points_(cloud, tree, context),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
-      fine_(cloud, 4 * coarse_size, context.stage(0.5, 1), coarse_.spacing() / 2) {
+      fine_(cloud, coarse_, context.stage(0.5, 1)) {
   take_samples();
   look_at_neighbours();
 }

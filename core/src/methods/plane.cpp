@@ -32,11 +32,7 @@ Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
 
 // Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
 void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
-  const Index stride = std::max<Index>(1, surfels.size() / measured);
-  Points positions((surfels.size() + stride - 1) / stride, 3);
-  for (Index i = 0; i < positions.rows(); ++i)
-    positions.row(i) = surfels[i * stride].position.transpose();
-  const SymmetryMeasure measure(positions);
+  const SymmetryMeasure measure(surfels.positions(measured));
   Eigen::Vector4d p;
   p << candidate.plane.normal, candidate.plane.offset;
   p = maximise<4>(measure, p, 0.02, 5);
@@ -73,7 +69,7 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
-  const Surfels fine(cloud, 4 * sample_size, context.stage(0.1, 0.2), coarse.spacing() / 2);
+  const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
   PointTree tree(cloud.points, context.stage(0.25, 0.4));

@@ -88,23 +88,37 @@ struct Surfels::Patch {
   }
 };
 
-Surfels::Surfels(const Cloud& cloud, Index count, const Context& context,
-                 std::optional<double> guess)
-    : low_(cloud.frame.low) {
-  choose_cell(cloud, count, context.stage(0, 0.5), guess);
+Surfels::Surfels(const Cloud& cloud, Index count, const Context& context)
+    : Surfels(cloud, count, 0, context) {}
+
+Surfels::Surfels(const Cloud& cloud, const Surfels& coarser, const Context& context)
+    : Surfels(cloud, 4 * coarser.count_, coarser.spacing() / 2, context) {}
+
+Surfels::Surfels(const Cloud& cloud, Index count, double guess, const Context& context)
+    : count_(count), low_(cloud.frame.low) {
+  choose_cell(cloud, guess, context.stage(0, 0.5));
   sum_moments(cloud, context.stage(0.5, 1));
 }
 
-// Sheets fill cells as the square of the resolution, so two or three guesses are enough.
-void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& context,
-                          std::optional<double> guess) {
+Points Surfels::positions(Index count) const {
+  const Index stride = std::max<Index>(1, size() / count);
+  Points positions((size() + stride - 1) / stride, 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) = surfels_[i * stride].position.transpose();
+  return positions;
+}
+
+// Sheets fill cells as the square of the resolution, so two or three guesses are enough. The first
+// is that edge of a cell, where it is given.
+void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& context) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
   // More than one point a cell: alone it tells of no patch.
   const double wanted =
-      std::min(static_cast<double>(count), 0.7 * static_cast<double>(cloud.total));
-  double cells = std::min<double>(finest_cells, guess ? longest / *guess : 1 + std::sqrt(wanted));
+      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.total));
+  double cells =
+      std::min<double>(finest_cells, guess > 0 ? longest / guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
-  for (int guess = 0; guess < guesses; ++guess) {
+  for (int k = 0; k < guesses; ++k) {
     cell_ = longest / cells;
     cells_ = 1 / cell_;
     // Off any lattice that the points may lie on: rounding must not decide between two cells.
@@ -117,7 +131,7 @@ void Surfels::choose_cell(const Cloud& cloud, Index count, const Context& contex
       for (const std::vector<std::uint8_t>& part : gathered(context, seen))
         for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
     const double occupied = static_cast<double>(std::count(seen.begin(), seen.end(), 1));
-    context.report((guess + 1.0) / guesses);
+    context.report((k + 1.0) / guesses);
     const double better = std::min<double>(finest_cells, cells * std::sqrt(wanted / occupied));
     if (std::abs(occupied / wanted - 1) < 0.15 || std::abs(better - cells) < 0.5) return;
     cells = better;

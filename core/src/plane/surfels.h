@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <optional>
 #include <vector>
 
 namespace symsurf {
@@ -24,12 +23,16 @@ struct Surfel {
 /// out, density hardly counts and 10^6 points cost one pass.
 class Surfels {
  public:
-  /// `guess`: the edge of a cell to try first, where something tells.
-  Surfels(const Cloud& cloud, Index count, const Context& context,
-          std::optional<double> guess = std::nullopt);
+  Surfels(const Cloud& cloud, Index count, const Context& context);
+
+  /// About four times as many.
+  Surfels(const Cloud& cloud, const Surfels& coarser, const Context& context);
 
   Index size() const { return static_cast<Index>(surfels_.size()); }
   const Surfel& operator[](Index i) const { return surfels_[i]; }
+
+  /// Where every k-th of them lies, about `count` in all.
+  Points positions(Index count) const;
 
   /// Edge of a cell, about the distance between surfels.
   double spacing() const { return cell_; }
@@ -41,8 +44,8 @@ class Surfels {
   using Cell = Eigen::Vector3i;
   struct Patch;
 
-  void choose_cell(const Cloud& cloud, Index count, const Context& context,
-                   std::optional<double> guess);
+  Surfels(const Cloud& cloud, Index count, double guess, const Context& context);
+  void choose_cell(const Cloud& cloud, double guess, const Context& context);
   void sum_moments(const Cloud& cloud, const Context& context);
   void join(std::vector<Patch>& patches, const Context& context);
   Cell cell_of(const Vector3& x) const {
@@ -52,6 +55,7 @@ class Surfels {
     return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
   }
 
+  Index count_;  // that was asked for
   Vector3 low_;
   double cell_ = 1, cells_ = 1;  // edge of a cell, cells along a unit of length
   Cell size_;

@@ -61,11 +61,7 @@ void drop_hopeless(std::vector<SphereCandidate>& candidates) {
 // From each of the best candidates to the maximum next to it of Hruda's measure, where that
 // explains more.
 void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
-  const Index stride = std::max<Index>(1, surfels.size() / measured);
-  Points positions((surfels.size() + stride - 1) / stride, 3);
-  for (Index i = 0; i < positions.rows(); ++i)
-    positions.row(i) = surfels[i * stride].position.transpose();
-  const SphereMeasure measure(positions);
+  const SphereMeasure measure(surfels.positions(measured));
   for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
     Eigen::Vector4d s;
     s << candidates[i].shape.centre, candidates[i].shape.radius;
