@@ -13,7 +13,7 @@ if(SYMSURF_PARAVIEW)
 endif()
 find_package(VTK REQUIRED
   COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore ParallelCore
-  OPTIONAL_COMPONENTS WrappingPythonCore Python)
+  OPTIONAL_COMPONENTS ParallelMPI WrappingPythonCore Python)
 message(STATUS "symsurf: VTK ${VTK_VERSION}")
 
 add_executable(symsurf_generate)

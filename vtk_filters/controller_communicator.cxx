@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "meeting.h"
+
 namespace {
 
 constexpr int swap_tag = 7120;
@@ -15,6 +17,7 @@ std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::gather(
     std::span<const std::byte> mine) const {
   const auto length = static_cast<vtkIdType>(mine.size());
   std::vector<vtkIdType> lengths(size()), offsets(size());
+  meet_all(controller_);
   controller_->AllGather(&length, lengths.data(), 1);
   std::exclusive_scan(lengths.begin(), lengths.end(), offsets.begin(), vtkIdType{0});
   Bytes all(offsets.back() + lengths.back());
@@ -43,6 +46,7 @@ symsurf::Communicator::Bytes ControllerCommunicator::swap(int other,
     theirs.resize(length);
     if (length > 0) controller_->Receive(chars(theirs.data()), length, other, swap_tag);
   };
+  meet(controller_, other, other);
   if (rank() < other) {
     send();
     receive();

@@ -10,6 +10,7 @@
 #include "controller_communicator.h"
 #include "core_call.h"
 #include "field_values.h"
+#include "meeting.h"
 #include "point_arrays.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -41,6 +42,7 @@ symsurf::Index points_before(vtkMultiProcessController* controller, symsurf::Ind
   if (processes.size() == 1) return 0;
   const vtkIdType count = own;
   std::vector<vtkIdType> counts(processes.size());
+  meet_all(controller);
   controller->AllGather(&count, counts.data(), 1);
   return std::accumulate(counts.begin(), counts.begin() + processes.rank(), symsurf::Index{0});
 }
