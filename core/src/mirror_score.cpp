@@ -18,6 +18,7 @@ namespace {
 constexpr Index coarse_size = 400, most_samples = 1600;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double least_moved = 0.35;
+constexpr double exact = 1e-6;  // of the cloud's size: the rounding of single precision
 
 // The image's normal, from where its tangents go: exact whatever the mirror's curvature.
 Vector3 image_normal(const Mirror& mirror, const Vector3& x, const Vector3& normal,
@@ -93,10 +94,10 @@ void MirrorScore::look_at_neighbours() {
   self_ = sum / static_cast<double>(samples_.size());
 }
 
-double MirrorScore::explained(const Mirror& mirror) const {
-  if (!(self_ > 0)) return 0;
+Explained MirrorScore::explained(const Mirror& mirror) const {
+  if (!(self_ > 0)) return {};
   const double size = cloud_.frame.size;
-  double moved = 0, sum = 0;
+  double moved = 0, sum = 0, exactly = 0;
   struct Moved {
     const Sample* sample;
     double weight;
@@ -129,18 +130,20 @@ double MirrorScore::explained(const Mirror& mirror) const {
         image_normal(mirror, x, cloud_.frame.axes * s->surfel->normal, image, 1e-4 * size);
     if (!normal.allFinite()) continue;
     const Vector3 gap = cloud_.frame.enter(image) - at;
+    if (gap.norm() < exact) exactly += weight;
     const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s->surfel->flatness,
                               *partner);
     sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
   }
-  const double mean = sum / std::max(moved, least_moved * static_cast<double>(samples_.size()));
-  return std::clamp(mean / self_, 0.0, 1.0);
+  const double witnesses = std::max(moved, least_moved * static_cast<double>(samples_.size()));
+  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses};
 }
 
 void MirrorScore::fill(Result& result) const {
-  const double share = explained(*result.mirror);
-  result.score = discounted(share, result.mirror->kind());
-  result.statistics["explained_share"] = share;
+  const Explained found = explained(*result.mirror);
+  result.score = discounted(found, result.mirror->kind());
+  result.statistics["explained_share"] = found.share;
+  result.statistics["exact_share"] = found.exactly;
 }
 
 Result MirrorScore::ranked(const std::string& method,
@@ -161,7 +164,7 @@ Result MirrorScore::ranked(const std::string& method,
   return best;
 }
 
-double discounted(double explained, std::string_view kind) {
+double discounted(const Explained& explained, std::string_view kind) {
   // What the best mirror of a kind explains of random blobs, less what the best plane does; and,
   // since of two mirrors that explain the same the simpler is meant, what its freedom costs.
   struct Freedom {
@@ -172,9 +175,10 @@ double discounted(double explained, std::string_view kind) {
       {"quadric", {0.4, 0.03}}, {"height field", {0.85, 0.05}}, {"free-form", {0.65, 0.06}},
   };
   const auto found = freedoms.find(kind);
-  if (found == freedoms.end()) return explained;
-  const auto [by_chance, cost] = found->second;
-  return (1 - cost) * std::max(0.0, (explained - by_chance) / (1 - by_chance));
+  if (found == freedoms.end()) return explained.share;
+  const double by_chance = found->second.by_chance * (1 - explained.exactly);
+  const double beyond = std::max(0.0, explained.share - by_chance) / (1 - by_chance);
+  return (1 - found->second.cost) * beyond;
 }
 
 }  // namespace symsurf

@@ -35,19 +35,24 @@ struct Testimony {
 /// blob, a partner is as near as the points' spacing allows: only what exceeds it counts.
 double distance_past(const Vector3& gap, const Surfel& partner, double spacing);
 
+/// What a mirror explains of a cloud, before the discount for its freedom; both in [0, 1].
+struct Explained {
+  double share = 0;
+  double exactly = 0;  ///< share of what the mirror moves whose image is a point, to rounding
+};
+
 /// The one score of all kinds of mirror: the mean testimony of the points that the mirror moves (at
 /// least 35 % of all), over that of the points about their own nearest neighbours, since a perfect
 /// mirror maps the cloud onto another sample of the same sheets. From that is taken what a mirror
-/// of the same freedom explains of random clouds.
+/// of the same freedom explains of random clouds, which have no exact partners.
 class MirrorScore {
  public:
   /// The cloud and the tree of its points must outlive the score.
   MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context);
 
-  /// In [0, 1], before the discount for the mirror's freedom.
-  double explained(const Mirror& mirror) const;
+  Explained explained(const Mirror& mirror) const;
 
-  /// Sets the result's score, and "explained_share" among its statistics.
+  /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
 
   /// The result with the best of at least one mirror, the others its candidates, best first. The
@@ -77,6 +82,6 @@ class MirrorScore {
 };
 
 /// What is left of a share explained after what chance explains, for a kind of mirror.
-double discounted(double explained, std::string_view kind);
+double discounted(const Explained& explained, std::string_view kind);
 
 }  // namespace symsurf
