@@ -3,6 +3,8 @@
 #include <symsurf/height_field.h>
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "random_cloud.h"
 
@@ -56,6 +58,45 @@ TEST(FixedDirection, IsExactWherePartnersAre) {
           EXPECT_EQ(result.pairs(k, 0) / 2, result.pairs(k, 1) / 2);
         EXPECT_LE(result.residuals.maxCoeff(), 1e-9);
       }
+}
+
+Points kept(const Sheets& sheets, const std::function<bool(Index)>& keep) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < sheets.points.rows(); ++i)
+    if (keep(i)) rows.push_back(i);
+  return sheets.points(rows, Eigen::all);
+}
+
+double rms_height(const Sheets& sheets, const Points& surface) {
+  double sum = 0;
+  for (const auto& row : surface.rowwise()) {
+    const Vector3 x = sheets.rotation.transpose() * row.transpose();
+    sum += std::pow(x.z() - ripple(x.x(), x.y()), 2);
+  }
+  return std::sqrt(sum / surface.rows());
+}
+
+// Chance has no exact partners: nothing is taken off the score of those that are left.
+TEST(FixedDirection, IsSureOfExactPartnersBesideAHole) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Sheets sheets(seed, 500, ripple, wide);
+    const Vector3 centre = sheets.points.row(0).transpose();
+    const Result result = found(kept(sheets, [&](Index i) {
+      return i % 2 || (sheets.points.row(i).transpose() - centre).norm() > 1.2;
+    }));
+    EXPECT_GE(result.score, 0.5) << seed;
+    EXPECT_LE(rms_height(sheets, result.surface_points), 0.003) << seed;
+  }
+}
+
+TEST(FixedDirection, PairsNeighboursWherePartnersAreLost) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Sheets sheets(seed, 500, ripple, wide);
+    const Points left = kept(sheets, [&](Index) { return sheets.random.uniform(0, 1) < 0.7; });
+    const Result result = found(left);
+    EXPECT_GE(result.pairs.rows(), 0.85 * left.rows()) << seed;
+    EXPECT_LE(rms_height(sheets, result.surface_points), 0.006) << seed;
+  }
 }
 
 TEST(FixedDirection, PairsAClosedShapeNested) {

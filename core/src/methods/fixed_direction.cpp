@@ -2,19 +2,16 @@
 
 #include <algorithm>
 
+#include "../fixed_direction/credible_pairs.h"
 #include "../fixed_direction/field_search.h"
 #include "../matching.h"
 #include "../mirror_score.h"
 #include "../parallel.h"
-#include "../quantile.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
-
-constexpr double outlying = 6;     // median residuals: a partner by chance
-constexpr double rounding = 1e-9;  // of the diagonal
 
 Points framed(const Cloud& cloud, const Context& context) {
   Points points(cloud.points.size(), 3);
@@ -23,20 +20,6 @@ Points framed(const Cloud& cloud, const Context& context) {
       points.row(i) = cloud.frame.enter(cloud.points[i]).transpose();
   });
   return points;
-}
-
-// Where one side is missing, images fall on whatever lies at the gap's rim.
-void drop_outlying_pairs(Result& result, double diagonal) {
-  if (result.residuals.size() == 0) return;
-  const double* r = result.residuals.data();
-  const double limit =
-      std::max(outlying * median(std::vector(r, r + result.residuals.size())), rounding * diagonal);
-  std::vector<Index> kept;
-  for (Index i = 0; i < result.residuals.size(); ++i)
-    if (r[i] <= limit) kept.push_back(i);
-  result.pairs = Pairs(result.pairs(kept, Eigen::all));
-  result.residuals = Eigen::VectorXd(result.residuals(kept));
-  result.surface_points = Points(result.surface_points(kept, Eigen::all));
 }
 
 Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
@@ -57,8 +40,10 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   MirrorScore(cloud, tree, context.stage(0.75, 0.8)).fill(result);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 0.9));
-  drop_outlying_pairs(result, cloud.diagonal);
-  result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 1));
+  result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 0.95));
+  const double working_share = static_cast<double>(work.size()) / static_cast<double>(cloud.total);
+  keep_credible_pairs(result, work.spacing * std::sqrt(working_share) * frame.size,
+                      context.stage(0.95, 1));
   return result;
 }
 
