@@ -13,6 +13,8 @@ namespace symsurf {
 namespace {
 
 constexpr Index most_left_out = 300;  // observations that cross-validation predicts
+// Partners share patches, so that neighbours err together: prediction flatters few of them.
+constexpr double as_good = 1.25;
 constexpr double curvature_ridge = 1e-4;
 
 }  // namespace
@@ -120,9 +122,12 @@ Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const
       errors[k].weights += o.weight;
     }
   }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Error& e : errors)
+    if (e.weights > 0) least = std::min(least, e.sum / e.weights);
   std::size_t best = 0;
-  for (std::size_t k = 1; k < offered.size(); ++k)
-    if (errors[k].sum * errors[best].weights < errors[best].sum * errors[k].weights) best = k;
+  for (std::size_t k = 0; k < offered.size(); ++k)
+    if (errors[k].weights > 0 && errors[k].sum / errors[k].weights <= as_good * least) best = k;
   return offered[best];
 }
 

@@ -29,7 +29,8 @@ class HeightRegression {
   /// the median residual).
   void reject_outliers(Index neighbours);
 
-  /// The number of neighbours, of those offered, that predicts left-out observations best.
+  /// The largest of the numbers of neighbours offered that predicts left-out observations about as
+  /// well as the best does.
   Index best_neighbours(const std::vector<Index>& offered) const;
 
   /// Places of observations, as rows for fitted(), no two within `distance`: heights fitted side by
