@@ -165,7 +165,7 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
   for (int round = 0; round < rounds; ++round) {
     const Smoothing smoothing = sheet.exact
                                     ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
-                                    : Smoothing{40, 0.08, 0.6 * cloud.spacing, 1};
+                                    : Smoothing{75, 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !sheet.mirror;
     if (!sheet.exact) drop_islands(cloud, sheet.carried);
     sheet.mirror = fitted(cloud, sheet.carried,
