@@ -11,7 +11,7 @@ from symsurf import metrics
 from .case import Bar, Case, Figures, at_least, at_most, timed_detect
 from .damage import falling_density, hole, noise
 from .poses import Points, diagonal
-from .sheets import Sheets, fixed_sheets, perpendicular_sheets
+from .sheets import OFFSETS, REACH, Sheets, fixed_body, fixed_sheets, perpendicular_sheets
 
 Damaged = tuple[Points, Points]
 """What is left, and the points whose footprint should be covered."""
@@ -56,14 +56,27 @@ def measured(method: str, sheets: Sheets, damage: Damage, rng: np.random.Generat
     }
 
 
+WAVES = (0, 1, 2, 4)  # none: a constant distance
+
+
 def _fixed(name: str, bars: dict[str, Bar], damage: Damage = none, exact: bool = True) -> Case:
     def run(subject: str, rng: np.random.Generator) -> Figures:
-        surface, heights = subject.split()
-        return measured("fixed_direction", fixed_sheets(surface, heights, exact, rng), damage, rng)
+        surface, offset = subject.split()
+        waves = int(rng.choice(WAVES))
+        sheets = fixed_sheets(surface, *OFFSETS[offset], waves, exact, rng)
+        return measured("fixed_direction", sheets, damage, rng)
 
-    subjects = ("f1 far", "f2 near", "f3 closed", "f4 torus", "f5 far", "f6 near", "f1 closed",
-                "f5 torus")  # fmt: skip
+    subjects = tuple(f"{surface} {offset}" for surface in REACH for offset in OFFSETS)
     return Case(f"fixed, {name}", subjects, run, bars)
+
+
+def _fixed_body(name: str, bars: dict[str, Bar], damage: Damage = none, exact: bool = True) -> Case:
+    def run(subject: str, rng: np.random.Generator) -> Figures:
+        surface, body = subject.split()
+        return measured("fixed_direction", fixed_body(surface, body, exact, rng), damage, rng)
+
+    subjects = ("f1 closed", "f3 closed", "f4 torus", "f5 torus")
+    return Case(f"fixed, closed bodies, {name}", subjects, run, bars)
 
 
 DISTANCES = {"f1": (0.25, 0.5), "f2": (0.1, 0.2), "f3": (0.25, 0.5), "f4": (0.25, 0.5),
@@ -74,7 +87,7 @@ def _perpendicular(
     name: str,
     bars: dict[str, Bar],
     damage: Damage = none,
-    waves: tuple[int, ...] = (0, 1, 2, 4),
+    waves: tuple[int, ...] = WAVES,
     exact: bool = True,
     subjects: tuple[str, ...] = tuple(DISTANCES),
 ) -> Case:
@@ -96,7 +109,12 @@ CASES = (
     _fixed("noise 1 %", _bars(0.002, 0.98), noisy(0.01)),
     _fixed("noise 2 %", _bars(0.004, 0.98), noisy(0.02)),
     _fixed("20 % hole", _bars(1e-4, 0.98), holed),
+    _fixed("4:1 density, some partners left", _bars(0.0008, 0.95), uneven),
     _fixed("4:1 density, no exact partners", _bars(0.0008, 0.95), uneven, exact=False),
+    _fixed_body("clean", _bars(1e-6, 0.98)),
+    _fixed_body("20 % hole", _bars(1e-4, 0.98), holed),
+    _fixed_body("noise 1 %", _bars(0.002, 0.98), noisy(0.01)),
+    _fixed_body("no exact partners", {}, exact=False),
     _perpendicular("constant distance", _bars(0.0003, 0.98, max=at_most(0.003)), waves=(0,),
                    subjects=("f1", "f4", "f5", "f6")),
     _perpendicular("1 to 4 waves", _bars(0.0005, 0.95), waves=(1, 2, 4)),
@@ -105,5 +123,6 @@ CASES = (
     _perpendicular("noise 1 %", _bars(0.002, 0.95), noisy(0.01)),
     _perpendicular("noise 2 %", _bars(0.004, 0.95), noisy(0.02)),
     _perpendicular("20 % hole", {}, holed),
+    _perpendicular("4:1 density, some partners left", _bars(0.0015, 0.9), uneven),
     _perpendicular("4:1 density, no exact partners", _bars(0.0015, 0.9), uneven, exact=False),
 )  # fmt: skip

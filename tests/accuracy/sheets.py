@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,9 +56,7 @@ def perpendicular_sheets(
         slope_x, slope_y = f.gradient(x, y)
         normal = np.column_stack([-slope_x, -slope_y, np.ones_like(x)])
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        leg = (x / REACH[name] + 1) / 2 * waves
-        share = 1 - np.abs(1 - leg % 2) if waves else np.zeros_like(x)
-        distance = near + (far - near) * share
+        distance = _waving(x / REACH[name], near, far, waves)
         return np.column_stack([x, y, f(x, y)]) + sign * distance[:, None] * normal
 
     places = random_places(name, count, rng)
@@ -66,13 +65,13 @@ def perpendicular_sheets(
     return _posed(points, known_surface(name, "perpendicular"), count, exact, rng)
 
 
-HEIGHTS = {
-    "far": lambda x, y: 1.2 + 0.25 * np.sin(2.1 * x + 0.4) * np.cos(1.7 * y),
-    "near": lambda x, y: 0.25 + 0.15 * np.sin(3.1 * x + 0.4) * np.cos(2.3 * y),
+OFFSETS = {"near": (0.15, 0.4), "far": (0.9, 1.4)}
+"""Distances along z from the mirror, in units of the reach."""
+BODIES = {
     "closed": lambda x, y: np.sqrt(np.maximum(0, 1 - x**2 - y**2)) * (1 + 0.3 * np.sin(4 * x + y)),
     "torus": lambda x, y: _torus_height(x, y),
 }
-"""Distances along z from the mirror, over x and y in units of the reach; NaN: no point."""
+"""The same over x and y in units of the reach, of closed shapes; NaN: no point."""
 
 
 def _torus_height(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -83,14 +82,27 @@ def _torus_height(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.
     return np.where((np.abs(x) < tube) & (squared > 0), np.sqrt(np.maximum(squared, 0)), np.nan)
 
 
-def fixed_sheets(name: str, heights: str, exact: bool, rng: np.random.Generator) -> Sheets:
-    """Both sides of a surface along z."""
+def fixed_sheets(
+    name: str, near: float, far: float, waves: int, exact: bool, rng: np.random.Generator
+) -> Sheets:
+    """Both sides of a surface along z, at ``near`` to ``far`` times its reach from it."""
     count = int(rng.choice(SIZES)) // 2
+    heights = lambda x, y: _waving(x, near, far, waves)  # noqa: E731
+    return _along_z(name, heights, count, exact, rng)
 
+
+def fixed_body(name: str, body: str, exact: bool, rng: np.random.Generator) -> Sheets:
+    """A closed shape that a surface halves along z."""
+    return _along_z(name, BODIES[body], int(rng.choice(SIZES)) // 2, exact, rng)
+
+
+def _along_z(
+    name: str, heights: Callable, count: int, exact: bool, rng: np.random.Generator
+) -> Sheets:
     def side(sign: int) -> Points:
         places = random_places(name, 40 * count, rng)
         x, y = places.T
-        distance = REACH[name] * HEIGHTS[heights](x / REACH[name], y / REACH[name])
+        distance = REACH[name] * heights(x / REACH[name], y / REACH[name])
         kept = np.isfinite(distance) & (distance > 0)
         x, y, distance = (a[kept][:count] for a in (x, y, distance))
         return np.column_stack([x, y, surface(name)(x, y) + sign * distance])
@@ -99,6 +111,14 @@ def fixed_sheets(name: str, heights: str, exact: bool, rng: np.random.Generator)
     upper = side(1)
     points = np.vstack([upper, truth.reflect(upper) if exact else side(-1)])
     return _posed(points, truth, len(upper), exact, rng)
+
+
+def _waving(
+    x: NDArray[np.float64], near: float, far: float, waves: int
+) -> NDArray[np.float64]:
+    """Distances in that many legs from ``near`` to ``far`` and back, for x from -1 to 1."""
+    leg = (x + 1) / 2 * waves
+    return near + (far - near) * (1 - np.abs(1 - leg % 2) if waves else np.zeros_like(x))
 
 
 def _posed(

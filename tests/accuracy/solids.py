@@ -60,21 +60,15 @@ def _face_plane(points: Points) -> Plane:
 
 def bent(points: Points, plane: Plane, radius: float) -> tuple[Points, Cylinder]:
     """The points and their mirror after the plane was bent into a cylinder of that radius, in
-    units of the points' extent along it."""
+    units of the points' extent along it, which is the longer one."""
     across = np.linalg.svd(plane.normal[None])[2][1:]
-    frame = np.vstack([plane.normal, across])
-    centred = plane.project(points.mean(axis=0, keepdims=True))[0]
-    local = (points - centred) @ frame.T
-    radius *= np.ptp(local[:, 2])
-    cylinder = Cylinder((-radius, 0, 0), (0, 1, 0), radius)
-    straight = symsurf.straight_mirror(cylinder, local)
-    # Where the cylinder is laid out: the local plane onto the one that bending starts from.
-    normal = straight.normal
-    along = np.cross((0, 1, 0), normal)
-    onto = np.column_stack([normal, (0, 1, 0), along / np.linalg.norm(along)])
-    placed = local @ onto.T
-    placed -= straight.signed_distance(np.zeros((1, 3)))[0] * normal
-    return symsurf.bend(placed, cylinder, back=True), cylinder
+    along, axis = sorted(across, key=lambda way: np.ptp(points @ way), reverse=True)
+    height = plane.signed_distance(points)
+    radius *= np.ptp(points @ along)
+    angle = (points @ along - (points @ along).mean()) / radius
+    x = (radius + height) * np.cos(angle) - radius
+    bent = np.column_stack([x, points @ axis, (radius + height) * np.sin(angle)])
+    return bent, Cylinder((-radius, 0, 0), (0, 1, 0), radius)
 
 
 def asymmetric(kind: str, count: int, rng: np.random.Generator) -> Points:
