@@ -13,7 +13,7 @@ namespace {
 constexpr double exact_miss = 0.25;  // spacings, in the median
 constexpr double flat_enough = 0.995;
 constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
-constexpr double least_island = 0.15;                     // of the largest
+constexpr double least_island = 0.15;                      // of the largest
 constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
 
 struct Smoothing {
@@ -22,6 +22,13 @@ struct Smoothing {
   double robust_scale;  // in units of the diagonal
   double most_missed;   // a patch whose data miss by more, in the median, is none
 };
+
+// So many that noise averages out.
+Index around_a_patch(const SearchCloud& cloud) {
+  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
+  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
+  return static_cast<Index>(std::min(most, least * excess * excess));
+}
 
 double median_miss(const std::vector<Carried>& data) {
   std::vector<double> squared;
@@ -163,9 +170,9 @@ bool is_flat(const Sheet& sheet) {
 void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
   std::size_t matched = 0;
   for (int round = 0; round < rounds; ++round) {
-    const Smoothing smoothing = sheet.exact
-                                    ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
-                                    : Smoothing{75, 0.08, 0.6 * cloud.spacing, 1};
+    const Smoothing smoothing =
+        sheet.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
+                    : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !sheet.mirror;
     if (!sheet.exact) drop_islands(cloud, sheet.carried);
     sheet.mirror = fitted(cloud, sheet.carried,
