@@ -21,6 +21,20 @@ std::uint64_t spread(std::uint64_t v) {
   return (v | v << 2) & 0x249249249249;
 }
 
+// Half against half, which takes no more than three steps.
+template <typename T>
+T least(std::array<T, BoxTree::fan> x) {
+  for (int half = BoxTree::fan / 2; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) x[i] = std::min(x[i], x[i + half]);
+  return x[0];
+}
+template <typename T>
+T most(std::array<T, BoxTree::fan> x) {
+  for (int half = BoxTree::fan / 2; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) x[i] = std::max(x[i], x[i + half]);
+  return x[0];
+}
+
 }  // namespace
 
 std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context) {
@@ -44,45 +58,47 @@ std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Cont
   return order;
 }
 
-BoxTree::BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices,
-                 const Context& context)
-    : size_(static_cast<Index>(places.size())) {
+void BoxTree::clear() {
+  size_ = 0;
+  runs_.clear();
+}
+
+void BoxTree::build() {
+  for (Run& last = runs_.back(); size_ % fan != 0; ++size_) {
+    const Index at = size_ % fan;
+    for (auto& x : last.place) x[at] = x[at - 1];
+    last.index[at] = last.index[at - 1];
+  }
+
+  // Boxes beyond the last are empty: no limit reaches them.
   Boxes nothing;
   for (int axis = 0; axis < 3; ++axis) {
-    nothing.low[axis].fill(std::numeric_limits<float>::max());
-    nothing.high[axis].fill(std::numeric_limits<float>::lowest());
+    nothing.low[axis].fill(std::numeric_limits<float>::infinity());
+    nothing.high[axis].fill(-std::numeric_limits<float>::infinity());
   }
   nothing.first.fill(std::numeric_limits<std::int32_t>::max());
-
-  float reach = 0;
-  levels_.emplace_back(groups(groups(size_)), nothing);
-  interruptible_for(context, size_, [&](Index p) {
-    Boxes& group = levels_[0][p / fan / fan];
-    const Index box = p / fan % fan;
-    group.first[box] = std::min(group.first[box], indices[p]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const float x = static_cast<float>(places[p][axis]);
-      group.low[axis][box] = std::min(group.low[axis][box], x);
-      group.high[axis][box] = std::max(group.high[axis][box], x);
-      reach = std::max(reach, std::abs(x));
-    }
-  });
-  slack_ = 1e-6f * reach;
-  while (levels_.back().size() > 1) {
-    const std::vector<Boxes>& below = levels_.back();
-    std::vector<Boxes> level(groups(static_cast<Index>(below.size())), nothing);
+  depth_ = 0;
+  const auto stack = [&](const auto& below, const auto& low, const auto& high, const auto& first) {
+    std::vector<Boxes>& boxes = levels_[depth_++];
+    boxes.resize((below.size() + fan - 1) / fan);
+    boxes.back() = nothing;
     for (std::size_t b = 0; b < below.size(); ++b) {
-      Boxes& group = level[b / fan];
+      Boxes& group = boxes[b / fan];
       const std::size_t box = b % fan;
-      group.first[box] = *std::min_element(below[b].first.begin(), below[b].first.end());
       for (int axis = 0; axis < 3; ++axis) {
-        const auto &low = below[b].low[axis], &high = below[b].high[axis];
-        group.low[axis][box] = *std::min_element(low.begin(), low.end());
-        group.high[axis][box] = *std::max_element(high.begin(), high.end());
+        group.low[axis][box] = least(low(below[b])[axis]);
+        group.high[axis][box] = most(high(below[b])[axis]);
       }
+      group.first[box] = least(first(below[b]));
     }
-    levels_.push_back(std::move(level));
-  }
+  };
+  const auto place = [](const Run& run) -> const Coordinates& { return run.place; };
+  const auto index = [](const Run& run) -> const auto& { return run.index; };
+  stack(runs_, place, place, index);
+  const auto low = [](const Boxes& boxes) -> const Coordinates& { return boxes.low; };
+  const auto high = [](const Boxes& boxes) -> const Coordinates& { return boxes.high; };
+  const auto first = [](const Boxes& boxes) -> const auto& { return boxes.first; };
+  while (levels_[depth_ - 1].size() > 1) stack(levels_[depth_ - 1], low, high, first);
 }
 
 }  // namespace symsurf

@@ -13,68 +13,85 @@ namespace symsurf {
 /// The order of the places along the Z-order curve, equal places by index.
 std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context);
 
-/// Bounding boxes over runs of 8 consecutive places, boxes over runs of 8 boxes and so on, for
-/// exact searches that bound their own measure of nearness box by box.
+/// Places in runs of 8, bounding boxes over the runs, boxes over runs of 8 boxes and so on, for
+/// exact searches that bound their own measure of nearness box by box. Single precision: a search
+/// allows for its rounding.
 class BoxTree {
  public:
   static constexpr Index fan = 8;
 
-  /// Eight siblings side by side, so that one pass over an array bounds them all.
+  /// x, y and z of eight siblings side by side, so that one pass over an array measures them all.
+  using Coordinates = std::array<std::array<float, fan>, 3>;
+  using Bounds = std::array<float, fan>;
+  struct Run {
+    Coordinates place;
+    std::array<std::int32_t, fan> index;
+  };
   struct Boxes {
-    std::array<std::array<float, fan>, 3> low, high;
+    Coordinates low, high;
     std::array<std::int32_t, fan> first;  ///< the lowest index inside
   };
-  using Bounds = std::array<float, fan>;
 
-  /// The places in an order that keeps neighbours together; `indices` are their names.
-  BoxTree(const std::vector<Vector3>& places, const std::vector<std::int32_t>& indices,
-          const Context& context);
+  /// Adds places in an order that keeps neighbours together, each with its name.
+  void add(float x, float y, float z, std::int32_t index);
+  /// After the last, of at least one: builds the boxes. The last run repeats its last place.
+  void build();
+  /// Forgets the places and keeps the room.
+  void clear();
 
-  /// More than the rounding of any coordinate of a box.
-  float slack() const { return slack_; }
+  const std::vector<Run>& runs() const { return runs_; }
 
-  /// Calls leaf(begin, end) for the runs whose bound does not exceed `limit`, near ones first; leaf
-  /// may lower the limit as it goes. bound(boxes, squared) writes the lower bounds of eight
-  /// siblings.
+  /// Calls leaf(run) for the runs whose bound does not exceed `limit`, near ones first; leaf may
+  /// lower the limit as it goes. bound(boxes, squared) writes the lower bounds of eight siblings.
   template <typename Bound, typename Leaf>
-  void descend(const Bound& bound, const double& limit, const Leaf& leaf) const;
+  void descend(const Bound& bound, const float& limit, const Leaf& leaf) const;
 
  private:
-  static Index groups(Index items) { return (items + fan - 1) / fan; }
-
-  Index size_;
-  float slack_ = 0;
-  std::vector<std::vector<Boxes>> levels_;  // leaves first; the last has one entry
+  Index size_ = 0;
+  std::vector<Run> runs_;
+  std::array<std::vector<Boxes>, 11> levels_;  // over the runs first; the last has one entry
+  std::int32_t depth_ = 0;                     // levels in use
 };
 
+inline void BoxTree::add(float x, float y, float z, std::int32_t index) {
+  const Index at = size_++ % fan;
+  if (at == 0) runs_.emplace_back();
+  Run& run = runs_.back();
+  run.place[0][at] = x;
+  run.place[1][at] = y;
+  run.place[2][at] = z;
+  run.index[at] = index;
+}
+
 template <typename Bound, typename Leaf>
-void BoxTree::descend(const Bound& bound, const double& limit, const Leaf& leaf) const {
+void BoxTree::descend(const Bound& bound, const float& limit, const Leaf& leaf) const {
   struct Node {
     std::int32_t level, index;
     float squared;
   };
   std::array<Node, 8 * 16> stack;
   int top = 0;
-  stack[top++] = {static_cast<std::int32_t>(levels_.size()) - 1, 0, 0.0f};
+  stack[top++] = {depth_ - 1, 0, 0.0f};
   while (top > 0) {
     const Node node = stack[--top];
     if (node.squared > limit) continue;
     if (node.level < 0) {
-      leaf(node.index * fan, std::min((node.index + 1) * fan, size_));
+      leaf(runs_[node.index]);
       continue;
     }
     Bounds squared;
     bound(levels_[node.level][node.index], squared);
-    const Index children =
-        node.level > 0 ? static_cast<Index>(levels_[node.level - 1].size()) : groups(size_);
-    const Index begin = node.index * fan, end = std::min(begin + fan, children);
+    const auto children =
+        static_cast<std::int32_t>(node.level > 0 ? levels_[node.level - 1].size() : runs_.size());
+    const std::int32_t begin = node.index * static_cast<std::int32_t>(fan);
+    const std::int32_t end = std::min<std::int32_t>(begin + fan, children);
     const int first = top;
-    for (Index child = begin; child < end; ++child) {
+    for (std::int32_t child = begin; child < end; ++child) {
       const float near = squared[child - begin];
       if (near > limit) continue;
       int at = top++;
       for (; at > first && stack[at - 1].squared < near; --at) stack[at] = stack[at - 1];
-      stack[at] = {node.level - 1, static_cast<std::int32_t>(child), near};
+      stack[at] = {node.level - 1, child, near};
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -68,12 +69,13 @@ Points estimate_normals(PointsView points, Index neighbours, std::string_view me
   constexpr Index grain = 2048;
   parallel_for(context.stage(0.1, 1), points.size(), grain, [&](Index begin, Index end) {
     std::array<std::vector<Neighbour>, PointTree::block> found;
+    double reach = std::numeric_limits<double>::infinity();
     Patch patch(neighbours, 3);
     for (Index p = begin; p < end; p += PointTree::block) {
       PointTree::Queries queries;
       for (Index k = 0; k < PointTree::block; ++k)
         queries.col(k) = points[tree.order()[std::min(p + k, end - 1)]];
-      tree.nearest(queries, neighbours, p, found);
+      tree.nearest(queries, neighbours, p, reach, found);
       for (Index k = 0; k < PointTree::block && p + k < end; ++k) {
         const Index i = tree.order()[p + k];
         for (Index n = 0; n < neighbours; ++n)

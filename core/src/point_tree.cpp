@@ -131,20 +131,67 @@ std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& querie
   return found;
 }
 
-void PointTree::nearest(const Queries& queries, Index k, Index near,
+bool PointTree::nearest_within(const Block& queries, Index k, double reach,
+                               std::array<std::vector<Neighbour>, block>& found) const {
+  std::array<double, block * fan> squared;
+  std::array<std::size_t, block> count{};
+  descend(queries.low, queries.high, reach, [&](Index leaf) {
+    const Index begin = leaf * fan, end = std::min(begin + fan, size());
+    measure(coordinates_.data(), begin, end, queries.coordinates.data(), squared.data());
+    for (int i = 0; i < block; ++i) {
+      if (found[i].size() < count[i] + fan) found[i].resize(2 * (count[i] + fan));
+      // Every point is written down and only those within reach stay: there is nothing to foretell.
+      Neighbour* next = &found[i][count[i]];
+      const Neighbour* const first = next;
+      for (Index p = begin; p < end; ++p) {
+        const double d = squared[(p - begin) * block + i];
+        *next = {order_[p], d};
+        next += d <= reach ? 1 : 0;
+      }
+      count[i] += static_cast<std::size_t>(next - first);
+    }
+  });
+  const auto wanted = static_cast<std::size_t>(k);
+  if (*std::min_element(count.begin(), count.end()) < wanted) return false;
+  for (int i = 0; i < block; ++i) {
+    const auto begin = found[i].begin();
+    std::nth_element(begin, begin + k - 1, begin + static_cast<Index>(count[i]));
+    std::sort(begin, begin + k - 1);
+    found[i].resize(wanted);
+  }
+  return true;
+}
+
+void PointTree::nearest(const Queries& queries, Index k, Index near, double& reach,
                         std::array<std::vector<Neighbour>, block>& found) const {
-  std::array<double, 3 * block> lanes;
+  Block asked;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto begin = asked.coordinates.begin() + axis * block;
+    for (int i = 0; i < block; ++i) begin[i] = queries(axis, i) - origin_[axis];
+    const auto [least, most] = std::minmax_element(begin, begin + block);
+    asked.low[axis] = static_cast<float>(*least);
+    asked.high[axis] = static_cast<float>(*most);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (reach == infinity || !nearest_within(asked, k, reach, found))
+    nearest_near(asked, k, near, found);
+  // Neighbours of neighbours lie about as far.
+  constexpr double margin = 1.25;
+  reach = 0;
+  for (const auto& neighbours : found)
+    reach = std::max(reach, margin * neighbours.back().squared_distance);
+}
+
+void PointTree::nearest_near(const Block& queries, Index k, Index near,
+                             std::array<std::vector<Neighbour>, block>& found) const {
   std::array<double, block * fan> squared;
   std::array<double, block> limits;
   limits.fill(std::numeric_limits<double>::infinity());
-  for (int i = 0; i < block; ++i) {
-    found[i].clear();
-    for (int axis = 0; axis < 3; ++axis) lanes[axis * block + i] = queries(axis, i) - origin_[axis];
-  }
+  for (auto& neighbours : found) neighbours.clear();
   const auto wanted = static_cast<std::size_t>(k);
   const auto scan_leaf = [&](Index leaf) {
     const Index begin = leaf * fan, end = std::min(begin + fan, size());
-    measure(coordinates_.data(), begin, end, lanes.data(), squared.data());
+    measure(coordinates_.data(), begin, end, queries.coordinates.data(), squared.data());
     const double* d = squared.data();
     for (Index p = begin; p < end; ++p)
       for (int i = 0; i < block; ++i, ++d)
@@ -157,15 +204,8 @@ void PointTree::nearest(const Queries& queries, Index k, Index near,
   const Index last = std::min(leaves, first + reach);
   for (Index leaf = first; leaf < last; ++leaf) scan_leaf(leaf);
 
-  std::array<float, 3> low, high;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto begin = lanes.begin() + axis * block;
-    const auto [least, most] = std::minmax_element(begin, begin + block);
-    low[axis] = static_cast<float>(*least);
-    high[axis] = static_cast<float>(*most);
-  }
   double bound = *std::max_element(limits.begin(), limits.end());
-  descend(low, high, bound, [&](Index leaf) {
+  descend(queries.low, queries.high, bound, [&](Index leaf) {
     if (leaf >= first && leaf < last) return;
     scan_leaf(leaf);
     bound = *std::max_element(limits.begin(), limits.end());

@@ -54,7 +54,9 @@ class PointTree {
   std::array<Neighbour, block> nearest(const Queries& queries, double limit, Index& near) const;
 
   /// The same for the k nearest points of each: column by column what nearest() with k gives.
-  void nearest(const Queries& queries, Index k, Index near,
+  /// `reach`, infinite at first, is a guess at the square of how far they lie, and becomes it: what
+  /// the block before needed spares this one from sorting what it does not.
+  void nearest(const Queries& queries, Index k, Index near, double& reach,
                std::array<std::vector<Neighbour>, block>& found) const;
 
   /// visit(index, squared distance) for all points no farther than radius.
@@ -77,6 +79,19 @@ class PointTree {
   // Squared distances of the boxes from low..high, each side less by slack.
   static void measure_boxes(const Boxes* boxes, const float* low, const float* high, float slack,
                             float* squared);
+
+  // Queries from origin_, coordinate by coordinate, and the box around them.
+  struct Block {
+    std::array<double, 3 * block> coordinates;
+    std::array<float, 3> low, high;
+  };
+
+  // The k nearest of each, found among the points at `near` and then all others.
+  void nearest_near(const Block& queries, Index k, Index near,
+                    std::array<std::vector<Neighbour>, block>& found) const;
+  // The same if no query needs to look farther than the root of `reach`; false where one does.
+  bool nearest_within(const Block& queries, Index k, double reach,
+                      std::array<std::vector<Neighbour>, block>& found) const;
 
   void sort(PointsView points, const Context& context);
   void stack_boxes(const Context& context);

@@ -1,11 +1,24 @@
 #include "line_partners.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "../parallel.h"
+#include "place_queries.h"
 
 namespace symsurf {
+
+namespace {
+
+constexpr Index block = PlaceQueries::block;
+
+// More than the rounding of any distance between places.
+constexpr float rounding = 2e-6f;
+
+}  // namespace
 
 LinePartners::LinePartners(PointsView points, const std::vector<std::int32_t>& names)
     : points_(points), names_(names) {
@@ -16,63 +29,77 @@ LinePartners::LinePartners(PointsView points, const std::vector<std::int32_t>& n
   if (reach > 0) scale_ = 1 / reach;
 }
 
-void LinePartners::project(const std::vector<std::int32_t>& rows, Places& places,
-                           const Context& context) const {
-  const auto count = static_cast<Index>(rows.size());
-  places.resize(count);
-  interruptible_for(context, count, [&](Index k) {
-    const Vector3 w = points_[rows[k]] - centre_;
-    places.u[k] = static_cast<float>(axes_[0].dot(w));
-    places.v[k] = static_cast<float>(axes_[1].dot(w));
+void LinePartners::sort(const std::vector<std::int32_t>& queries,
+                        const std::vector<std::int32_t>& targets, const Vector3& direction,
+                        const Context& context) {
+  const Vector3 across = direction.unitOrthogonal();
+  const Vector3 e1 = scale_ * across, e2 = scale_ * direction.cross(across);
+  const auto count = static_cast<Index>(targets.size());
+  places_.resize(count + static_cast<Index>(queries.size()));
+  const auto row = [&](Index k) { return k < count ? targets[k] : queries[k - count]; };
+  interruptible_for(context, places_.size(), [&](Index k) {
+    const Vector3 w = points_[row(k)] - centre_;
+    places_.u[k] = static_cast<float>(e1.dot(w));
+    places_.v[k] = static_cast<float>(e2.dot(w));
   });
+  curve_.sort(places_, context);
+
+  targets_.clear();
+  queries_.clear();
+  interruptible_for(context, places_.size(), [&](Index c) {
+    const std::int32_t k = curve_[c];
+    const float u = places_.u[k], v = places_.v[k];
+    if (k < count)
+      targets_.add(u, v, 0, targets[k]);
+    else
+      queries_.push_back({u, v, static_cast<std::int32_t>(k - count),
+                          std::max(static_cast<std::int32_t>(targets_.runs().size()) - 1, 0)});
+  });
+  targets_.build();
 }
 
 void LinePartners::find(const std::vector<std::int32_t>& queries,
                         const std::vector<std::int32_t>& targets, const Vector3& direction,
                         const Context& context) {
-  axes_[0] = scale_ * direction.unitOrthogonal();
-  axes_[1] = direction.cross(axes_[0]);
-  project(targets, target_places_, context);
-  project(queries, query_places_, context);
-  strips_.sort(target_places_, targets, context);
-
+  sort(queries, targets, direction, context);
   rows_.resize(queries.size());
   squared_.resize(queries.size());
-  // The last answer is a good one to begin with: consecutive queries lie close together.
-  std::int32_t last = targets.front();
-  interruptible_for(context, static_cast<Index>(queries.size()), [&](Index q) {
-    const Vector3 x = points_[queries[q]];
+
+  struct Best {
+    Vector3 x;
+    std::int32_t row;
+    double squared;
+  };
+  std::array<Best, block> best;
+  const auto consider = [&](int q, std::int32_t row) {
     // What counts is the distance from the line itself, not that of rounded projections.
-    const auto measured = [&](std::int32_t row) {
-      const Vector3 w = points_[row] - x;
-      const Vector3& v = direction;
-      const double along = w.x() * v.x() + w.y() * v.y() + w.z() * v.z();
-      const double dx = w.x() - along * v.x(), dy = w.y() - along * v.y(),
-                   dz = w.z() - along * v.z();
-      return dx * dx + dy * dy + dz * dz;
-    };
-    const auto limit_of = [&](double squared) {
-      const float distance = static_cast<float>(scale_ * std::sqrt(squared)) + place_rounding;
-      return distance * distance;
-    };
-    std::int32_t best = last;
-    double least = measured(best);
-    float limit = limit_of(least);
-    const auto consider = [&](std::int32_t row) {
-      if (row == best) return;
-      const double squared = measured(row);
-      if (squared > least || (squared == least && names_[row] > names_[best])) return;
-      best = row;
-      least = squared;
-      limit = limit_of(least);
-    };
-    const float u = query_places_.u[q], v = query_places_.v[q];
-    const auto look = [&](Index strip) { return strips_.near(strip, u, v, limit, consider); };
-    Index above = strips_.strip(v), below = above - 1;
-    while (above < strips_.count() && look(above)) ++above;
-    while (below >= 0 && look(below)) --below;
-    rows_[q] = last = best;
-    squared_[q] = least;
+    const Vector3 w = points_[row] - best[q].x;
+    const Vector3& v = direction;
+    const double along = w.x() * v.x() + w.y() * v.y() + w.z() * v.z();
+    const double dx = w.x() - along * v.x(), dy = w.y() - along * v.y(), dz = w.z() - along * v.z();
+    const double squared = dx * dx + dy * dy + dz * dz;
+    Best& b = best[q];
+    if (squared > b.squared || (squared == b.squared && names_[row] > names_[b.row])) return;
+    b.row = row;
+    b.squared = squared;
+  };
+  PlaceQueries queried(rounding, 2);
+  PlaceQueries::Places places{};
+  const auto count = static_cast<Index>(queries_.size());
+  interruptible_for(context, (count + block - 1) / block, [&](Index b) {
+    for (int q = 0; q < block; ++q) {
+      const Query& query = queries_[std::min(b * block + q, count - 1)];
+      places[0][q] = query.u;
+      places[1][q] = query.v;
+      best[q] = {points_[queries[query.number]], 0, std::numeric_limits<double>::infinity()};
+    }
+    queried.begin(places, BlockQueries::anywhere());
+    queried.lower_limits(targets_.runs()[queries_[b * block].run]);
+    visit_nearest(targets_, queried, consider, any_index);
+    for (Index k = b * block; k < std::min((b + 1) * block, count); ++k) {
+      rows_[queries_[k].number] = best[k % block].row;
+      squared_[queries_[k].number] = best[k % block].squared;
+    }
   });
 }
 

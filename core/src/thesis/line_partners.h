@@ -3,26 +3,26 @@
 #include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "strips.h"
+#include "../box_tree.h"
+#include "plane_curve.h"
 
 namespace symsurf {
 
 /// Which of some points is nearest to the line of each of some others, all along one direction.
 ///
-/// Nearest to a line is nearest in the projection along it. The targets are sorted into strips of
-/// the projection; a query looks at a handful of them on any sheet, however it is turned, and at
-/// the square root of their number at worst on clusters. Keeps its room from call to call.
+/// Nearest to a line is nearest in the projection along it. All are sorted along a curve through
+/// the projection, so that a tree of boxes over the targets answers eight queries at once, however
+/// sheets are turned. Keeps its room from call to call.
 class LinePartners {
  public:
   /// `names` of the points: of those equally near the one of the lowest is taken.
   LinePartners(PointsView points, const std::vector<std::int32_t>& names);
 
-  /// Searches among the rows `targets`, at least one, for each of the rows `queries`: the cheaper,
-  /// the nearer each is to the one before. `direction` is a unit vector.
+  /// Searches among the rows `targets`, at least one, for each of the rows `queries`. `direction`
+  /// is a unit vector.
   void find(const std::vector<std::int32_t>& queries, const std::vector<std::int32_t>& targets,
             const Vector3& direction, const Context& context);
 
@@ -31,15 +31,23 @@ class LinePartners {
   const std::vector<double>& squared() const { return squared_; }
 
  private:
-  void project(const std::vector<std::int32_t>& rows, Places& places, const Context& context) const;
+  struct Query {
+    float u, v;
+    std::int32_t number;  // among the queries
+    std::int32_t run;     // of the targets that lie about here along the curve
+  };
+
+  void sort(const std::vector<std::int32_t>& queries, const std::vector<std::int32_t>& targets,
+            const Vector3& direction, const Context& context);
 
   PointsView points_;
   const std::vector<std::int32_t>& names_;
   Vector3 centre_;
   double scale_ = 1;
-  std::array<Vector3, 2> axes_;
-  Places target_places_, query_places_;
-  Strips strips_;
+  PlanePlaces places_;
+  PlaneCurve curve_;
+  BoxTree targets_;
+  std::vector<Query> queries_;  // along the curve
   std::vector<std::int32_t> rows_;
   std::vector<double> squared_;
 };

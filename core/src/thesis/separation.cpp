@@ -23,6 +23,7 @@ Separator::Separator(PointsView points, const PointTree& tree, const Context& co
     : tree_(tree),
       context_(context),
       distance_bound_(points, context),
+      close_cells_(points, distance_bound_.cell() / 96, context),
       sorted_(in_order(points, tree.order(), context)),
       partners_(PointsView(sorted_), tree.order()),
       centroid_(Vector3::Zero()) {
@@ -71,31 +72,21 @@ double Separator::clearance(const Separation& separation) const {
   constexpr Index ahead = 61;
   Vector3 anchor = Vector3::Zero();
   double known = -1;
-  Index near = 0;
-  PointTree::Queries waiting;
-  int waits = 0;
-  const auto search = [&] {
-    context_.check();
-    const auto found = tree_.nearest(waiting, shortest * shortest, near);
-    const Neighbour& last = found[waits - 1];
-    anchor = waiting.col(waits - 1);
-    known = last.index < 0 ? shortest : std::sqrt(last.squared_distance);
-    for (const Neighbour& neighbour : found)
-      if (neighbour.index >= 0)
-        shortest = std::min(shortest, std::sqrt(neighbour.squared_distance));
-    waits = 0;
-  };
+  const double cell = distance_bound_.cell();
   for (const Index stride : {ahead, Index{1}})
     interruptible_for(context_, (count + stride - 1) / stride, [&](Index step) {
       if (shortest == 0) return;
       const Vector3& y = midpoint[step * stride];
       const double settled = shortest * (1 + rounding);
+      if (settled < close_cells_.reach() && !close_cells_.may_hold(y)) return;
       if (distance_bound_(y) > settled || known - (y - anchor).norm() > settled) return;
-      if (waits == 0) waiting.colwise() = y;
-      waiting.col(waits++) = y;
-      if (waits == PointTree::block) search();
+      // What is known a little farther spares the neighbours.
+      const double reach = shortest + (shortest > cell ? cell : 0);
+      const Neighbour found = tree_.nearest(y, reach * reach);
+      anchor = y;
+      known = found.index < 0 ? reach : std::sqrt(found.squared_distance);
+      shortest = std::min(shortest, known);
     });
-  if (waits > 0) search();
   return shortest;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../point_tree.h"
+#include "close_cells.h"
 #include "distance_bound.h"
 #include "line_partners.h"
 
@@ -49,6 +50,7 @@ class Separator {
   const PointTree& tree_;
   const Context context_;
   DistanceBound distance_bound_;
+  CloseCells close_cells_;
   Points sorted_;          // as the tree has them
   LinePartners partners_;  // of sorted_
   Vector3 centroid_;

@@ -1,0 +1,32 @@
+#include "close_cells.h"
+
+#include <bit>
+
+#include "../parallel.h"
+
+namespace symsurf {
+
+CloseCells::CloseCells(PointsView points, double reach, const Context& context)
+    : low_(points.matrix().colwise().minCoeff()), reach_(reach), cell_(4 * reach) {
+  constexpr std::uint64_t bits_per_point = 32;
+  const auto size = std::bit_ceil(
+      std::max<std::uint64_t>(64, bits_per_point * static_cast<std::uint64_t>(points.size())));
+  shift_ = 64 - std::countr_zero(size);
+  bits_.assign(size / 64, 0);
+  const Vector3 margin = Vector3::Constant(reach * (1 + 1e-6));
+  const auto cell = [&](const Vector3& x) -> Cell {
+    return ((x - low_) / cell_).array().floor().cast<std::int64_t>();
+  };
+  interruptible_for(context, points.size(), [&](Index i) {
+    const Cell from = cell(points[i] - margin), to = cell(points[i] + margin);
+    Cell c;
+    for (c.x() = from.x(); c.x() <= to.x(); ++c.x())
+      for (c.y() = from.y(); c.y() <= to.y(); ++c.y())
+        for (c.z() = from.z(); c.z() <= to.z(); ++c.z()) {
+          const std::uint64_t bit = hash(c);
+          bits_[bit / 64] |= std::uint64_t{1} << bit % 64;
+        }
+  });
+}
+
+}  // namespace symsurf
