@@ -29,7 +29,7 @@ class ParallelNormals {
     std::int32_t position = -1;  // -1: no more
     bool is_tied = false;        // the next may be as parallel
   };
-  using List = std::array<Listed, 12>;
+  using List = std::array<Listed, 8>;
   using Partners = std::vector<std::int32_t>;  // by position; -1: lies in X2
 
   void list_most_parallel();
