@@ -73,7 +73,8 @@ inline Trial trial(PointsView points, const Vector3& direction, const Points* no
       if (!normals) continue;
       double c = (*normals)(x, 0) * (*normals)(y, 0) + (*normals)(x, 1) * (*normals)(y, 1) +
                  (*normals)(x, 2) * (*normals)(y, 2);
-      c = std::min(as_lines ? std::abs(c) : c, 1.0);
+      if (as_lines) c = std::abs(c);
+      if (c > 1 - 1e-15) c = 1;  // rounding
       if (c > cosine) {
         cosine = c;
         q = y;

@@ -75,10 +75,10 @@ def separation_normals(points: Array, normals: Array, as_lines: bool) -> Separat
     """Algorithm 2."""
 
     def error(upper: Array, lower: Array, partner: Array, squared: Array) -> float:
-        # Term by term, so that equal normals have equal cosines; above 1 is rounding.
+        # Term by term, so that equal normals have equal cosines; next to 1 is rounding.
         x, y, z = (np.outer(normals[upper, k], normals[lower, k]) for k in range(3))
         cosine = np.abs(x + y + z) if as_lines else x + y + z
-        q = lower[np.argmax(np.minimum(cosine, 1), axis=1)]
+        q = lower[np.argmax(np.where(cosine > 1 - 1e-15, 1, cosine), axis=1)]
         return float(((points[partner] - points[q]) ** 2).sum(axis=1).mean())
 
     return _best(points, error)

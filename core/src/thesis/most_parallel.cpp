@@ -32,8 +32,9 @@ struct Parallel {
 }  // namespace
 
 double cosine_between(const Vector3& a, const Vector3& b, bool as_lines) {
-  const double c = a.dot(b);
-  return std::min(as_lines ? std::abs(c) : c, 1.0);
+  constexpr double rounding = 1e-15;
+  const double c = as_lines ? std::abs(a.dot(b)) : a.dot(b);
+  return c > 1 - rounding ? 1 : c;
 }
 
 MostParallel::MostParallel(PointsView normals, bool as_lines)

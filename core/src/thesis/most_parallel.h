@@ -10,8 +10,8 @@
 
 namespace symsurf {
 
-/// The cosine of the angle between unit normals, or between lines; those above 1 are rounding: all
-/// these angles are 0.
+/// The cosine of the angle between unit normals, or between lines; within rounding of 1, or above,
+/// it is 1: all these angles are 0.
 double cosine_between(const Vector3& a, const Vector3& b, bool as_lines);
 
 /// Finds which of some normals makes the smallest angle with another (equal angles: the lowest

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "../vectorised.h"
 #include "block_search.h"
@@ -11,8 +14,9 @@ namespace symsurf {
 /// Lowers the limits to these squared distances and `slack` beyond; false where all are too far.
 inline __attribute__((always_inline)) bool lower_to(const Floats& squared, float slack,
                                                     BlockQueries::Limits& limits) {
-  const auto is_near = squared <= *reinterpret_cast<const Floats*>(&limits);
-  const auto* words = reinterpret_cast<const std::uint64_t*>(&is_near);
+  const Ints is_near = squared <= *reinterpret_cast<const Floats*>(&limits);
+  std::array<std::uint64_t, 4> words;
+  std::memcpy(&words, &is_near, sizeof words);
   if (!(words[0] | words[1] | words[2] | words[3])) return false;
   BlockQueries::Limits least;
   *reinterpret_cast<Floats*>(&least) = squared;
