@@ -37,7 +37,8 @@ vtk_module_build(MODULES ${symsurf_modules}
   CMAKE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
   "include(CMakeFindDependencyMacro)\n"
-  "find_dependency(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel)\n"
+  "find_dependency(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel\n"
+  "  OPTIONAL_COMPONENTS ParallelMPI)\n"
   "include(\${CMAKE_CURRENT_LIST_DIR}/symsurf-filters-targets.cmake)\n")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
