@@ -63,7 +63,7 @@ void BoxTree::clear() {
   runs_.clear();
 }
 
-void BoxTree::build() {
+void BoxTree::build(const Context& context) {
   for (Run& last = runs_.back(); size_ % fan != 0; ++size_) {
     const Index at = size_ % fan;
     for (auto& x : last.place) x[at] = x[at - 1];
@@ -82,15 +82,15 @@ void BoxTree::build() {
     std::vector<Boxes>& boxes = levels_[depth_++];
     boxes.resize((below.size() + fan - 1) / fan);
     boxes.back() = nothing;
-    for (std::size_t b = 0; b < below.size(); ++b) {
+    interruptible_for(context, static_cast<Index>(below.size()), [&](Index b) {
       Boxes& group = boxes[b / fan];
-      const std::size_t box = b % fan;
+      const Index box = b % fan;
       for (int axis = 0; axis < 3; ++axis) {
         group.low[axis][box] = least(low(below[b])[axis]);
         group.high[axis][box] = most(high(below[b])[axis]);
       }
       group.first[box] = least(first(below[b]));
-    }
+    });
   };
   const auto place = [](const Run& run) -> const Coordinates& { return run.place; };
   const auto index = [](const Run& run) -> const auto& { return run.index; };

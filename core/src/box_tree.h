@@ -35,7 +35,7 @@ class BoxTree {
   /// Adds places in an order that keeps neighbours together, each with its name.
   void add(float x, float y, float z, std::int32_t index);
   /// After the last, of at least one: builds the boxes. The last run repeats its last place.
-  void build();
+  void build(const Context& context);
   /// Forgets the places and keeps the room.
   void clear();
 

@@ -16,10 +16,11 @@ namespace symsurf {
 void parallel_for(const Context& context, Index count, Index grain,
                   const std::function<void(Index begin, Index end)>& body);
 
-/// Calls body(i) for i of 0 up to count in turn, asking on the way whether to go on. On any thread.
+/// Calls body(i) for i of 0 up to count in turn, asking after every `stretch` whether to go on. On
+/// any thread.
 template <typename Body>
-void interruptible_for(const Context& context, Index count, const Body& body) {
-  constexpr Index stretch = 1 << 14;
+void interruptible_for(const Context& context, Index count, const Body& body,
+                       Index stretch = 1 << 14) {
   for (Index begin = 0; begin < count; begin += stretch) {
     context.check();
     const Index end = begin + std::min(stretch, count - begin);

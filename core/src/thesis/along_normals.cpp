@@ -36,7 +36,7 @@ class LineSearch {
       const Eigen::Vector3f place = places[order_[p]].cast<float>();
       tree_.add(place.x(), place.y(), place.z(), order_[p]);
     });
-    tree_.build();
+    tree_.build(context);
   }
 
   const std::vector<std::int32_t>& order() const { return order_; }

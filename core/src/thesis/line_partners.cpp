@@ -13,7 +13,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index block = PlaceQueries::block;
+constexpr Index block = PlaceQueries::block, stretch = 1 << 11;
 
 // More than the rounding of any distance between places.
 constexpr float rounding = 2e-6f;
@@ -55,7 +55,7 @@ void LinePartners::sort(const std::vector<std::int32_t>& queries,
       queries_.push_back({u, v, static_cast<std::int32_t>(k - count),
                           std::max(static_cast<std::int32_t>(targets_.runs().size()) - 1, 0)});
   });
-  targets_.build();
+  targets_.build(context);
 }
 
 void LinePartners::find(const std::vector<std::int32_t>& queries,
@@ -86,21 +86,24 @@ void LinePartners::find(const std::vector<std::int32_t>& queries,
   PlaceQueries queried(rounding, 2);
   PlaceQueries::Places places{};
   const auto count = static_cast<Index>(queries_.size());
-  interruptible_for(context, (count + block - 1) / block, [&](Index b) {
-    for (int q = 0; q < block; ++q) {
-      const Query& query = queries_[std::min(b * block + q, count - 1)];
-      places[0][q] = query.u;
-      places[1][q] = query.v;
-      best[q] = {points_[queries[query.number]], 0, std::numeric_limits<double>::infinity()};
-    }
-    queried.begin(places, BlockQueries::anywhere());
-    queried.lower_limits(targets_.runs()[queries_[b * block].run]);
-    visit_nearest(targets_, queried, consider, any_index);
-    for (Index k = b * block; k < std::min((b + 1) * block, count); ++k) {
-      rows_[queries_[k].number] = best[k % block].row;
-      squared_[queries_[k].number] = best[k % block].squared;
-    }
-  });
+  interruptible_for(
+      context, (count + block - 1) / block,
+      [&](Index b) {
+        for (int q = 0; q < block; ++q) {
+          const Query& query = queries_[std::min(b * block + q, count - 1)];
+          places[0][q] = query.u;
+          places[1][q] = query.v;
+          best[q] = {points_[queries[query.number]], 0, std::numeric_limits<double>::infinity()};
+        }
+        queried.begin(places, BlockQueries::anywhere());
+        queried.lower_limits(targets_.runs()[queries_[b * block].run]);
+        visit_nearest(targets_, queried, consider, any_index);
+        for (Index k = b * block; k < std::min((b + 1) * block, count); ++k) {
+          rows_[queries_[k].number] = best[k % block].row;
+          squared_[queries_[k].number] = best[k % block].squared;
+        }
+      },
+      stretch);
 }
 
 }  // namespace symsurf

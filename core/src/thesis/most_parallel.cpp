@@ -45,8 +45,8 @@ void MostParallel::add(std::int32_t index) {
   tree_.add(place.x(), place.y(), place.z(), index);
 }
 
-void MostParallel::build() {
-  tree_.build();
+void MostParallel::build(const Context& context) {
+  tree_.build(context);
   best_.fill(tree_.runs().front().index.front());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
 #include <array>
@@ -25,7 +26,7 @@ class MostParallel {
   /// Adds one to be found, along a curve through the normals.
   void add(std::int32_t index);
   /// After the last, of at least one.
-  void build();
+  void build(const Context& context);
 
   /// Where one that is asked for now would be added: a good guess where its answer will lie.
   std::int32_t guess() const;

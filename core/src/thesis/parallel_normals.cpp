@@ -25,20 +25,26 @@ void ParallelNormals::list_most_parallel() {
   // Places on the unit sphere; a line has two.
   const auto count = static_cast<std::int32_t>(normals_.size());
   Points places(as_lines_ ? 2 * count : count, 3);
-  places.topRows(count) = normals_.matrix();
-  if (as_lines_) places.bottomRows(count) = -normals_.matrix();
+  interruptible_for(context_, count, [&](Index i) {
+    places.row(i) = normals_[i].transpose();
+    if (as_lines_) places.row(count + i) = -normals_[i].transpose();
+  });
   const PointTree tree(places, context_);
   std::vector<Index> place;
-  for (Index p = 0; p < tree.size(); ++p) {
+  interruptible_for(context_, tree.size(), [&](Index p) {
     const std::int32_t i = tree.order()[p];
-    if (i >= count) continue;
+    if (i >= count) return;
     position_[i] = static_cast<std::int32_t>(order_.size());
     order_.push_back(i);
     place.push_back(p);
-  }
+  });
 
-  sorted_points_ = points_.matrix()(order_, Eigen::all);
-  sorted_normals_ = normals_.matrix()(order_, Eigen::all);
+  sorted_points_.resize(count, 3);
+  sorted_normals_.resize(count, 3);
+  interruptible_for(context_, count, [&](Index p) {
+    sorted_points_.row(p) = points_[order_[p]].transpose();
+    sorted_normals_.row(p) = normals_[order_[p]].transpose();
+  });
 
   // Itself, the listed and one more, which tells whether the last is tied.
   const auto neighbours = std::min<Index>(std::tuple_size_v<List> + 2, tree.size());
@@ -69,14 +75,16 @@ void ParallelNormals::list_most_parallel() {
 
 void ParallelNormals::list_ties() {
   std::vector<std::int32_t> tied;
-  for (std::size_t p = 0; p < lists_.size(); ++p)
+  interruptible_for(context_, static_cast<Index>(lists_.size()), [&](Index p) {
     if (std::all_of(lists_[p].begin(), lists_[p].end(),
                     [](const Listed& one) { return one.is_tied; }))
       tied.push_back(static_cast<std::int32_t>(p));
+  });
   if (tied.empty()) return;
   MostParallel all(normals_, as_lines_);
-  for (const std::int32_t i : order_) all.add(i);
-  all.build();
+  interruptible_for(context_, static_cast<Index>(order_.size()),
+                    [&](Index p) { all.add(order_[p]); });
+  all.build(context_);
   constexpr Index grain = 256;
   parallel_for(context_, static_cast<Index>(tied.size()), grain, [&](Index begin, Index end) {
     std::vector<std::int32_t> indices;
@@ -130,20 +138,24 @@ double ParallelNormals::searched(const std::vector<std::int32_t>& positions,
     if (added >= 0 && added < i && normals_[added] == normals_[i]) return;
     most_parallel.add(added = i);
   });
-  most_parallel.build();
+  most_parallel.build(context_);
 
   double sum = 0;
-  constexpr Index block = MostParallel::block;
+  constexpr Index block = MostParallel::block, stretch = 1 << 11;
   const auto count = static_cast<Index>(positions.size());
-  interruptible_for(context_, (count + block - 1) / block, [&](Index b) {
-    const Index first = b * block;
-    std::array<std::int32_t, block> indices;
-    for (Index k = 0; k < block; ++k)
-      indices[k] = order_[positions[std::min(first + k, count - 1)]];
-    most_parallel.find(indices, guesses[first]);
-    for (Index k = first; k < std::min(first + block, count); ++k)
-      sum += (points_[partners[positions[k]]] - points_[most_parallel[k - first]]).squaredNorm();
-  });
+  interruptible_for(
+      context_, (count + block - 1) / block,
+      [&](Index b) {
+        const Index first = b * block;
+        std::array<std::int32_t, block> indices;
+        for (Index k = 0; k < block; ++k)
+          indices[k] = order_[positions[std::min(first + k, count - 1)]];
+        most_parallel.find(indices, guesses[first]);
+        for (Index k = first; k < std::min(first + block, count); ++k)
+          sum +=
+              (points_[partners[positions[k]]] - points_[most_parallel[k - first]]).squaredNorm();
+      },
+      stretch);
   return sum;
 }
 
