@@ -44,7 +44,7 @@ class Window:
             "XDG_RUNTIME_DIR": str(folder),
             "LIBGL_ALWAYS_SOFTWARE": "1",
         }
-        self.processes = [self._start("Xvfb", SCREEN, "-screen", "0", "1280x800x24")]
+        self.processes = [self._start("Xvfb", SCREEN, "-noreset", "-screen", "0", "1280x800x24")]
         self._wait(lambda: self._xdotool("getdisplaygeometry").returncode == 0)
         self.processes.append(self._start("openbox"))
         self.processes.append(self._start(PROGRAM, mesh_file, log=self.log))

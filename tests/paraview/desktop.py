@@ -24,7 +24,8 @@ def screen(environment: dict[str, str]) -> Iterator[dict[str, str]]:
         pytest.skip("Xvfb is not installed")
     read, write = os.pipe()
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24"],
+        # It would start anew, refusing who comes meanwhile, whenever the last client leaves.
+        ["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24"],
         pass_fds=[write],
         stderr=subprocess.DEVNULL,
     )
@@ -34,7 +35,7 @@ def screen(environment: dict[str, str]) -> Iterator[dict[str, str]]:
             number = display.readline().strip()
         yield environment | {"DISPLAY": f":{number}"}
     finally:
-        server.kill()
+        server.terminate()
         server.wait()
 
 
