@@ -87,7 +87,10 @@ def fixed_sheets(
 ) -> Sheets:
     """Both sides of a surface along z, at ``near`` to ``far`` times its reach from it."""
     count = int(rng.choice(SIZES)) // 2
-    heights = lambda x, y: _waving(x, near, far, waves)  # noqa: E731
+
+    def heights(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        return _waving(x, near, far, waves)
+
     return _along_z(name, heights, count, exact, rng)
 
 
