@@ -11,7 +11,7 @@
 
 #include "cloud.h"
 #include "parallel.h"
-#include "point_tree.h"
+#include "tree_normals.h"
 
 namespace symsurf {
 
@@ -49,10 +49,7 @@ Vector3 regression_normal(Patch& patch) {
   return Vector3(-slope.x(), -slope.y(), 1).normalized();
 }
 
-}  // namespace
-
-Points estimate_normals(PointsView points, Index neighbours, std::string_view method,
-                        const Context& context) {
+void require_allowed(PointsView points, Index neighbours, std::string_view method) {
   if (method != "pca" && method != "regression")
     throw InvalidParameter("method is " + std::string(method) + "; allowed is pca | regression");
   if (neighbours < 3)
@@ -61,13 +58,25 @@ Points estimate_normals(PointsView points, Index neighbours, std::string_view me
   if (points.size() < neighbours)
     throw InvalidInput(std::to_string(points.size()) + " points given; at least " +
                        std::to_string(neighbours) + ", the number of neighbours, are needed");
-  require_finite(points, "point");
+}
 
-  const auto normal_of = method == "pca" ? pca_normal : regression_normal;
+}  // namespace
+
+Points estimate_normals(PointsView points, Index neighbours, std::string_view method,
+                        const Context& context) {
+  require_allowed(points, neighbours, method);
+  require_finite(points, "point");
   const PointTree tree(points, context.stage(0, 0.1));
+  return estimate_normals(points, tree, neighbours, method, context.stage(0.1, 1));
+}
+
+Points estimate_normals(PointsView points, const PointTree& tree, Index neighbours,
+                        std::string_view method, const Context& context) {
+  require_allowed(points, neighbours, method);
+  const auto normal_of = method == "pca" ? pca_normal : regression_normal;
   Points normals(points.size(), 3);
   constexpr Index grain = 2048;
-  parallel_for(context.stage(0.1, 1), points.size(), grain, [&](Index begin, Index end) {
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
     std::array<std::vector<Neighbour>, PointTree::block> found;
     double reach = std::numeric_limits<double>::infinity();
     Patch patch(neighbours, 3);

@@ -8,10 +8,11 @@ namespace symsurf {
 namespace {
 
 Result run_normals_only(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  const Points normals = given_or_estimated_normals(cloud, values, context.stage(0, 0.4));
+  const PointTree tree(cloud.points, context.stage(0, 0.05));
+  const Points normals = given_or_estimated_normals(cloud, tree, values, context.stage(0.05, 0.4));
   Result result = pairs_along_normals(cloud.points, normals, context.stage(0.4, 0.9));
   result.method = "normals_only";
-  result.score = sheet_score(cloud.points, result, context.stage(0.9, 1));
+  result.score = sheet_score(cloud.points, tree, result, context.stage(0.9, 1));
   result.statistics["projection_error"] =
       result.residuals.squaredNorm() / static_cast<double>(result.residuals.size());
   return result;

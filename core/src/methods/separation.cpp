@@ -13,7 +13,9 @@ double projection_error(const Separation& separation) {
 }
 
 Result run_separation(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  Result result = best_separation(cloud, values.integer("steps"), projection_error, context);
+  const PointTree tree(cloud.points, context.stage(0, 0.02));
+  Result result = best_separation(cloud, tree, values.integer("steps"), projection_error,
+                                  context.stage(0.02, 1));
   result.method = "separation";
   return result;
 }

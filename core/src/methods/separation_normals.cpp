@@ -9,11 +9,12 @@ namespace {
 
 Result run_separation_normals(const Cloud& cloud, const ParameterValues& values,
                               const Context& context) {
-  const Points normals = given_or_estimated_normals(cloud, values, context.stage(0, 0.1));
+  const PointTree tree(cloud.points, context.stage(0, 0.02));
+  const Points normals = given_or_estimated_normals(cloud, tree, values, context.stage(0.02, 0.1));
   const ParallelNormals parallel(cloud.points, normals, !signed_normals(cloud, values),
                                  context.stage(0.1, 0.15));
   Result result = best_separation(
-      cloud, values.integer("steps"),
+      cloud, tree, values.integer("steps"),
       [&](const Separation& separation) { return parallel.projection_error(separation); },
       context.stage(0.15, 1));
   result.method = "separation_normals";

@@ -1,6 +1,6 @@
 #include "estimated_normals.h"
 
-#include <symsurf/normals.h>
+#include "../tree_normals.h"
 
 namespace symsurf {
 
@@ -15,15 +15,15 @@ std::vector<Parameter> normal_parameters() {
   };
 }
 
-Points given_or_estimated_normals(const Cloud& cloud, const ParameterValues& values,
-                                  const Context& context) {
+Points given_or_estimated_normals(const Cloud& cloud, const PointTree& tree,
+                                  const ParameterValues& values, const Context& context) {
   if (!cloud.normals.empty()) {
     Points unit(cloud.normals.size(), 3);
     for (Index i = 0; i < unit.rows(); ++i)
       unit.row(i) = cloud.normals[i].stableNormalized().transpose();
     return unit;
   }
-  return estimate_normals(cloud.points, values.integer("neighbours"),
+  return estimate_normals(cloud.points, tree, values.integer("neighbours"),
                           values.choice("normal_estimation"), context);
 }
 

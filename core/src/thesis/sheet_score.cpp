@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "../parallel.h"
-#include "../point_tree.h"
 #include "../sheet_spacing.h"
 
 namespace symsurf {
@@ -33,22 +32,23 @@ double off_sheet(PointsView surface, const std::vector<Neighbour>& neighbours) {
 
 }  // namespace
 
-double sheet_score(PointsView points, const Result& result, const Context& context) {
+double sheet_score(PointsView points, const PointTree& tree, const Result& result,
+                   const Context& context) {
   constexpr Index neighbours = 11;
   const PointsView surface(result.surface_points);
   if (surface.size() < neighbours) return 0;
-  const double tolerance = sheet_spacing(points, PointTree(points, context.stage(0, 0.3)));
+  const double tolerance = sheet_spacing(points, tree);
   if (!(tolerance > 0)) return 0;
 
-  const PointTree tree(surface, context.stage(0.3, 0.5));
+  const PointTree feet(surface, context.stage(0, 0.3));
   const Index step = stride(surface.size()), looked_at = (surface.size() + step - 1) / step;
   const double agreeing =
-      parallel_sum(context.stage(0.5, 1), looked_at, grain, 0.0, [&](Index begin, Index end) {
+      parallel_sum(context.stage(0.3, 1), looked_at, grain, 0.0, [&](Index begin, Index end) {
         double sum = 0;
         std::vector<Neighbour> found;
         for (Index k = begin; k < end; ++k) {
           const Index row = k * step;
-          tree.nearest(surface[row], neighbours, found);
+          feet.nearest(surface[row], neighbours, found);
           // Equal surface points come in any number; each stands for itself first.
           found.front().index = row;
           const double off = std::hypot(result.residuals[row], 2 * off_sheet(surface, found));

@@ -48,11 +48,10 @@ Eigen::MatrixXd table(const std::vector<Vector3>& directions, const std::vector<
 
 }  // namespace
 
-Result best_separation(const Cloud& cloud, Index steps,
+Result best_separation(const Cloud& cloud, const PointTree& tree, Index steps,
                        const std::function<double(const Separation&)>& projection_error,
                        const Context& context) {
   const std::vector<Vector3> directions = half_sphere(steps);
-  const PointTree tree(cloud.points, context.stage(0, 0.02));
   const Separator separate(cloud.points, tree, context);
 
   std::vector<Trial> trials(directions.size());
@@ -90,7 +89,7 @@ Result best_separation(const Cloud& cloud, Index steps,
   Separation separation = separate.room();
   separate(directions[best], separation);
   fill_pairs(result, cloud.points, separation);
-  result.score = sheet_score(cloud.points, result, context.stage(0.95, 1));
+  result.score = sheet_score(cloud.points, tree, result, context.stage(0.95, 1));
   result.statistics = {
       {"direction", directions[best]},           {"projection_error", trials[best].error},
       {"clearance", trials[best].clearance},     {"thesis_score", trials[best].score},
