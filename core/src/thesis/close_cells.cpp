@@ -14,11 +14,8 @@ CloseCells::CloseCells(PointsView points, double reach, const Context& context)
   shift_ = 64 - std::countr_zero(size);
   bits_.assign(size / 64, 0);
   const Vector3 margin = Vector3::Constant(reach * (1 + 1e-6));
-  const auto cell = [&](const Vector3& x) -> Cell {
-    return ((x - low_) / cell_).array().floor().cast<std::int64_t>();
-  };
   interruptible_for(context, points.size(), [&](Index i) {
-    const Cell from = cell(points[i] - margin), to = cell(points[i] + margin);
+    const Cell from = cell_of(points[i] - margin), to = cell_of(points[i] + margin);
     Cell c;
     for (c.x() = from.x(); c.x() <= to.x(); ++c.x())
       for (c.y() = from.y(); c.y() <= to.y(); ++c.y())

@@ -19,13 +19,16 @@ class CloseCells {
 
   /// False: no point is within reach of a place inside the cloud's bounding box.
   bool may_hold(const Vector3& x) const {
-    const std::uint64_t bit = hash(((x - low_) / cell_).array().floor().cast<std::int64_t>());
+    const std::uint64_t bit = hash(cell_of(x));
     return bits_[bit / 64] >> bit % 64 & 1;
   }
 
  private:
   using Cell = Eigen::Array<std::int64_t, 3, 1>;
 
+  Cell cell_of(const Vector3& x) const {
+    return ((x - low_) / cell_).array().floor().cast<std::int64_t>();
+  }
   std::uint64_t hash(const Cell& c) const {
     const auto part = [](std::int64_t i, std::uint64_t odd) {
       return static_cast<std::uint64_t>(i) * odd;
