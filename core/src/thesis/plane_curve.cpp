@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "../parallel.h"
+#include "../radix_sort.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr int bits_per_axis = 16, digit_bits = 11, digits = 3, buckets = 1 << digit_bits;
+constexpr int bits_per_axis = 16;
 
 std::uint32_t cell(float x) {
   constexpr float half = static_cast<float>((1 << bits_per_axis) - 1) / 2;
@@ -54,28 +54,16 @@ std::uint32_t key_of(std::uint32_t u, std::uint32_t v) {
   return key;
 }
 
-int digit(std::uint64_t item, int which) {
-  return static_cast<int>(item >> (32 + digit_bits * which) & (buckets - 1));
-}
-
 }  // namespace
 
 void PlaneCurve::sort(const PlanePlaces& places, const Context& context) {
-  const Index count = places.size();
-  items_.resize(count);
-  other_.resize(count);
-  std::array<std::array<std::int32_t, buckets>, digits> start{};
-  interruptible_for(context, count, [&](Index k) {
-    const std::uint32_t key = key_of(cell(places.u[k]), cell(places.v[k]));
-    items_[k] = static_cast<std::uint64_t>(key) << 32 | static_cast<std::uint64_t>(k);
-    for (int d = 0; d < digits; ++d) ++start[d][digit(items_[k], d)];
+  keys_.resize(places.size());
+  order_.resize(places.size());
+  interruptible_for(context, places.size(), [&](Index k) {
+    keys_[k] = key_of(cell(places.u[k]), cell(places.v[k]));
+    order_[k] = static_cast<std::int32_t>(k);
   });
-  for (int d = 0; d < digits; ++d) {
-    std::exclusive_scan(start[d].begin(), start[d].end(), start[d].begin(), 0);
-    interruptible_for(context, count,
-                      [&](Index k) { other_[start[d][digit(items_[k], d)]++] = items_[k]; });
-    items_.swap(other_);
-  }
+  radix_sort(keys_, order_, context);
 }
 
 }  // namespace symsurf

@@ -26,10 +26,11 @@ class PlaneCurve {
   void sort(const PlanePlaces& places, const Context& context);
 
   /// The place that is the k-th along the curve.
-  std::int32_t operator[](Index k) const { return static_cast<std::int32_t>(items_[k]); }
+  std::int32_t operator[](Index k) const { return order_[k]; }
 
  private:
-  std::vector<std::uint64_t> items_, other_;  // the key above, the place below
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::int32_t> order_;
 };
 
 }  // namespace symsurf
