@@ -36,7 +36,7 @@ void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
 }
 
 // As far as each slide brings it nearer, and off no sheet.
-SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement<UnitSphere>& refinement,
+SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement& refinement,
                      const PartnerFit& partner_fit) {
   for (int k = 0; k < slides; ++k) {
     SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
@@ -50,7 +50,7 @@ SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement<UnitS
 
 // Onto partners; where noise hides these, and it is worth the time, along the sheets before.
 SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
-                              const ParametricRefinement<UnitSphere>& refinement,
+                              const ParametricRefinement& refinement,
                               const PartnerFit& partner_fit) {
   const SphereCandidate on_partners = slid(fitted, refinement, partner_fit);
   if (on_partners.partnered >= by_chance || !is_best || fitted.explained < symmetric)
@@ -73,7 +73,7 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
-  const ParametricRefinement<UnitSphere> refinement(rest, tree, surfels, context.stage(0.8, 1));
+  const ParametricRefinement refinement(rest, tree, surfels, context.stage(0.8, 1));
   const PartnerFit partner_fit(rest, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found;
   for (const SphereCandidate& candidate : promising_spheres(
@@ -91,7 +91,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       promising_spheres(surfels, map, cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement<UnitSphere> refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
+  const ParametricRefinement refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
   const PartnerFit partner_fit(cloud, tree, refinement.spacing(), context);
   for (SphereCandidate& candidate : candidates) {
     candidate = refinement.fitted(candidate, 400, 4);

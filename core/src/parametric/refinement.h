@@ -4,36 +4,37 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "../point_tree.h"
 #include "../quantile.h"
-#include "../sheet_spacing.h"
 #include "candidate.h"
 
 namespace symsurf {
 
 /// Fits mirrors of few numbers to the full cloud: samples of it are mirrored and meet the nearest
 /// of all points.
-template <typename Shape>
 class ParametricRefinement {
  public:
   ParametricRefinement(const Cloud& cloud, const PointTree& tree, const Surfels& surfels,
                        const Context& context);
 
   /// The mirror that leaves the least robust residual on about `wanted` samples.
+  template <typename Shape>
   Candidate<Shape> fitted(const Candidate<Shape>& start, Index wanted, int steps) const;
 
   /// Where the same points stand on both sides, converges on them to rounding; otherwise `start`.
+  template <typename Shape>
   Candidate<Shape> fitted_to_exact_pairs(const Candidate<Shape>& start) const;
 
   /// The two changes of the mirror's numbers, columns, that the cloud's sheets resist least,
   /// against how far they move the images: by 1, root mean square.
+  template <typename Shape>
   Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Shape& shape) const;
 
   /// Of the samples the mirror moves, the share that meets the cloud.
+  template <typename Shape>
   double explained(const Shape& shape, Index wanted) const;
 
   /// Of the cloud's points, in the principal frame.
@@ -56,6 +57,7 @@ class ParametricRefinement {
   static constexpr double widest = 0.012;
 
   Index stride_for(Index wanted) const;
+  template <typename Shape>
   std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
   static double closeness(const Agreement& agreement);
 
@@ -68,29 +70,7 @@ class ParametricRefinement {
 };
 
 template <typename Shape>
-ParametricRefinement<Shape>::ParametricRefinement(const Cloud& cloud, const PointTree& tree,
-                                                  const Surfels& surfels, const Context& context)
-    : cloud_(cloud),
-      tree_(tree),
-      surfels_(surfels),
-      context_(context),
-      spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {
-  constexpr Index most_samples = 8192;
-  const Index n = cloud.points.size(), count = std::min(n, most_samples);
-  for (Index k = 0; k < count; ++k) {
-    const Vector3 x = cloud.frame.enter(cloud.points[tree.order()[k * n / count]]);
-    const Index surfel = surfels.containing(x);
-    if (surfel >= 0) samples_.push_back({x, &surfels[surfel]});
-  }
-}
-
-template <typename Shape>
-Index ParametricRefinement<Shape>::stride_for(Index wanted) const {
-  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
-}
-
-template <typename Shape>
-auto ParametricRefinement<Shape>::matches(const Shape& shape, double limit, Index stride) const
+auto ParametricRefinement::matches(const Shape& shape, double limit, Index stride) const
     -> std::vector<Match> {
   const double size = cloud_.frame.size;
   std::vector<Match> found;
@@ -108,8 +88,8 @@ auto ParametricRefinement<Shape>::matches(const Shape& shape, double limit, Inde
 }
 
 template <typename Shape>
-Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& start, Index wanted,
-                                                     int steps) const {
+Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Index wanted,
+                                              int steps) const {
   constexpr double narrowest = 0.003;
   constexpr double along_sheet = 0.01;
   const Index stride = stride_for(wanted);
@@ -142,8 +122,7 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted(const Candidate<Shape>& sta
 
 // By chance a tenth of all images comes within a fifth of the spacing at best.
 template <typename Shape>
-Candidate<Shape> ParametricRefinement<Shape>::fitted_to_exact_pairs(
-    const Candidate<Shape>& start) const {
+Candidate<Shape> ParametricRefinement::fitted_to_exact_pairs(const Candidate<Shape>& start) const {
   constexpr int steps = 16;
   constexpr double worth_trying = 0.12, exact = 0.01;  // of the spacing
   const Index stride = stride_for(1200);
@@ -173,8 +152,7 @@ Candidate<Shape> ParametricRefinement<Shape>::fitted_to_exact_pairs(
 }
 
 template <typename Shape>
-Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement<Shape>::loosest(
-    const Shape& shape) const {
+Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Shape& shape) const {
   typename Shape::Step held(shape), moved(shape);
   double count = 0;
   for (const Match& match : matches(shape, reach(), stride_for(400))) {
@@ -196,18 +174,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement<Shape>::loosest(
   return eigen.eigenvectors().leftCols(2);
 }
 
-// The mean over tolerances from coarse to fine: images that meet a point exactly count in full,
-// chance agreement less the finer one looks.
 template <typename Shape>
-double ParametricRefinement<Shape>::closeness(const Agreement& agreement) {
-  constexpr std::array score_tolerances{0.01, 0.005, 0.0025, 0.00125};
-  double sum = 0;
-  for (const double tolerance : score_tolerances) sum += agreement.weight(tolerance);
-  return sum / static_cast<double>(score_tolerances.size());
-}
-
-template <typename Shape>
-double ParametricRefinement<Shape>::explained(const Shape& shape, Index wanted) const {
+double ParametricRefinement::explained(const Shape& shape, Index wanted) const {
   constexpr double least_moved = 0.35;
   const Index stride = stride_for(wanted);
   const double tolerance = std::max(0.01, spacing_ / 2);

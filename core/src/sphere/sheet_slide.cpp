@@ -30,7 +30,7 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
 }
 
 SphereCandidate slid_along_sheets(SphereCandidate candidate,
-                                  const ParametricRefinement<UnitSphere>& refinement) {
+                                  const ParametricRefinement& refinement) {
   candidate.explained = refinement.explained(candidate.shape, look);
   for (int slide = 0; slide < slides; ++slide) {
     std::vector<SphereCandidate> places;

@@ -16,6 +16,6 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
 /// them, and a fit creeps: slides the sphere over the plane of its loosest changes, for as long as
 /// another place explains clearly more.
 SphereCandidate slid_along_sheets(SphereCandidate candidate,
-                                  const ParametricRefinement<UnitSphere>& refinement);
+                                  const ParametricRefinement& refinement);
 
 }  // namespace symsurf
