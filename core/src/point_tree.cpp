@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "k_best.h"
+#include "nearest_first.h"
 #include "parallel.h"
 #include "radix_sort.h"
 #include "vectorised.h"
@@ -153,12 +154,7 @@ bool PointTree::nearest_within(const Block& queries, Index k, double reach,
   });
   const auto wanted = static_cast<std::size_t>(k);
   if (*std::min_element(count.begin(), count.end()) < wanted) return false;
-  for (int i = 0; i < block; ++i) {
-    const auto begin = found[i].begin();
-    std::nth_element(begin, begin + k - 1, begin + static_cast<Index>(count[i]));
-    std::sort(begin, begin + k - 1);
-    found[i].resize(wanted);
-  }
+  for (int i = 0; i < block; ++i) keep_nearest(found[i], count[i], wanted);
   return true;
 }
 

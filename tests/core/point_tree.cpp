@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -63,6 +65,34 @@ TEST(PointTree, BreaksTiesByTheLowestIndex) {
         tree.nearest(query, 50, found);
         for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].index, all[i].index);
       }
+  }
+}
+
+TEST(PointTree, AnswersBlocksOfQueriesAsItAnswersEach) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Points& points : {random.lattice(2000, 6), random.box(2000), random.sphere(500)}) {
+      const PointTree tree(points);
+      for (const Index k : {1, 10, 40, 100}) {
+        std::array<std::vector<Neighbour>, PointTree::block> found;
+        std::vector<Neighbour> expected;
+        double reach = std::numeric_limits<double>::infinity();
+        for (Index p = 0; p + PointTree::block <= tree.size(); p += PointTree::block) {
+          PointTree::Queries queries;
+          for (Index q = 0; q < PointTree::block; ++q)
+            queries.col(q) = points.row(tree.order()[p + q]).transpose();
+          tree.nearest(queries, k, p, reach, found);
+          for (Index q = 0; q < PointTree::block; ++q) {
+            tree.nearest(queries.col(q), k, expected);
+            ASSERT_EQ(found[q].size(), expected.size());
+            for (std::size_t i = 0; i < expected.size(); ++i) {
+              ASSERT_EQ(found[q][i].index, expected[i].index);
+              ASSERT_EQ(found[q][i].squared_distance, expected[i].squared_distance);
+            }
+          }
+        }
+      }
+    }
   }
 }
 
