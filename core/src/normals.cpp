@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cloud.h"
+#include "least_variance.h"
 #include "parallel.h"
 #include "tree_normals.h"
 
@@ -17,24 +18,28 @@ namespace symsurf {
 
 namespace {
 
-// k x 3, from a point amid them and in units of their reach: no digits are lost to a far-off
-// origin, and squares neither overflow nor vanish.
-using Patch = Points;
+using Normals = Eigen::Matrix<double, 3, Neighbourhoods::lanes>;
 
-Vector3 pca_normal(Patch& patch) {
-  Matrix3 scatter = Matrix3::Zero();
-  for (const auto& w : patch.rowwise()) scatter += w.transpose() * w;
-  Vector3 normal = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
-  Index largest;
-  normal.cwiseAbs().maxCoeff(&largest);
-  return normal[largest] < 0 ? -normal : normal;
+Normals pca_normals(const Neighbourhoods& neighbourhoods) {
+  Normals normals = neighbourhoods.least_variance();
+  for (auto normal : normals.colwise()) {
+    Index largest;
+    normal.cwiseAbs().maxCoeff(&largest);
+    if (normal[largest] < 0) normal = -normal;
+  }
+  return normals;
 }
 
 // z = b1 x + b2 y in the least squares sense, of minimum norm: the axes of the projection on xy by
 // one Jacobi rotation, the slope along each.
-Vector3 regression_normal(Patch& patch) {
+Vector3 regression_normal(Points patch) {
   // A projection on xy thinner than this, against its length, is a line.
   constexpr double thinness = 1e-8;
+  // From a point amid them and in units of their reach: no digits are lost to a far-off origin, and
+  // squares neither overflow nor vanish.
+  const double reach = patch.cwiseAbs().maxCoeff();
+  if (reach > 0) patch /= reach;
+  patch.rowwise() -= patch.colwise().mean().eval();
   Eigen::Matrix<double, Eigen::Dynamic, 2> xy = patch.leftCols<2>();
   Eigen::JacobiRotation<double> turn;
   turn.makeJacobi(xy.col(0).squaredNorm(), xy.col(0).dot(xy.col(1)), xy.col(1).squaredNorm());
@@ -47,6 +52,13 @@ Vector3 regression_normal(Patch& patch) {
     if (lengths[k] > thinness * thinness * lengths.maxCoeff())
       slope += xy.col(k).dot(patch.col(2)) / lengths[k] * axes.col(k);
   return Vector3(-slope.x(), -slope.y(), 1).normalized();
+}
+
+Normals regression_normals(const Neighbourhoods& neighbourhoods) {
+  Normals normals;
+  for (int lane = 0; lane < Neighbourhoods::lanes; ++lane)
+    normals.col(lane) = regression_normal(neighbourhoods.offsets(lane));
+  return normals;
 }
 
 void require_allowed(PointsView points, Index neighbours, std::string_view method) {
@@ -73,27 +85,24 @@ Points estimate_normals(PointsView points, Index neighbours, std::string_view me
 Points estimate_normals(PointsView points, const PointTree& tree, Index neighbours,
                         std::string_view method, const Context& context) {
   require_allowed(points, neighbours, method);
-  const auto normal_of = method == "pca" ? pca_normal : regression_normal;
+  const auto normals_of = method == "pca" ? pca_normals : regression_normals;
   Points normals(points.size(), 3);
   constexpr Index grain = 2048;
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
     std::array<std::vector<Neighbour>, PointTree::block> found;
     double reach = std::numeric_limits<double>::infinity();
-    Patch patch(neighbours, 3);
+    Neighbourhoods neighbourhoods(neighbours);
     for (Index p = begin; p < end; p += PointTree::block) {
+      const auto row = [&](Index lane) { return tree.order()[std::min(p + lane, end - 1)]; };
       PointTree::Queries queries;
-      for (Index k = 0; k < PointTree::block; ++k)
-        queries.col(k) = points[tree.order()[std::min(p + k, end - 1)]];
+      for (Index lane = 0; lane < PointTree::block; ++lane) queries.col(lane) = points[row(lane)];
       tree.nearest(queries, neighbours, p, reach, found);
-      for (Index k = 0; k < PointTree::block && p + k < end; ++k) {
-        const Index i = tree.order()[p + k];
+      for (int lane = 0; lane < PointTree::block; ++lane)
         for (Index n = 0; n < neighbours; ++n)
-          patch.row(n) = (points[found[k][n].index] - points[i]).transpose();
-        const double reach = patch.cwiseAbs().maxCoeff();
-        if (reach > 0) patch /= reach;
-        patch.rowwise() -= patch.colwise().mean().eval();
-        normals.row(i) = normal_of(patch).transpose();
-      }
+          neighbourhoods.set(lane, n, points[found[lane][n].index] - queries.col(lane));
+      const Normals block = normals_of(neighbourhoods);
+      for (Index lane = 0; lane < PointTree::block; ++lane)
+        normals.row(row(lane)) = block.col(lane).transpose();
     }
   });
   return normals;

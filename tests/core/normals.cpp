@@ -83,6 +83,19 @@ TEST(Normals, OfAPlaneAreThePlanes) {
   }
 }
 
+TEST(Normals, OfALineAreAcrossIt) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Vector3 along = random.direction();
+    for (const Vector3& axis : {along, Vector3(Vector3::Unit(seed % 3))}) {
+      const Points points = random.box(100).col(0) * axis.transpose();
+      const Points normals = estimate_normals(points);
+      EXPECT_LE((normals * axis).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LE((normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    }
+  }
+}
+
 TEST(Normals, OfASphereAreItsRadii) {
   const Points points = RandomCloud(3).sphere(5000);
   const Points normals = estimate_normals(points);
