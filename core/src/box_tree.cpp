@@ -1,25 +1,12 @@
 #include "box_tree.h"
 
-#include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "parallel.h"
-#include "radix_sort.h"
 
 namespace symsurf {
 
 namespace {
-
-constexpr int bits_per_axis = 14;
-
-// Spreads the low 14 bits to every third.
-std::uint64_t spread(std::uint64_t v) {
-  v = (v | v << 16) & 0x0000ff0000ff;
-  v = (v | v << 8) & 0x00f00f00f00f;
-  v = (v | v << 4) & 0x0c30c30c30c3;
-  return (v | v << 2) & 0x249249249249;
-}
 
 // Half against half, which takes no more than three steps.
 template <typename T>
@@ -36,27 +23,6 @@ T most(std::array<T, BoxTree::fan> x) {
 }
 
 }  // namespace
-
-std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context) {
-  Vector3 low = places.front(), high = low;
-  for (const Vector3& x : places) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  const double extent = (high - low).maxCoeff(), cells = (1 << bits_per_axis) - 1;
-  const double scale = extent > 0 ? cells / extent : 0;
-  std::vector<std::uint64_t> keys(places.size());
-  interruptible_for(context, static_cast<Index>(places.size()), [&](Index i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = std::min((places[i][axis] - low[axis]) * scale, cells);
-      keys[i] |= spread(static_cast<std::uint64_t>(at)) << (2 - axis);
-    }
-  });
-  std::vector<std::int32_t> order(places.size());
-  std::iota(order.begin(), order.end(), 0);
-  radix_sort(keys, order, context);
-  return order;
-}
 
 void BoxTree::clear() {
   size_ = 0;

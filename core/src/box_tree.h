@@ -10,9 +10,6 @@
 
 namespace symsurf {
 
-/// The order of the places along the Z-order curve, equal places by index.
-std::vector<std::int32_t> z_order(const std::vector<Vector3>& places, const Context& context);
-
 /// Places in runs of 8, bounding boxes over the runs, boxes over runs of 8 boxes and so on, for
 /// exact searches that bound their own measure of nearness box by box. Single precision: a search
 /// allows for its rounding.

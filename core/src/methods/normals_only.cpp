@@ -10,7 +10,7 @@ namespace {
 Result run_normals_only(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const PointTree tree(cloud.points, context.stage(0, 0.05));
   const Points normals = given_or_estimated_normals(cloud, tree, values, context.stage(0.05, 0.4));
-  Result result = pairs_along_normals(cloud.points, normals, context.stage(0.4, 0.9));
+  Result result = pairs_along_normals(cloud.points, tree, normals, context.stage(0.4, 0.9));
   result.method = "normals_only";
   result.score = sheet_score(cloud.points, tree, result, context.stage(0.9, 1));
   result.statistics["projection_error"] =

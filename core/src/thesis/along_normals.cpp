@@ -23,17 +23,15 @@ struct Partner {
 /// at once.
 class LineSearch {
  public:
-  LineSearch(PointsView points, const Context& context) : points_(points) {
+  LineSearch(PointsView points, const PointTree& tree, const Context& context)
+      : points_(points), order_(tree.order()) {
     const Vector3 low = points.matrix().colwise().minCoeff(),
                   high = points.matrix().colwise().maxCoeff();
     centre_ = (low + high) / 2;
     // Single precision rounds a coordinate to 6e-8 of it, a distance takes ten of these.
     rounding_ = 4e-6f * static_cast<float>((high - low).maxCoeff() / 2);
-    std::vector<Vector3> places(points.size());
-    for (Index i = 0; i < points.size(); ++i) places[i] = points[i] - centre_;
-    order_ = z_order(places, context);
     interruptible_for(context, points.size(), [&](Index p) {
-      const Eigen::Vector3f place = places[order_[p]].cast<float>();
+      const Eigen::Vector3f place = (points[order_[p]] - centre_).cast<float>();
       tree_.add(place.x(), place.y(), place.z(), order_[p]);
     });
     tree_.build(context);
@@ -86,16 +84,17 @@ class LineSearch {
   PointsView points_;
   Vector3 centre_;
   float rounding_;
-  std::vector<std::int32_t> order_;
+  const std::vector<std::int32_t>& order_;
   BoxTree tree_;
 };
 
 }  // namespace
 
-Result pairs_along_normals(PointsView points, PointsView normals, const Context& context) {
+Result pairs_along_normals(PointsView points, const PointTree& tree, PointsView normals,
+                           const Context& context) {
   constexpr Index grain = 1024;
   static_assert(grain % block == 0);
-  const LineSearch search(points, context);
+  const LineSearch search(points, tree, context);
   Result result;
   result.pairs.resize(points.size(), 2);
   result.residuals.resize(points.size());
