@@ -29,7 +29,7 @@ PointGrid::PointGrid(PointsView points)
 }
 
 std::optional<PointGrid> PointGrid::where_faster(PointsView points) {
-  constexpr Index small_cloud = 8192, crowded = 64;  // points; points in a cell
+  constexpr Index small_cloud = 20'000, crowded = 64;  // points; points in a cell
   if (points.empty() || points.size() > small_cloud) return std::nullopt;
   PointGrid grid(points);
   if (grid.fullest_ > crowded) return std::nullopt;

@@ -74,7 +74,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   if (candidates.empty()) return best;
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement refinement(cloud, tree, surfels, context.stage(0.5, 0.7));
+  const NearestPoints points(cloud, tree, context);
+  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.7));
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
   keep_distinct(surfels, candidates, alike, finalists);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);

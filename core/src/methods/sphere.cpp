@@ -73,8 +73,9 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
-  const ParametricRefinement refinement(rest, tree, surfels, context.stage(0.8, 1));
-  const PartnerFit partner_fit(rest, tree, refinement.spacing(), context);
+  const NearestPoints points(rest, tree, context);
+  const ParametricRefinement refinement(rest, points, tree, surfels, context.stage(0.8, 1));
+  const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found;
   for (const SphereCandidate& candidate : promising_spheres(
            surfels, SurfelMap(surfels), cloud.seed, 2 * finalists, context.stage(0.2, 0.8))) {
@@ -91,8 +92,9 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       promising_spheres(surfels, map, cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const ParametricRefinement refinement(cloud, tree, surfels, context.stage(0.6, 0.7));
-  const PartnerFit partner_fit(cloud, tree, refinement.spacing(), context);
+  const NearestPoints points(cloud, tree, context);
+  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.6, 0.7));
+  const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
   for (SphereCandidate& candidate : candidates) {
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);

@@ -6,10 +6,11 @@
 
 namespace symsurf {
 
-ParametricRefinement::ParametricRefinement(const Cloud& cloud, const PointTree& tree,
-                                           const Surfels& surfels, const Context& context)
+ParametricRefinement::ParametricRefinement(const Cloud& cloud, const NearestPoints& points,
+                                           const PointTree& tree, const Surfels& surfels,
+                                           const Context& context)
     : cloud_(cloud),
-      tree_(tree),
+      points_(points),
       surfels_(surfels),
       context_(context),
       spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {

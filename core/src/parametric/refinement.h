@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../point_tree.h"
+#include "../nearest_points.h"
 #include "../quantile.h"
 #include "candidate.h"
 
@@ -17,8 +17,9 @@ namespace symsurf {
 /// of all points.
 class ParametricRefinement {
  public:
-  ParametricRefinement(const Cloud& cloud, const PointTree& tree, const Surfels& surfels,
-                       const Context& context);
+  /// The points, and their tree, are those of the cloud.
+  ParametricRefinement(const Cloud& cloud, const NearestPoints& points, const PointTree& tree,
+                       const Surfels& surfels, const Context& context);
 
   /// The mirror that leaves the least robust residual on about `wanted` samples.
   template <typename Shape>
@@ -62,7 +63,7 @@ class ParametricRefinement {
   static double closeness(const Agreement& agreement);
 
   const Cloud& cloud_;
-  const PointTree& tree_;
+  const NearestPoints& points_;
   const Surfels& surfels_;
   const Context context_;
   double spacing_;
@@ -72,17 +73,22 @@ class ParametricRefinement {
 template <typename Shape>
 auto ParametricRefinement::matches(const Shape& shape, double limit, Index stride) const
     -> std::vector<Match> {
-  const double size = cloud_.frame.size;
-  std::vector<Match> found;
+  std::vector<const Sample*> asked;
+  std::vector<Vector3> images, queries;
   for (std::size_t i = 0; i < samples_.size(); i += stride) {
-    context_.check();
     const Vector3 image = shape.reflect(samples_[i].position);
     if (!image.allFinite()) continue;
-    const Neighbour nearest = tree_.nearest(cloud_.frame.leave(image), limit * limit * size * size);
-    if (nearest.index < 0) continue;
-    const Vector3 partner = cloud_.frame.enter(cloud_.points[nearest.index]);
+    asked.push_back(&samples_[i]);
+    images.push_back(image);
+    queries.push_back(cloud_.frame.leave(image));
+  }
+  std::vector<Match> found;
+  const std::vector<Vector3> nearest = points_.nearest(queries, limit * cloud_.frame.size);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (!nearest[k].allFinite()) continue;
+    const Vector3 partner = cloud_.frame.enter(nearest[k]);
     const Index surfel = surfels_.containing(partner);
-    if (surfel >= 0) found.push_back({&samples_[i], image - partner, &surfels_[surfel]});
+    if (surfel >= 0) found.push_back({asked[k], images[k] - partner, &surfels_[surfel]});
   }
   return found;
 }

@@ -1,7 +1,6 @@
 #include "partner_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "../plane/agreement.h"
@@ -19,7 +18,6 @@ constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
-constexpr double widest_block = 4;  // in reaches of the search
 constexpr double near = 1.1;
 constexpr Index on_the_way = 120, second_look = 300;
 constexpr std::size_t looked_at = 24, attempts = 6;
@@ -32,9 +30,9 @@ double beyond_chance(double share) { return (share - by_chance) / (1 - by_chance
 
 }  // namespace
 
-PartnerFit::PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing,
-                       const Context& context)
-    : cloud_(cloud), tree_(tree), spacing_(spacing), context_(context) {}
+PartnerFit::PartnerFit(const Cloud& cloud, const NearestPoints& points, const PointTree& tree,
+                       double spacing, const Context& context)
+    : cloud_(cloud), points_(points), tree_(tree), spacing_(spacing), context_(context) {}
 
 SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
   SphereCandidate best = start;
@@ -85,48 +83,29 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
 
 std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, Index wanted,
                                                       double reach, Index* asked) const {
-  // Points that follow each other are close, and so are their images: a block is one search.
-  constexpr Index block = PointTree::block;
-  const Index n = tree_.size(), blocks = (std::min(n, wanted) + block - 1) / block;
-  const double limit = reach * cloud_.frame.size;
-  std::vector<Meeting> found;
-  Index places = 0, near = 0, waits = 0;
-  std::array<Vector3, PointTree::block> positions, images;
-  PointTree::Queries queries;
-  const auto meet = [&](Index i, const Neighbour& nearest) {
-    if (nearest.index >= 0)
-      found.push_back({positions[i], images[i] - cloud_.frame.enter(cloud_.points[nearest.index])});
-  };
-  // Images that a mirror flings apart are no block.
-  const auto ask = [&] {
-    context_.check();
-    for (Index i = 0; i < PointTree::block; ++i)
-      queries.col(i) = cloud_.frame.leave(images[std::min(i, waits - 1)]);
-    const Vector3 spread = queries.rowwise().maxCoeff() - queries.rowwise().minCoeff();
-    if (spread.maxCoeff() < widest_block * limit) {
-      const auto nearest = tree_.nearest(queries, limit * limit, near);
-      for (Index i = 0; i < waits; ++i) meet(i, nearest[i]);
-    } else {
-      for (Index i = 0; i < waits; ++i)
-        meet(i, tree_.nearest(Vector3(queries.col(i)), limit * limit));
-    }
-    waits = 0;
-  };
-  for (Index k = 0; k < blocks * block; ++k) {
-    const Index p =
-        k / block * std::max<Index>(0, n - block) / std::max<Index>(1, blocks - 1) + k % block;
+  // In runs along the tree's order, whose images are close as well.
+  constexpr Index run = PointTree::block;
+  const Index n = tree_.size(), runs = (std::min(n, wanted) + run - 1) / run;
+  std::vector<Vector3> positions, images, queries;
+  Index places = 0;
+  for (Index k = 0; k < runs * run; ++k) {
+    const Index p = k / run * std::max<Index>(0, n - run) / std::max<Index>(1, runs - 1) + k % run;
     if (p >= n) break;
     const Vector3 x = cloud_.frame.enter(cloud_.points[tree_.order()[p]]);
     if (displaced(sphere.distance(x), spacing_) < 1) continue;
     const Vector3 image = sphere.reflect(x);
     ++places;
     if (!image.allFinite()) continue;
-    positions[waits] = x;
-    images[waits] = image;
-    if (++waits == PointTree::block) ask();
+    positions.push_back(x);
+    images.push_back(image);
+    queries.push_back(cloud_.frame.leave(image));
   }
-  if (waits > 0) ask();
   if (asked) *asked = places;
+  const std::vector<Vector3> nearest = points_.nearest(queries, reach * cloud_.frame.size);
+  std::vector<Meeting> found;
+  for (std::size_t k = 0; k < nearest.size(); ++k)
+    if (nearest[k].allFinite())
+      found.push_back({positions[k], images[k] - cloud_.frame.enter(nearest[k])});
   return found;
 }
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "../point_tree.h"
+#include "../nearest_points.h"
 #include "sphere_candidates.h"
 
 namespace symsurf {
@@ -16,7 +16,8 @@ namespace symsurf {
 class PartnerFit {
  public:
   /// The spacing of the points, in the principal frame.
-  PartnerFit(const Cloud& cloud, const PointTree& tree, double spacing, const Context& context);
+  PartnerFit(const Cloud& cloud, const NearestPoints& points, const PointTree& tree, double spacing,
+             const Context& context);
 
   /// The candidate on its partners, `partnered` the share that have met them beyond chance; as it
   /// was where points have no partners.
@@ -53,6 +54,7 @@ class PartnerFit {
   double share_met(const UnitSphere& sphere, Index wanted) const;
 
   const Cloud& cloud_;
+  const NearestPoints& points_;
   const PointTree& tree_;
   double spacing_;
   const Context context_;
