@@ -12,6 +12,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 #include "sphere/sphere_measure.h"
+#include "sphere/unit_sphere.h"
 #include "thesis/nearest_cells.h"
 #include "thesis/nelder_mead.h"
 
@@ -64,6 +65,33 @@ TEST(SphereMethod, FindsCleanSpheresToRounding) {
     EXPECT_LE(errors.e_c, 1e-6);
     EXPECT_LE(errors.e_r, 1e-6);
   }
+}
+
+// So large that a plane explains them nearly as well.
+TEST(SphereMethod, FindsSpheresOfManyDiagonalsToRounding) {
+  for (const double diagonals : {3, 10, 25})
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      SCOPED_TRACE(testing::Message() << diagonals << " diagonals, seed " << seed);
+      RandomCloud random(seed);
+      constexpr Index n = 900;
+      const Vector3 wave = 5 * random.direction();
+      Points cloud(n, 3);
+      for (Index i = 0; i < n; ++i) {
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+        cloud.row(i) << x, y, 0.2 * std::sin(wave.x() * x + wave.y() * y) + 0.1 * x * y * y - 0.7;
+      }
+      const double radius = 3 * diagonals;
+      const Sphere sphere(Vector3(0.2, 0.1, -radius), radius);
+      const Points points = mirror_spherical(cloud, sphere).points * random.rotation().transpose();
+      Options options;
+      options.method = "sphere";
+      const Result result = detect(points, options);
+      for (Index i = 0; i < n; ++i) {
+        const Vector3 x = points.row(i), image = points.row(n + i);
+        ASSERT_NEAR((result.mirror->reflect(x) - image).norm(), 0, 1e-11);
+      }
+      EXPECT_NEAR(dynamic_cast<const Sphere&>(*result.mirror).radius(), radius, 1e-6 * radius);
+    }
 }
 
 // At 10^4 points the noise is wider than their spacing: no point is near its partner.
@@ -146,13 +174,14 @@ TEST(SphereMeasure, HasTheGradientItSays) {
   RandomCloud random(1);
   const SphereMeasure measure(random.box(200));
   for (int k = 0; k < 10; ++k) {
-    Eigen::Vector4d s;
-    s << random.in_box(), random.uniform(1, 3);
-    Eigen::Vector4d gradient;
+    const Vector3 normal = random.direction();
+    const UnitSphere sphere{random.in_box(), normal, k == 0 ? 0 : random.uniform(-1, 1)};
+    const SphereMeasure::Coefficients s = random.uniform(0.5, 2) * sphere.coefficients();
+    SphereMeasure::Coefficients gradient;
     measure(s, &gradient);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 5; ++i) {
       constexpr double h = 1e-6;
-      const Eigen::Vector4d d = h * Eigen::Vector4d::Unit(i);
+      const SphereMeasure::Coefficients d = h * SphereMeasure::Coefficients::Unit(i);
       const double numeric = (measure(s + d) - measure(s - d)) / (2 * h);
       EXPECT_NEAR(gradient[i], numeric, 1e-4 * (1 + std::abs(numeric)));
     }

@@ -22,14 +22,15 @@ constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6};
 std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const SurfelMap& map,
                                                    std::uint64_t seed, Index count,
                                                    const Context& context) {
-  const auto through = [](const Vector3& middle, const Vector3& u, const auto& add) {
+  const auto through = [](const Vector3& middle, const Vector3& u, double most, const auto& add) {
     const Vector3 first = u.unitOrthogonal(), second = u.cross(first);
     for (int k = 0; k < axes; ++k) {
       const double angle = std::numbers::pi * k / axes;
       const Vector3 axis = std::cos(angle) * first + std::sin(angle) * second;
       for (const double curvature : curvatures)
         for (const double side : {-1.0, 1.0})
-          add(UnitCylinder{middle + side / curvature * u, axis, 1 / curvature});
+          if (curvature <= most)
+            add(UnitCylinder{middle + side / curvature * u, axis, 1 / curvature});
     }
   };
   return best_of(hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),

@@ -25,11 +25,6 @@ constexpr double hopeless = 0.6;      // of what the best explains: not worth fi
 constexpr double alike = 0.05;        // planes closer than this are one
 constexpr Index measured = 300;       // surfels that the measure is taken over
 
-Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
-  const Vector3 normal = frame.axes * plane.normal;
-  return Plane(normal, frame.size * plane.offset - normal.dot(frame.centroid));
-}
-
 // Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
 void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
   const SymmetryMeasure measure(surfels.positions(measured));

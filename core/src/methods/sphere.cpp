@@ -5,6 +5,7 @@
 #include "../matching.h"
 #include "../mirror_score.h"
 #include "../parametric/refinement.h"
+#include "../sphere/large_spheres.h"
 #include "../sphere/partner_fit.h"
 #include "../sphere/sheet_slide.h"
 #include "../sphere/sphere_candidates.h"
@@ -22,10 +23,6 @@ constexpr double on_sheets = 0.97;    // of what it explained before
 constexpr double by_chance = 0.25;    // fewer partners than that prove nothing
 constexpr double least_rest = 0.25;   // of the cloud: worth a search of its own
 constexpr int slides = 3;             // of one sphere, at the most
-
-Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
-  return {frame.leave(sphere.centre), frame.size * sphere.radius};
-}
 
 // Through noise some points meet others by chance: that outweighs no sheet.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
@@ -99,6 +96,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);
   }
+  drop_planes(refinement, candidates);
   sort_best_first(candidates);
   for (const SphereCandidate& candidate :
        spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
@@ -123,23 +121,21 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   }
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
-  drop_planes(surfels, map, candidates);
+  const MirrorScore score(cloud, tree, context.stage(0.7, 0.75));
+  drop_planes(refinement, score, cloud.frame, candidates);
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
-  context.report(0.7);
 
   // Partners tell more than sheets, which many spheres map onto each other about as well.
   const auto loose =
       std::stable_partition(candidates.begin(), candidates.end(),
                             [](const SphereCandidate& c) { return c.partnered > 0; });
-  for (auto c = candidates.begin(); c != loose; ++c)
-    c->partnered = partner_fit.nearness(c->shape, 3000);
+  for (auto c = candidates.begin(); c != loose; ++c) c->partnered = partner_fit.closeness(c->shape);
   std::stable_sort(candidates.begin(), loose,
                    [](const auto& a, const auto& b) { return a.partnered > b.partnered; });
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
-  Result best = MirrorScore(cloud, tree, context.stage(0.7, 0.75))
-                    .ranked("sphere", mirrors, loose - candidates.begin());
+  Result best = score.ranked("sphere", mirrors, loose - candidates.begin());
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();

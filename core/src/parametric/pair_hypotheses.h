@@ -10,9 +10,9 @@
 namespace symsurf {
 
 /// Mirrors that map one surfel of a pair drawn at random onto the other, normals included. A pair
-/// fixes a point of the mirror and its normal there: `through(middle, normal, add)` calls
-/// add(shape) for each round mirror to try there. Draws until `tried` pairs, or `kept` with a
-/// mirror.
+/// fixes a point of the mirror and its normal there: `through(middle, normal, most, add)` calls
+/// add(shape) for each mirror to try there, none more curved than `most`, so that images stay clear
+/// of the centre. Draws until `tried` pairs, or `kept` with a mirror.
 template <typename Shape, typename Through>
 std::vector<Shape> hypotheses_of_pairs(const Surfels& surfels, std::uint64_t seed, Index tried,
                                        Index kept, const Through& through) {
@@ -29,9 +29,8 @@ std::vector<Shape> hypotheses_of_pairs(const Surfels& surfels, std::uint64_t see
     const double length = chord.norm();
     if (length < shortest_chord) continue;
     const std::size_t before = shapes.size();
-    through(Vector3((a.position + b.position) / 2), Vector3(chord / length),
+    through(Vector3((a.position + b.position) / 2), Vector3(chord / length), longest_chord / length,
             [&](const Shape& shape) {
-              if (length > longest_chord * shape.radius) return;
               const double cosine = shape.reflect_direction(a.position, a.normal).dot(b.normal);
               if (std::abs(cosine) < facing_cosine && a.flatness * b.flatness > 0.25) return;
               shapes.push_back(shape);

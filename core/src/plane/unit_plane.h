@@ -1,17 +1,30 @@
 #pragma once
 
-#include <symsurf/types.h>
+#include <symsurf/plane.h>
+#include <symsurf/principal_frame.h>
 
 namespace symsurf {
 
+class PlaneStep;
+
 /// A plane while it is searched for: normal . x + offset = 0 in the principal frame, |normal| = 1.
 struct UnitPlane {
+  using Step = PlaneStep;
+
   Vector3 normal = Vector3::UnitX();
   double offset = 0;
 
   double distance(const Vector3& x) const { return normal.dot(x) + offset; }
   Vector3 reflect(const Vector3& x) const { return x - 2 * distance(x) * normal; }
   Vector3 reflect_direction(const Vector3& v) const { return v - 2 * normal.dot(v) * normal; }
+  Vector3 reflect_direction(const Vector3& /*x*/, const Vector3& v) const {
+    return reflect_direction(v);
+  }
 };
+
+inline Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
+  const Vector3 normal = frame.axes * plane.normal;
+  return Plane(normal, frame.size * plane.offset - normal.dot(frame.centroid));
+}
 
 }  // namespace symsurf

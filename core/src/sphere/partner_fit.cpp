@@ -12,7 +12,7 @@ namespace symsurf {
 namespace {
 
 // Lengths are in spacings of the points.
-constexpr double agree = 0.1;  // two chords on one sphere
+constexpr double agree = 0.1;  // two chords on one sphere, in radii or diagonals
 constexpr double met = 0.2;    // an image and a point
 constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
@@ -22,6 +22,7 @@ constexpr double near = 1.1;
 constexpr Index on_the_way = 120, second_look = 300;
 constexpr std::size_t looked_at = 24, attempts = 6;
 constexpr double worth_refining = 0.03;
+constexpr double flatter = 0.2;  // a sphere may become, or bend more; curvature times diagonal
 constexpr double clearly_nearer = 0.08;
 
 double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
@@ -37,12 +38,16 @@ PartnerFit::PartnerFit(const Cloud& cloud, const NearestPoints& points, const Po
 SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
   SphereCandidate best = start;
   const std::vector<std::vector<Chord>> all = chords(start.shape);
+  const double k = start.shape.curvature, bend = std::abs(k);
+  const double least_curved = k - std::max(k > 0 ? bend / 2 : bend, flatter);
+  const double most_curved = k + std::max(k > 0 ? bend : bend / 2, flatter);
   const auto consider = [&](const Chord& a, const Chord& b) {
-    const Vector3 apart = a.middle - b.middle, turned = b.to_centre - a.to_centre;
-    const double radius = apart.dot(turned) / turned.squaredNorm();
-    if (!(radius > start.shape.radius / 2) || !(radius < 2 * start.shape.radius)) return;
-    if ((apart - radius * turned).norm() > agree * spacing_) return;
-    const UnitSphere sphere{a.middle + radius * a.to_centre, radius};
+    const Vector3 apart = a.middle - b.middle, turned = a.along - b.along;
+    const double curvature = apart.dot(turned) / apart.squaredNorm();
+    if (!(curvature > least_curved) || !(curvature < most_curved)) return;
+    const double off = (turned - curvature * apart).norm();
+    if (off > agree * spacing_ * std::max(std::abs(curvature), 1.0)) return;
+    const UnitSphere sphere{a.middle, a.along, curvature};
     const double least = std::max(least_excess, best.partnered);
     if (beyond_chance(share_met(sphere, glance)) < least) return;
     const UnitSphere fitted = refined(sphere, look);
@@ -74,7 +79,7 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
       const Vector3 chord = cloud_.frame.enter(cloud_.points[partner.index]) - x;
       if (!(chord.norm() > spacing_)) continue;
       const Vector3 middle = x + chord / 2, u = chord.normalized();
-      chords.push_back({middle, u.dot(sphere.centre - middle) < 0 ? Vector3(-u) : u});
+      chords.push_back({middle, u.dot(sphere.gradient(middle)) < 0 ? Vector3(-u) : u});
     }
     found.push_back(std::move(chords));
   }
@@ -109,10 +114,15 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   return found;
 }
 
+// Of the points looked at, so that a mirror that hardly moves any is worth little.
+Index PartnerFit::at_least_a_quarter(Index asked, Index wanted) const {
+  return std::max({asked, std::min(wanted, tree_.size()) / 4, Index{1}});
+}
+
 double PartnerFit::share_met(const UnitSphere& sphere, Index wanted) const {
   Index asked;
   const double hits = static_cast<double>(meetings(sphere, wanted, met * spacing_, &asked).size());
-  return hits / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
+  return hits / static_cast<double>(at_least_a_quarter(asked, wanted));
 }
 
 Points PartnerFit::unmet(const UnitSphere& sphere) const {
@@ -130,13 +140,21 @@ Points PartnerFit::unmet(const UnitSphere& sphere) const {
   return rest;
 }
 
-double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
+double PartnerFit::nearness(const UnitSphere& sphere, Index wanted, double reach) const {
   Index asked;
   double sum = 0;
-  const double reach = near * spacing_;
   for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked))
     sum += tukey(meeting.gap.norm() / reach);
-  return sum / static_cast<double>(std::max({asked, wanted / 4, Index{1}}));
+  return sum / static_cast<double>(at_least_a_quarter(asked, wanted));
+}
+
+double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
+  return nearness(sphere, wanted, near * spacing_);
+}
+
+double PartnerFit::closeness(const UnitSphere& sphere) const {
+  constexpr Index wanted = 3000;
+  return (nearness(sphere, wanted) + nearness(sphere, wanted, 10 * exact * spacing_)) / 2;
 }
 
 SphereCandidate PartnerFit::slid(const SphereCandidate& start,

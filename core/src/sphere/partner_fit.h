@@ -10,9 +10,9 @@
 namespace symsurf {
 
 /// Fits spheres where the same points stand on both sides. A sheet that slides along itself holds a
-/// sphere loosely, partners hold it firmly: a point x and its partner have their centre on their
-/// line, a radius r from their midpoint m, so that two of them tell the sphere and whether they
-/// agree, m1 + r u1 = m2 + r u2. Partners are sought among the points near the images.
+/// sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point and
+/// its partner, its normal u there along their line, so that two of them tell the curvature k and
+/// whether they agree, u1 - u2 = k (m1 - m2). Partners are sought among the points near the images.
 class PartnerFit {
  public:
   /// The spacing of the points, in the principal frame.
@@ -32,9 +32,9 @@ class PartnerFit {
   /// The same sphere on up to `most` of the points, to rounding where partners are exact.
   UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
 
-  /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
-  /// moves.
-  double nearness(const UnitSphere& sphere, Index wanted) const;
+  /// How close images come to points, in [0, 1]: half for those within about the spacing, half for
+  /// exact partners.
+  double closeness(const UnitSphere& sphere) const;
 
   /// The points, in input units, whose images meet no other.
   Points unmet(const UnitSphere& sphere) const;
@@ -45,12 +45,17 @@ class PartnerFit {
   };
   /// A point and one that may be its partner.
   struct Chord {
-    Vector3 middle, to_centre;
+    Vector3 middle, along;  // along: as the sphere's normal
   };
 
   std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
   std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
                                 Index* asked = nullptr) const;
+  /// Mean of (1 - gap^2 / s^2)^2, s the reach or about the spacing, over about `wanted` points that
+  /// the sphere moves.
+  double nearness(const UnitSphere& sphere, Index wanted, double reach) const;
+  double nearness(const UnitSphere& sphere, Index wanted) const;
+  Index at_least_a_quarter(Index asked, Index wanted) const;
   double share_met(const UnitSphere& sphere, Index wanted) const;
 
   const Cloud& cloud_;

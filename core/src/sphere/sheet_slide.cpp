@@ -23,8 +23,7 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
   for (int i = -farthest[0]; i <= farthest[0]; ++i)
     for (int j = -farthest[1]; j <= farthest[1]; ++j) {
       const Eigen::Vector4d by = step * spacing * loosest * Eigen::Vector2d(i, j);
-      const UnitSphere there{sphere.centre + by.head<3>(), sphere.radius + by[3]};
-      if (there.radius > 0) around.push_back(there);
+      around.push_back(sphere.changed(by));
     }
   return around;
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "../parametric/pair_hypotheses.h"
 #include "../plane/maximise.h"
+#include "large_spheres.h"
 #include "sphere_measure.h"
 
 namespace symsurf {
@@ -15,35 +15,34 @@ namespace {
 constexpr Index pairs_tried = 40000, pairs_kept = 4000;
 
 // Of both signs: to which side of the pair the centre lies. Diagonals.
-constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
+constexpr std::array curvatures{0.0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.5,
+                                3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
 
 // Of each size of spheres, the largest first. Diagonals.
 constexpr std::array least_radii{0.7, 0.3, 0.0};
 
-constexpr Index started = 48;              // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;         // of these, have their measure maximised
-constexpr Index measured = 500;            // surfels that the measure is taken over
-constexpr double hopeless = 0.6;           // of what the best explains: not worth fitting
-constexpr double bent = 0.6, largest = 3;  // radii, in diagonals: no plane, nothing but one
-constexpr double flat_radius = 30, as_much = 0.9;
+constexpr Index started = 48;       // candidates that are settled on the surfels
+constexpr std::size_t climbed = 3;  // of these, have their measure maximised
+constexpr Index measured = 500;     // surfels that the measure is taken over
+constexpr double hopeless = 0.6;    // of what the best explains: not worth fitting
 
 // Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point and
 // the normal of the sphere there; the curvature is scanned. The best `count` that differ.
 std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,
                                                const Context& context) {
-  const auto through = [](const Vector3& middle, const Vector3& u, const auto& add) {
+  const auto through = [](const Vector3& middle, const Vector3& u, double most, const auto& add) {
     for (const double curvature : curvatures)
-      for (const double side : {-1.0, 1.0})
-        add(UnitSphere{middle + side / curvature * u, 1 / curvature});
+      if (curvature <= most)
+        for (const double side : {-1.0, 1.0}) add(UnitSphere{middle, u, side * curvature});
   };
   std::vector<UnitSphere> left =
       hypotheses_of_pairs<UnitSphere>(surfels, seed, pairs_tried, pairs_kept, through);
   // Each size apart: of a ball any plane through its middle explains more than most spheres do.
   std::vector<SphereCandidate> candidates;
   for (const double least : least_radii) {
-    const auto rest = std::stable_partition(left.begin(), left.end(),
-                                            [&](const UnitSphere& s) { return s.radius < least; });
+    const auto rest = std::stable_partition(
+        left.begin(), left.end(), [&](const UnitSphere& s) { return s.radius() < least; });
     const std::vector<UnitSphere> chosen(rest, left.end());
     left.erase(rest, left.end());
     for (const SphereCandidate& candidate :
@@ -63,32 +62,14 @@ void drop_hopeless(std::vector<SphereCandidate>& candidates) {
 void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
   const SphereMeasure measure(surfels.positions(measured));
   for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
-    Eigen::Vector4d s;
-    s << candidates[i].shape.centre, candidates[i].shape.radius;
-    s = maximise<4>(measure, s, 0.02, 8);
-    const UnitSphere sphere{s.head<3>(), s[3]};
+    const UnitSphere sphere =
+        UnitSphere::of(maximise<5>(measure, candidates[i].shape.coefficients(), 0.02, 8));
     const double explained = explained_share(surfels, map, sphere, 0.02, 3);
     if (explained > candidates[i].explained) candidates[i] = {sphere, explained};
   }
 }
 
 }  // namespace
-
-void drop_planes(const Surfels& surfels, const SurfelMap& map,
-                 std::vector<SphereCandidate>& candidates) {
-  const auto is_plane = [&](const SphereCandidate& c) {
-    if (c.shape.radius > largest) return true;
-    if (c.shape.radius < bent) return false;
-    const Vector3 up = c.shape.centre.normalized();  // from the cloud's centroid
-    const Vector3 foot = c.shape.centre - c.shape.radius * up;
-    const SphereCandidate flat{{foot + flat_radius * up, flat_radius}};
-    const double explained = settled(surfels, map, flat, 0.03, 0.02, 4, 1).explained;
-    return explained > as_much * explained_share(surfels, map, c.shape, 0.02);
-  };
-  std::vector<SphereCandidate> spheres;
-  std::remove_copy_if(candidates.begin(), candidates.end(), std::back_inserter(spheres), is_plane);
-  if (!spheres.empty()) candidates = std::move(spheres);
-}
 
 std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,
@@ -97,13 +78,16 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
   if (candidates.empty()) candidates.push_back({});
   for (SphereCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
-  drop_planes(surfels, map, candidates);
-  keep_distinct(surfels, candidates, alike_spheres, started);
-  climb(surfels, map, candidates);
-  drop_hopeless(candidates);
+  std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
+  if (!candidates.empty()) {
+    keep_distinct(surfels, candidates, alike_spheres, started);
+    climb(surfels, map, candidates);
+    drop_hopeless(candidates);
+  }
   for (SphereCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
   keep_distinct(surfels, candidates, alike_spheres, count);
+  candidates.insert(candidates.end(), planes.begin(), planes.end());
   return candidates;
 }
 

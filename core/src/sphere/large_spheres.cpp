@@ -1,0 +1,76 @@
+#include "large_spheres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "../plane/plane_step.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double bent = 0.6;  // diagonals: smaller spheres are no planes
+constexpr double as_much = 0.9;
+constexpr Index looked_at = 800;  // points
+constexpr Index taken_at_most = 2;
+
+bool could_be_plane(const UnitSphere& sphere) { return std::abs(sphere.curvature) * bent < 1; }
+
+Candidate<UnitPlane> touching_plane(const UnitSphere& sphere) {
+  const Vector3 up = sphere.gradient(Vector3::Zero()).normalized();
+  return {{up, sphere.distance(Vector3::Zero())}};
+}
+
+Candidate<UnitPlane> fitted_plane(const ParametricRefinement& refinement,
+                                  const UnitSphere& sphere) {
+  return refinement.fitted(touching_plane(sphere), looked_at, 6);
+}
+
+template <typename IsPlane>
+void drop(const IsPlane& is_plane, std::vector<SphereCandidate>& candidates) {
+  std::vector<SphereCandidate> spheres;
+  std::remove_copy_if(
+      candidates.begin(), candidates.end(), std::back_inserter(spheres),
+      [&](const SphereCandidate& c) { return could_be_plane(c.shape) && is_plane(c.shape); });
+  if (!spheres.empty()) candidates = std::move(spheres);
+}
+
+}  // namespace
+
+std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
+                                         std::vector<SphereCandidate>& candidates) {
+  const auto planes =
+      std::stable_partition(candidates.begin(), candidates.end(), [&](const SphereCandidate& c) {
+        if (!could_be_plane(c.shape)) return true;
+        const double flat =
+            settled(surfels, map, touching_plane(c.shape), 0.03, 0.02, 4, 1).explained;
+        return flat <= as_much * explained_share(surfels, map, c.shape, 0.02);
+      });
+  std::vector<SphereCandidate> taken(planes, candidates.end());
+  candidates.erase(planes, candidates.end());
+  keep_distinct(surfels, taken, alike_spheres, taken_at_most);
+  return taken;
+}
+
+void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
+  drop(
+      [&](const UnitSphere& sphere) {
+        return fitted_plane(refinement, sphere).explained >
+               as_much * refinement.explained(sphere, looked_at);
+      },
+      candidates);
+}
+
+void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
+                 const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates) {
+  drop(
+      [&](const UnitSphere& sphere) {
+        const Plane plane = in_input_units(fitted_plane(refinement, sphere).shape, frame);
+        return discounted(score.explained(plane), "plane") >=
+               discounted(score.explained(in_input_units(sphere, frame)), "sphere");
+      },
+      candidates);
+}
+
+}  // namespace symsurf

@@ -1,0 +1,110 @@
+#include "sphere/unit_sphere.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "plane/unit_plane.h"
+#include "random_cloud.h"
+#include "sphere/sphere_measure.h"
+
+namespace symsurf {
+namespace {
+
+// Through the cloud's box; of either sign, or a plane.
+constexpr std::array curvatures{-1.0, -0.1, -1e-6, 0.0, 1e-9, 0.01, 0.7};
+
+UnitSphere random_sphere(RandomCloud& random, double curvature) {
+  return {0.3 * random.in_box(), random.direction(), curvature};
+}
+
+TEST(UnitSphere, IsThePlaneWhereCurvatureVanishes) {
+  RandomCloud random(1);
+  for (int k = 0; k < 20; ++k) {
+    const UnitSphere sphere = random_sphere(random, 0);
+    const UnitPlane plane{sphere.normal, -sphere.normal.dot(sphere.point)};
+    const Vector3 x = random.in_box(), v = random.direction();
+    EXPECT_NEAR(sphere.distance(x), plane.distance(x), 1e-15);
+    EXPECT_NEAR((sphere.reflect(x) - plane.reflect(x)).norm(), 0, 2e-15);
+    EXPECT_NEAR((sphere.reflect_direction(x, v) - plane.reflect_direction(v)).norm(), 0, 2e-15);
+  }
+}
+
+TEST(UnitSphere, IsTheSphereAboutItsCentre) {
+  RandomCloud random(2);
+  for (const double curvature : curvatures) {
+    if (std::abs(curvature) < 1e-3) continue;
+    const UnitSphere sphere = random_sphere(random, curvature);
+    const Sphere truth(sphere.centre(), sphere.radius());
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 x = 0.5 * random.in_box();
+      const double side = curvature > 0 ? 1 : -1;
+      EXPECT_NEAR(side * sphere.distance(x), truth.signed_distance(x), 1e-13);
+      EXPECT_NEAR((sphere.reflect(x) - truth.reflect(x)).norm(), 0, 1e-13);
+    }
+  }
+}
+
+TEST(UnitSphere, HasNoImageBeyondTwiceItsRadius) {
+  const UnitSphere sphere{Vector3::UnitX(), Vector3::UnitX(), 1};
+  EXPECT_TRUE(sphere.reflect({1.9, 0, 0}).allFinite());
+  EXPECT_FALSE(sphere.reflect({2.1, 0, 0}).allFinite());
+  EXPECT_FALSE(sphere.reflect({0, 0, 0}).allFinite());
+}
+
+TEST(UnitSphere, KeepsItsPlaceInCoefficientsOfAnyLength) {
+  RandomCloud random(3);
+  for (const double curvature : curvatures) {
+    const UnitSphere sphere = random_sphere(random, curvature);
+    const auto abc = sphere.coefficients();
+    EXPECT_NEAR(abc.segment<3>(1).squaredNorm() - 4 * abc[0] * abc[4], 1, 1e-14);
+    const UnitSphere again = UnitSphere::of(random.uniform(0.1, 10) * abc);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 x = 0.5 * random.in_box();
+      EXPECT_NEAR(again.distance(x), sphere.distance(x), 1e-14);
+    }
+  }
+}
+
+// Wrong slopes would not converge quadratically.
+TEST(UnitSphere, IsFoundFromItsPairsInAFewSteps) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const double curvature : curvatures) {
+      RandomCloud random(seed);
+      const UnitSphere truth = random_sphere(random, curvature);
+      const Points cloud = 0.4 * random.box(30);
+      UnitSphere sphere = truth.changed({0.05, -0.04, 0.03, 0.1});
+      for (int step = 0; step < 6; ++step) {
+        SphereStep sum(sphere);
+        for (Index i = 0; i < cloud.rows(); ++i) {
+          const Vector3 x = cloud.row(i);
+          const Vector3 gap = sphere.reflect(x) - truth.reflect(x);
+          if (gap.allFinite()) sum.add(x, gap, Matrix3::Identity(), 1);
+        }
+        sphere = sum.taken();
+      }
+      for (Index i = 0; i < cloud.rows(); ++i)
+        EXPECT_NEAR(sphere.distance(cloud.row(i)), truth.distance(cloud.row(i)), 1e-13)
+            << curvature;
+    }
+}
+
+TEST(SphereMeasure, IsThatOfThePlaneWhereCurvatureVanishes) {
+  RandomCloud random(4);
+  const Points points = random.box(200);
+  const SphereMeasure spheres(points);
+  const SymmetryMeasure planes(points);
+  for (int k = 0; k < 10; ++k) {
+    const UnitSphere sphere = random_sphere(random, 0);
+    Eigen::Vector4d plane;
+    plane << sphere.normal, -sphere.normal.dot(sphere.point);
+    Eigen::Vector4d plane_gradient;
+    SphereMeasure::Coefficients gradient;
+    EXPECT_NEAR(spheres(sphere.coefficients(), &gradient), planes(plane, &plane_gradient), 1e-10);
+    EXPECT_NEAR((gradient.tail<4>() - plane_gradient).norm(), 0, 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
