@@ -85,6 +85,17 @@ def relief_trial(seed: int, count: int = 1500) -> Trial:
     return _mirrored(np.column_stack([xy, z]), rng, LEAST_POINTS)
 
 
+def wide_trial(seed: int, diagonals: float, count: int = 1500) -> Trial:
+    """A random relief and its image in a sphere so large that it is nearly a plane."""
+    rng = np.random.default_rng([seed, 102])
+    xy = rng.uniform(-0.5, 0.5, (count, 2))
+    waves, phases = rng.normal(size=(4, 2)) * 4, rng.uniform(0, 6, 4)
+    z = -0.35 - 0.05 * np.sin(xy @ waves.T + phases).sum(axis=1)
+    cloud = np.column_stack([xy, z])
+    radius = diagonals * diagonal(np.vstack([cloud, cloud * (1, 1, -1)]))
+    return _posed(cloud, symsurf.Sphere((0, 0, -radius), radius), rng)
+
+
 Damage = Callable[[Array, np.random.Generator], Array]
 
 
@@ -159,6 +170,9 @@ def main(seeds: int, hard: bool) -> None:
     report("noise 1 %", thesis(), noise(0.01), DAMAGED)
     report("20 % missing, scattered", thesis(), scattered(0.2), DAMAGED)
     report("20 % missing, one hole", thesis(), hole(0.2), DAMAGED)
+    for diagonals in (3, 10, 30, 100):
+        wide = (wide_trial(seed, diagonals) for seed in range(seeds))
+        report(f"of {diagonals} diagonals, clean", wide, none, CLEAN)
     if not hard:
         return
     report("noise 1 %, Gaussian", thesis(), gaussian(0.01), DAMAGED)

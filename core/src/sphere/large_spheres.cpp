@@ -32,7 +32,7 @@ void drop(const IsPlane& is_plane, std::vector<SphereCandidate>& candidates) {
   std::vector<SphereCandidate> spheres;
   std::remove_copy_if(
       candidates.begin(), candidates.end(), std::back_inserter(spheres),
-      [&](const SphereCandidate& c) { return could_be_plane(c.shape) && is_plane(c.shape); });
+      [&](const SphereCandidate& c) { return could_be_plane(c.shape) && is_plane(c); });
   if (!spheres.empty()) candidates = std::move(spheres);
 }
 
@@ -55,9 +55,9 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
 
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
   drop(
-      [&](const UnitSphere& sphere) {
-        return fitted_plane(refinement, sphere).explained >
-               as_much * refinement.explained(sphere, looked_at);
+      [&](const SphereCandidate& c) {
+        return c.partnered == 0 && fitted_plane(refinement, c.shape).explained >
+                                       as_much * refinement.explained(c.shape, looked_at);
       },
       candidates);
 }
@@ -65,10 +65,11 @@ void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandi
 void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
                  const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates) {
   drop(
-      [&](const UnitSphere& sphere) {
-        const Plane plane = in_input_units(fitted_plane(refinement, sphere).shape, frame);
+      [&](const SphereCandidate& c) {
+        const Plane plane = in_input_units(fitted_plane(refinement, c.shape).shape, frame);
+        const Sphere sphere = in_input_units(c.shape, frame);
         return discounted(score.explained(plane), "plane") >=
-               discounted(score.explained(in_input_units(sphere, frame)), "sphere");
+               discounted(score.explained(sphere), "sphere");
       },
       candidates);
 }

@@ -16,11 +16,11 @@ namespace symsurf {
 std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
                                          std::vector<SphereCandidate>& candidates);
 
-/// Drops those that a plane explains as well, as far as points tell; all but where there is nothing
-/// else.
+/// Drops those without partners that a plane explains as well, as far as points tell; all but where
+/// there is nothing else.
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates);
 
-/// The same by the score.
+/// The same by the score, with partners or without.
 void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
                  const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates);
 
