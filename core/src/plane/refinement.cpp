@@ -51,6 +51,25 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   const auto along_curve = [](const Sample& a, const Sample& b) { return a.place < b.place; };
   std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
   std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
+  noise_ = measured_noise();
+}
+
+// From how far neighbours lie off the sheet. Being near, they have much of their noise in common.
+double Refinement::measured_noise() const {
+  constexpr double shown = 0.67;  // of it, in the median
+  const Subset few = about(few_samples);
+  std::vector<Vector3> places;
+  for (Index i = 0; i < few.end; i += few.stride)
+    places.push_back(cloud_.frame.leave(samples_[i].position));
+  if (places.empty()) return 0;
+  const std::vector<Vector3> neighbours = points_.second_nearest(places);
+  std::vector<double> offsets;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Sample& s = samples_[static_cast<Index>(k) * few.stride];
+    const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.position;
+    offsets.push_back(std::abs(chord.dot(s.surfel->normal)));
+  }
+  return median(std::move(offsets)) / shown;
 }
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
@@ -108,7 +127,8 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
 // what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) const {
-  constexpr double wide = 0.01, narrow = 0.003;
+  constexpr double wide = 0.01;
+  const double narrow = std::clamp(1.4 * noise_, 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
   const Subset most = about(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
@@ -118,7 +138,7 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around), most);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
-      fitted(close ? closely.plane : rough, close ? narrow : wide / 2, all(), 2);
+      fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), all(), 2);
   return {fitted_to_exact_pairs(plane), std::max(closely.explained, roughly)};
 }
 
@@ -149,7 +169,8 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
       const double weight = displaced(plane.distance(s.position), tolerance);
       if (weight <= 0) continue;
       const Vector3 image = plane.reflect(s.position);
-      const Surfel& p = *match.surfel;
+      Surfel p = *match.surfel;
+      p.flatness = p.flatness_without(noise_);
       Vector3 gap = image - match.partner;
       if (tolerance > noisy)
         gap += (image.dot(p.normal) - p.height - gap.dot(p.normal)) * p.flatness * p.normal;

@@ -47,6 +47,7 @@ class Refinement {
 
   Subset about(Index wanted) const;
   Subset all() const;
+  double measured_noise() const;
   PlaneCandidate rated(const UnitPlane& plane, Subset subset) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
@@ -60,7 +61,8 @@ class Refinement {
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
-  double spacing_;  // of the points on a sheet
+  double spacing_;    // of the points on a sheet
+  double noise_ = 0;  // their standard deviation off it
   std::vector<Sample> samples_;
   Index even_samples_ = 0;  // the first ones, spread evenly over the cloud
 };

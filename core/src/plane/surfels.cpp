@@ -49,7 +49,7 @@ struct Moments {
 
 struct Thinnest {
   Vector3 direction;
-  double flatness;
+  double flatness, thickness, width;
 };
 
 // The direct solver is quick but gives half the digits; one Rayleigh quotient iteration, with the
@@ -58,7 +58,7 @@ Thinnest thinnest_direction(const Matrix3& covariance) {
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(covariance);
   const Vector3 rough = eigen.eigenvectors().col(0), spread = eigen.eigenvalues();
-  if (!(spread[1] > line_thinness * spread[2])) return {rough, 0};
+  if (!(spread[1] > line_thinness * spread[2])) return {rough, 0, 0, 0};
 
   const Matrix3 shifted = covariance - rough.dot(covariance * rough) * Matrix3::Identity();
   Matrix3 adjugate;
@@ -69,10 +69,16 @@ Thinnest thinnest_direction(const Matrix3& covariance) {
   constexpr double rounded_off = 1e-8;
   const double least = std::max(0.0, direction.dot(covariance * direction)) / spread[1];
   const double thickness = std::sqrt(least + rounded_off) - std::sqrt(rounded_off);
-  return {direction, std::max(0.0, 1 - thickness)};
+  return {direction, std::max(0.0, 1 - thickness), std::sqrt(least * spread[1]),
+          std::sqrt(spread[1])};
 }
 
 }  // namespace
+
+double Surfel::flatness_without(double noise) const {
+  const double thin = thickness * thickness - noise * noise, wide = width * width - noise * noise;
+  return wide > 0 ? std::max(flatness, 1 - std::sqrt(std::max(0.0, thin) / wide)) : flatness;
+}
 
 // What is known of the points of a cell.
 struct Surfels::Patch {
@@ -177,7 +183,7 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
     const Thinnest thinnest = thinnest_direction(around.covariance());
     surfels_.push_back({low_ + patch.moments.mean(), thinnest.direction,
                         thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
-                        patch.nearest.index, patch.sampled});
+                        thinnest.thickness, thinnest.width, patch.nearest.index, patch.sampled});
   }
 }
 

@@ -15,8 +15,12 @@ struct Surfel {
   Vector3 normal;   ///< unit, sign arbitrary
   double height;    ///< of the plane through the cells around, along the normal: a' normal = height
   double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
-  Index sample;     ///< the cloud's point nearest to the middle of the cell
-  Vector3 sampled;  ///< where that point is
+  double thickness, width;  ///< standard deviations along the thinnest direction and the next
+  Index sample;             ///< the cloud's point nearest to the middle of the cell
+  Vector3 sampled;          ///< where that point is
+
+  /// What the flatness would be without noise of that standard deviation.
+  double flatness_without(double noise) const;
 };
 
 /// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
