@@ -17,11 +17,12 @@ namespace {
 
 constexpr std::size_t finalists = 8;  // are fitted to the full cloud
 constexpr std::size_t polished = 3;   // and of these, to ever more of it
-constexpr double promising = 0.65;    // and from here on worth sliding
+constexpr double promising = 0.8;     // and from here on worth sliding
 constexpr double symmetric = 0.35;    // more than what shapes without a mirror explain
 constexpr double on_sheets = 0.97;    // of what it explained before
 constexpr double by_chance = 0.25;    // fewer partners than that prove nothing
 constexpr double least_rest = 0.25;   // of the cloud: worth a search of its own
+constexpr double exact = 0.8;         // partners that need no sheets
 constexpr int slides = 3;             // of one sphere, at the most
 
 // Through noise some points meet others by chance: that outweighs no sheet.
@@ -132,6 +133,8 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (auto c = candidates.begin(); c != loose; ++c) c->partnered = partner_fit.closeness(c->shape);
   std::stable_sort(candidates.begin(), loose,
                    [](const auto& a, const auto& b) { return a.partnered > b.partnered; });
+  if (candidates.front().partnered < exact)
+    candidates.front().shape = settled_on_sheets(candidates.front(), refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace symsurf {
 
@@ -14,6 +15,31 @@ constexpr int slides = 4;
 constexpr Index glance = 120, look = 800;  // samples
 constexpr std::size_t attempts = 4;
 constexpr double clearly_more = 1e-3;
+
+constexpr std::array rounds{1.0, 0.6};                               // their steps, in spacings
+constexpr int few = 2;                                               // steps to either side
+constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
+
+// Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
+// along an axis where it has no maximum, on the side that it rises to.
+Eigen::Vector2d highest(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& values) {
+  Eigen::MatrixXd powers(places.cols(), 6);
+  for (Index k = 0; k < places.cols(); ++k) {
+    const double x = places(0, k), y = places(1, k);
+    powers.row(k) << 1, x, y, x * x, x * y, y * y;
+  }
+  const Eigen::VectorXd fit = powers.colPivHouseholderQr().solve(values);
+  Eigen::Matrix2d bend;
+  bend << 2 * fit[3], fit[4], fit[4], 2 * fit[5];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(bend);
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector2d axis = axes.eigenvectors().col(k);
+    const double bent = axes.eigenvalues()[k], rise = axis.dot(fit.segment<2>(1));
+    at += (bent < 0 ? std::clamp(-rise / bent, -1.0, 1.0) : std::copysign(1.0, rise)) * axis;
+  }
+  return at;
+}
 
 }  // namespace
 
@@ -46,6 +72,27 @@ SphereCandidate slid_along_sheets(SphereCandidate candidate,
     if (candidate.explained == before) break;
   }
   return candidate;
+}
+
+SphereCandidate settled_on_sheets(const SphereCandidate& candidate,
+                                  const ParametricRefinement& refinement) {
+  constexpr int side = 2 * few + 1;
+  Eigen::Matrix2Xd places(2, side * side);
+  for (int k = 0; k < side * side; ++k)
+    places.col(k) = Eigen::Vector2d(k / side - few, k % side - few) / few;
+  SphereCandidate settled = candidate;
+  for (const double step : rounds) {
+    const Eigen::Matrix<double, 4, 2> around =
+        few * step * refinement.spacing() * refinement.loosest(settled.shape);
+    Eigen::VectorXd values(places.cols());
+    for (Index k = 0; k < places.cols(); ++k)
+      values[k] = refinement.explained(settled.shape.changed(around * places.col(k)), settling);
+    settled.shape = settled.shape.changed(around * highest(places, values));
+    settled = refinement.fitted(settled, refitted, 3);
+  }
+  settled.explained = refinement.explained(settled.shape, look_again);
+  return settled.explained > refinement.explained(candidate.shape, look_again) ? settled
+                                                                               : candidate;
 }
 
 }  // namespace symsurf

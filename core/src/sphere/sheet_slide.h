@@ -18,4 +18,10 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
 SphereCandidate slid_along_sheets(SphereCandidate candidate,
                                   const ParametricRefinement& refinement);
 
+/// Fits a quadratic to what places over the same plane explain, near the sphere, and goes where it
+/// is highest: many places together tell more than each, which noise moves up and down. The
+/// candidate as it was where it explains no more there.
+SphereCandidate settled_on_sheets(const SphereCandidate& candidate,
+                                  const ParametricRefinement& refinement);
+
 }  // namespace symsurf
