@@ -139,8 +139,9 @@ std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, cons
   constexpr std::size_t first_count = 1500, second_count = 300;
   const auto stride = [&](Index wanted) { return std::max<Index>(1, surfels.size() / wanted); };
   std::vector<Candidate<Shape>> found;
-  for (const Shape& shape : hypotheses) {
-    context.check();
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i % 256 == 0) context.check();
+    const Shape& shape = hypotheses[i];
     if (explained_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
     const double explained = explained_share(surfels, map, shape, tolerance, stride(first_look));
     if (explained > least_explained) found.push_back({shape, explained});

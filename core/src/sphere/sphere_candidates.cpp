@@ -15,8 +15,7 @@ namespace {
 constexpr Index pairs_tried = 40000, pairs_kept = 4000;
 
 // Of both signs: to which side of the pair the centre lies. Diagonals.
-constexpr std::array curvatures{0.0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.5,
-                                3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
+constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
 
 // Of each size of spheres, the largest first. Diagonals.
 constexpr std::array least_radii{0.7, 0.3, 0.0};
@@ -32,6 +31,7 @@ std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const Sur
                                                std::uint64_t seed, Index count,
                                                const Context& context) {
   const auto through = [](const Vector3& middle, const Vector3& u, double most, const auto& add) {
+    add(UnitSphere{middle, u, 0});
     for (const double curvature : curvatures)
       if (curvature <= most)
         for (const double side : {-1.0, 1.0}) add(UnitSphere{middle, u, side * curvature});
