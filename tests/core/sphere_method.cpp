@@ -94,6 +94,26 @@ TEST(SphereMethod, FindsSpheresOfManyDiagonalsToRounding) {
     }
 }
 
+// Where planes are all there is.
+TEST(SphereMethod, MakesNoSphereOfAPlane) {
+  RandomCloud random(1);
+  Points grid(100, 3), sheets(800, 3);
+  for (Index i = 0; i < 100; ++i) grid.row(i) << i % 10, i / 10, 0;
+  for (Index i = 0; i < 400; ++i) {
+    const double x = random.uniform(0, 1), y = random.uniform(0, 1);
+    const double z = 0.3 + 0.1 * std::sin(6 * x) * y;
+    sheets.row(2 * i) << x, y, z;
+    sheets.row(2 * i + 1) << x, y, -z;
+  }
+  Options options;
+  options.method = "sphere";
+  for (const Points& points : {grid, sheets}) {
+    const Result result = detect(points, options);
+    if (!result.mirror) continue;
+    EXPECT_LT(dynamic_cast<const Sphere&>(*result.mirror).radius(), 1e5);
+  }
+}
+
 // At 10^4 points the noise is wider than their spacing: no point is near its partner.
 TEST(SphereMethod, FindsSpheresThroughOnePercentNoise) {
   for (const Index n : {1500, 5000}) {

@@ -97,7 +97,10 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);
   }
+  Result none;
+  none.method = "sphere";
   drop_planes(refinement, candidates);
+  if (candidates.empty()) return none;
   sort_best_first(candidates);
   for (const SphereCandidate& candidate :
        spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
@@ -124,6 +127,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
   const MirrorScore score(cloud, tree, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
+  if (candidates.empty()) return none;
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
 
   // Partners tell more than sheets, which many spheres map onto each other about as well.

@@ -10,7 +10,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr double bent = 0.6;  // diagonals: smaller spheres are no planes
+constexpr double bent = 0.6;    // diagonals: smaller spheres are no planes
+constexpr double widest = 1e4;  // diagonals: larger ones lose digits, and are planes to anybody
 constexpr double as_much = 0.9;
 constexpr Index looked_at = 800;  // points
 constexpr Index taken_at_most = 2;
@@ -29,6 +30,7 @@ Candidate<UnitPlane> fitted_plane(const ParametricRefinement& refinement,
 
 template <typename IsPlane>
 void drop(const IsPlane& is_plane, std::vector<SphereCandidate>& candidates) {
+  std::erase_if(candidates, [](const SphereCandidate& c) { return c.shape.radius() > widest; });
   std::vector<SphereCandidate> spheres;
   std::remove_copy_if(
       candidates.begin(), candidates.end(), std::back_inserter(spheres),

@@ -17,7 +17,7 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
                                          std::vector<SphereCandidate>& candidates);
 
 /// Drops those without partners that a plane explains as well, as far as points tell; all but where
-/// there is nothing else.
+/// there is nothing else. Those that nobody tells from a plane go in any case.
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates);
 
 /// The same by the score, with partners or without.
