@@ -1,5 +1,6 @@
 #include "refinement.h"
 
+#include <Eigen/Eigenvalues>
 #include <array>
 
 #include "../sheet_spacing.h"
@@ -25,6 +26,16 @@ ParametricRefinement::ParametricRefinement(const Cloud& cloud, const NearestPoin
 
 Index ParametricRefinement::stride_for(Index wanted) const {
   return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Eigen::MatrixXd& held,
+                                                                       Eigen::MatrixXd moved,
+                                                                       double count) {
+  if (!(count > 0)) return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(moved.rows(), 2);
+  moved /= count;
+  moved.diagonal().array() += 1e-9 * moved.trace();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, moved);
+  return eigen.eigenvectors().leftCols(2);
 }
 
 // The mean over tolerances from coarse to fine: images that meet a point exactly count in full,

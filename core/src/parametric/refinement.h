@@ -61,6 +61,10 @@ class ParametricRefinement {
   template <typename Shape>
   std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
   static double closeness(const Agreement& agreement);
+  // `held`: what changes cost on the sheets; `moved`: how far they move the images, summed over
+  // `count`.
+  static Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Eigen::MatrixXd& held,
+                                                          Eigen::MatrixXd moved, double count);
 
   const Cloud& cloud_;
   const NearestPoints& points_;
@@ -172,12 +176,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Sha
     moved.add(s.position, match.gap, Matrix3::Identity(), weight);
     count += weight;
   }
-  Eigen::MatrixXd motion = moved.hessian();
-  if (!(count > 0)) return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(motion.rows(), 2);
-  motion /= count;
-  motion.diagonal().array() += 1e-9 * motion.trace();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held.hessian(), motion);
-  return eigen.eigenvectors().leftCols(2);
+  return loosest(held.hessian(), moved.hessian(), count);
 }
 
 template <typename Shape>

@@ -23,12 +23,16 @@ constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
 // Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
 // along an axis where it has no maximum, on the side that it rises to.
 Eigen::Vector2d highest(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& values) {
-  Eigen::MatrixXd powers(places.cols(), 6);
+  using Powers = Eigen::Vector<double, 6>;
+  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+  Powers products = Powers::Zero();
   for (Index k = 0; k < places.cols(); ++k) {
     const double x = places(0, k), y = places(1, k);
-    powers.row(k) << 1, x, y, x * x, x * y, y * y;
+    const Powers powers{{1, x, y, x * x, x * y, y * y}};
+    squares += powers * powers.transpose();
+    products += values[k] * powers;
   }
-  const Eigen::VectorXd fit = powers.colPivHouseholderQr().solve(values);
+  const Powers fit = squares.ldlt().solve(products);
   Eigen::Matrix2d bend;
   bend << 2 * fit[3], fit[4], fit[4], 2 * fit[5];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(bend);
