@@ -5,9 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../plane/agreement.h"
-#include "../plane/surfel_map.h"
-#include "../plane/surfels.h"
+#include "settling.h"
 
 namespace symsurf {
 
@@ -58,27 +56,12 @@ double explained_share(const Surfels& surfels, const SurfelMap& map, const Shape
   return explained / std::max(moved, least_moved * static_cast<double>(looked));
 }
 
-/// Moves a mirror onto the surfels' images, looking less far with each step.
+/// Moves a mirror onto the surfels' images.
 template <typename Shape>
 Candidate<Shape> settled(const Surfels& surfels, const SurfelMap& map, Candidate<Shape> candidate,
                          double widest, double narrowest, int steps, Index stride) {
-  for (int step = 0; step < steps; ++step) {
-    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
-    typename Shape::Step sum(candidate.shape);
-    for (Index i = 0; i < surfels.size(); i += stride) {
-      const Surfel& s = surfels[i];
-      const double weight = displaced(candidate.shape.distance(s.position), tolerance);
-      if (weight <= 0) continue;
-      const Vector3 image = candidate.shape.reflect(s.position);
-      const Index j = map.nearest(image);
-      if (j < 0) continue;
-      const Vector3 gap = image - surfels[j].position;
-      const Agreement agreement(gap, candidate.shape.reflect_direction(s.position, s.normal),
-                                s.flatness, surfels[j]);
-      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
-    }
-    candidate.shape = sum.taken();
-  }
+  candidate.shape =
+      moved_onto_images(surfels, map, candidate.shape, widest, narrowest, steps, stride);
   candidate.explained = explained_share(surfels, map, candidate.shape, narrowest, stride);
   return candidate;
 }

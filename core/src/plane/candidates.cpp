@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "../parametric/settling.h"
 #include "agreement.h"
 #include "plane_step.h"
 
@@ -156,23 +157,8 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
 
 PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
                        double widest, double narrowest, int steps, Index stride) {
-  for (int step = 0; step < steps; ++step) {
-    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
-    PlaneStep sum(candidate.plane);
-    for (Index i = 0; i < surfels.size(); i += stride) {
-      const Surfel& s = surfels[i];
-      const double weight = displaced(candidate.plane.distance(s.position), tolerance);
-      if (weight <= 0) continue;
-      const Vector3 image = candidate.plane.reflect(s.position);
-      const Index j = map.nearest(image);
-      if (j < 0) continue;
-      const Vector3 gap = image - surfels[j].position;
-      const Agreement agreement(gap, candidate.plane.reflect_direction(s.normal), s.flatness,
-                                surfels[j]);
-      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
-    }
-    candidate.plane = sum.taken();
-  }
+  candidate.plane =
+      moved_onto_images(surfels, map, candidate.plane, widest, narrowest, steps, stride);
   candidate.explained = explained_share(surfels, map, candidate.plane, narrowest, stride);
   return candidate;
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cmath>
+
+#include "../plane/agreement.h"
+#include "../plane/surfel_map.h"
+#include "../plane/surfels.h"
+
+namespace symsurf {
+
+/// The mirror moved onto the surfels' images, looking less far with each step. For a `Shape` see
+/// candidate.h; `stride` k looks at every k-th surfel.
+template <typename Shape>
+Shape moved_onto_images(const Surfels& surfels, const SurfelMap& map, Shape shape, double widest,
+                        double narrowest, int steps, Index stride) {
+  for (int step = 0; step < steps; ++step) {
+    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
+    typename Shape::Step sum(shape);
+    for (Index i = 0; i < surfels.size(); i += stride) {
+      const Surfel& s = surfels[i];
+      const double weight = displaced(shape.distance(s.position), tolerance);
+      if (weight <= 0) continue;
+      const Vector3 image = shape.reflect(s.position);
+      const Index j = map.nearest(image);
+      if (j < 0) continue;
+      const Vector3 gap = image - surfels[j].position;
+      const Agreement agreement(gap, shape.reflect_direction(s.position, s.normal), s.flatness,
+                                surfels[j]);
+      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
+    }
+    shape = sum.taken();
+  }
+  return shape;
+}
+
+}  // namespace symsurf
