@@ -84,6 +84,8 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
 }
 
 Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  Result best;
+  best.method = "sphere";
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   const SurfelMap map(surfels);
   std::vector<SphereCandidate> candidates =
@@ -97,10 +99,8 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     candidate = refinement.fitted(candidate, 400, 4);
     candidate = partner_fit(candidate);
   }
-  Result none;
-  none.method = "sphere";
   drop_planes(refinement, candidates);
-  if (candidates.empty()) return none;
+  if (candidates.empty()) return best;
   sort_best_first(candidates);
   for (const SphereCandidate& candidate :
        spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
@@ -127,7 +127,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
   const MirrorScore score(cloud, tree, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
-  if (candidates.empty()) return none;
+  if (candidates.empty()) return best;
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
 
   // Partners tell more than sheets, which many spheres map onto each other about as well.
@@ -142,7 +142,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
-  Result best = score.ranked("sphere", mirrors, loose - candidates.begin());
+  best = score.ranked("sphere", mirrors, loose - candidates.begin());
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();

@@ -38,9 +38,9 @@ PartnerFit::PartnerFit(const Cloud& cloud, const NearestPoints& points, const Po
 SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
   SphereCandidate best = start;
   const std::vector<std::vector<Chord>> all = chords(start.shape);
-  const double k = start.shape.curvature, bend = std::abs(k);
-  const double least_curved = k - std::max(k > 0 ? bend / 2 : bend, flatter);
-  const double most_curved = k + std::max(k > 0 ? bend : bend / 2, flatter);
+  const double k = start.shape.curvature;
+  const double least_curved = std::min({k / 2, 2 * k, k - flatter});
+  const double most_curved = std::max({k / 2, 2 * k, k + flatter});
   const auto consider = [&](const Chord& a, const Chord& b) {
     const Vector3 apart = a.middle - b.middle, turned = a.along - b.along;
     const double curvature = apart.dot(turned) / apart.squaredNorm();
@@ -140,21 +140,27 @@ Points PartnerFit::unmet(const UnitSphere& sphere) const {
   return rest;
 }
 
-double PartnerFit::nearness(const UnitSphere& sphere, Index wanted, double reach) const {
+double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
   Index asked;
   double sum = 0;
+  const double reach = near * spacing_;
   for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked))
     sum += tukey(meeting.gap.norm() / reach);
   return sum / static_cast<double>(at_least_a_quarter(asked, wanted));
 }
 
-double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
-  return nearness(sphere, wanted, near * spacing_);
-}
-
 double PartnerFit::closeness(const UnitSphere& sphere) const {
   constexpr Index wanted = 3000;
-  return (nearness(sphere, wanted) + nearness(sphere, wanted, 10 * exact * spacing_)) / 2;
+  Index asked;
+  double roughly = 0, exactly = 0;
+  const double reach = near * spacing_, exact_reach = 10 * exact * spacing_;
+  for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked)) {
+    const double gap = meeting.gap.norm();
+    roughly += tukey(gap / reach);
+    exactly += tukey(gap / exact_reach);
+  }
+  const auto of_all = static_cast<double>(at_least_a_quarter(asked, wanted));
+  return (roughly / of_all + exactly / of_all) / 2;
 }
 
 SphereCandidate PartnerFit::slid(const SphereCandidate& start,

@@ -51,9 +51,8 @@ class PartnerFit {
   std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
   std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
                                 Index* asked = nullptr) const;
-  /// Mean of (1 - gap^2 / s^2)^2, s the reach or about the spacing, over about `wanted` points that
-  /// the sphere moves.
-  double nearness(const UnitSphere& sphere, Index wanted, double reach) const;
+  /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
+  /// moves.
   double nearness(const UnitSphere& sphere, Index wanted) const;
   Index at_least_a_quarter(Index asked, Index wanted) const;
   double share_met(const UnitSphere& sphere, Index wanted) const;
