@@ -50,7 +50,7 @@ int vtkMirrorReflection::RequestData(vtkInformation*, vtkInformationVector** inp
     const symsurf::Points images = mirror_of(mirror)->reflect(points_of(input).view());
     const std::vector<symsurf::Index> kept = rows_without_nan(images);
     vtkNew<vtkPolyData> reflected;
-    set_subset(reflected, input, images(kept, Eigen::all), kept);
+    set_subset(reflected, input, images(kept, Eigen::indexing::all), kept);
     reflected->GetPointData()->SetNormals(nullptr);
     reflected->GetCellData()->SetNormals(nullptr);
 

@@ -18,22 +18,22 @@ namespace symsurf {
 namespace {
 
 template <typename T>
-const T& number(const Values& numbers, const std::string& name) {
+const T& number(const Values& numbers, const char* name) {
   const auto it = numbers.find(name);
   const T* value = it == numbers.end() ? nullptr : std::get_if<T>(&it->second);
   if (!value)
-    throw InvalidInput("the mirror's " + name + " is " +
+    throw InvalidInput(std::string("the mirror's ") + name + " is " +
                        (it == numbers.end() ? "missing" : "'" + to_string(it->second) + "'"));
   return *value;
 }
 
-const Eigen::MatrixXd& table(const Values& numbers, const std::string& name, Index rows,
-                             Index columns) {
+const Eigen::MatrixXd& table(const Values& numbers, const char* name, Index rows, Index columns) {
   const auto& values = number<Eigen::MatrixXd>(numbers, name);
   if (values.rows() != rows || values.cols() != columns)
-    throw InvalidInput("the mirror's " + name + " are " + std::to_string(values.rows()) + " x " +
-                       std::to_string(values.cols()) + " numbers; " + std::to_string(rows) + " x " +
-                       std::to_string(columns) + " are needed");
+    throw InvalidInput(std::string("the mirror's ") + name + " are " +
+                       std::to_string(values.rows()) + " x " + std::to_string(values.cols()) +
+                       " numbers; " + std::to_string(rows) + " x " + std::to_string(columns) +
+                       " are needed");
   return values;
 }
 

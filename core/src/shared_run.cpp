@@ -74,9 +74,9 @@ void keep_pairs_of(Result& result, Index first, Index size) {
   std::vector<Index> kept;
   for (Index row = 0; row < result.pairs.rows(); ++row)
     if (result.pairs(row, 0) >= first && result.pairs(row, 0) < first + size) kept.push_back(row);
-  result.pairs = Pairs(result.pairs(kept, Eigen::all));
+  result.pairs = Pairs(result.pairs(kept, Eigen::indexing::all));
   result.residuals = Eigen::VectorXd(result.residuals(kept));
-  result.surface_points = Points(result.surface_points(kept, Eigen::all));
+  result.surface_points = Points(result.surface_points(kept, Eigen::indexing::all));
 }
 
 // With nobody to wait for once all points are here.

@@ -7,6 +7,9 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cstdlib>
+#include <iostream>
+
 int main(int, char* argv[]) {
   vtkNew<vtkOBJReader> reader;
   reader->SetFileName(argv[1]);

@@ -45,7 +45,7 @@ Points in_random_order(const Points& points) {
   std::vector<Index> rows(points.rows());
   for (Index i = 0; i < points.rows(); ++i) rows[i] = i;
   std::shuffle(rows.begin(), rows.end(), random);
-  return points(rows, Eigen::all);
+  return points(rows, Eigen::indexing::all);
 }
 
 // f5 on a grid and its images over f1: what Algorithm 1 is made for.

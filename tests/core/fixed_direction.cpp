@@ -64,7 +64,7 @@ Points kept(const Sheets& sheets, const std::function<bool(Index)>& keep) {
   std::vector<Index> rows;
   for (Index i = 0; i < sheets.points.rows(); ++i)
     if (keep(i)) rows.push_back(i);
-  return sheets.points(rows, Eigen::all);
+  return sheets.points(rows, Eigen::indexing::all);
 }
 
 double rms_height(const Sheets& sheets, const Points& surface) {

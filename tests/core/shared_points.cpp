@@ -59,7 +59,7 @@ std::vector<Result> detected(const Points& points, const std::vector<std::vector
                              const Options& options) {
   std::vector<Result> results(rows.size());
   ProcessThreads(static_cast<int>(rows.size())).run([&](const Communicator& processes) {
-    const Points own = points(rows[processes.rank()], Eigen::all);
+    const Points own = points(rows[processes.rank()], Eigen::indexing::all);
     results[processes.rank()] = detect(own, options, Context({}, 1).sharing(&processes));
   });
   return results;
@@ -75,7 +75,7 @@ struct Case {
 Points joined(const Points& points, const std::vector<std::vector<Index>>& rows) {
   std::vector<Index> order;
   for (const std::vector<Index>& own : rows) order.insert(order.end(), own.begin(), own.end());
-  return points(order, Eigen::all);
+  return points(order, Eigen::indexing::all);
 }
 
 class SharedPoints : public testing::TestWithParam<Case> {};
@@ -150,7 +150,7 @@ TEST_P(SharedPoints, AreRefusedByAllAlike) {
   Options options;
   options.method = "plane";
   ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
-    const Points own = points(rows[processes.rank()], Eigen::all);
+    const Points own = points(rows[processes.rank()], Eigen::indexing::all);
     try {
       detect(own, options, Context().sharing(&processes));
       ADD_FAILURE() << "no error";
@@ -167,7 +167,7 @@ TEST_P(SharedPoints, OnOneLineAreRefused) {
   Options options;
   options.method = "plane";
   ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
-    const Points own = points(rows[processes.rank()], Eigen::all);
+    const Points own = points(rows[processes.rank()], Eigen::indexing::all);
     EXPECT_THROW(detect(own, options, Context().sharing(&processes)), InvalidInput);
   });
 }
@@ -178,7 +178,7 @@ TEST_P(SharedPoints, StopTogetherWhenOneIsToldTo) {
   Options options;
   options.method = "plane";
   ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
-    const Points own = points(rows[processes.rank()], Eigen::all);
+    const Points own = points(rows[processes.rank()], Eigen::indexing::all);
     const bool stops = processes.rank() == 1;
     const Context context([&](double fraction) { return !stops || fraction < 0.3; }, 1);
     EXPECT_THROW(detect(own, options, context.sharing(&processes)), Cancelled);

@@ -18,9 +18,9 @@ constexpr double near = 2;         // spacings: an image's neighbour
 constexpr double one_sided = 0.5;
 
 void keep(Result& result, const std::vector<Index>& rows) {
-  result.pairs = Pairs(result.pairs(rows, Eigen::all));
+  result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
   result.residuals = Eigen::VectorXd(result.residuals(rows));
-  result.surface_points = Points(result.surface_points(rows, Eigen::all));
+  result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
 }
 
 // Between exact pairs the surface is known; beyond them, as at a hole's rim, it is a guess.
@@ -50,7 +50,7 @@ void keep_credible_pairs(Result& result, double spacing, const Context& context)
       doubtful.push_back(i);
   }
   if (!doubtful.empty()) {
-    const Points known = result.surface_points(credible, Eigen::all);
+    const Points known = result.surface_points(credible, Eigen::indexing::all);
     const PointTree tree(known, context.stage(0, 0.5));
     std::vector<char> kept(doubtful.size());
     parallel_for(context.stage(0.5, 1), kept.size(), 1 << 10, [&](Index begin, Index end) {

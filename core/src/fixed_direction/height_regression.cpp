@@ -38,7 +38,7 @@ Points HeightRegression::places_apart(double distance) const {
     kept.push_back(i);
     tree_.within(all.row(i).transpose(), distance, [&](Index j, double) { covered[j] = 1; });
   }
-  return all(kept, Eigen::all);
+  return all(kept, Eigen::indexing::all);
 }
 
 double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
@@ -82,7 +82,7 @@ Points HeightRegression::fitted(const Points& places, Index neighbours) const {
     fits(i, 2) = height(place, near, -1);
     if (std::isfinite(fits(i, 2))) kept.push_back(i);
   }
-  return fits(kept, Eigen::all);
+  return fits(kept, Eigen::indexing::all);
 }
 
 void HeightRegression::reject_outliers(Index neighbours) {

@@ -79,7 +79,7 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
     for (int shift = 0; shift <= shifts; ++shift) {
       context.check();
       Count count;
-      double sum = 0, lever = 0, own = 0;
+      double lever = 0, own = 0;
       Eigen::Vector2d pull = Eigen::Vector2d::Zero();
       const double* const squares = offsets.squares(at, narrow);
       for (std::size_t k = 0; k < chords.size(); ++k) {
@@ -96,7 +96,6 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
         }
         const double kernel = 1 - squared / (ring_outer * ring_outer);
         const double weight = kernel * kernel * c.weight;
-        sum += weight;
         pull += weight * c.length * o;
         lever += weight * c.length * c.length;
       }

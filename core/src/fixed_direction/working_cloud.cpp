@@ -25,7 +25,7 @@ std::vector<Index> spread_along_curve(const Points& points, Index count, const C
 
 WorkingCloud::WorkingCloud(const Points& framed, Index count, const Context& context)
     : rows(spread_along_curve(framed, count, context.stage(0, 0.3))),
-      points(framed(rows, Eigen::all)),
+      points(framed(rows, Eigen::indexing::all)),
       tree(points, context.stage(0.3, 0.5)) {
   normals.resize(size(), 3);
   flatness.resize(size());
