@@ -3,14 +3,13 @@
 #include <symsurf/detect.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
-#include <numeric>
 
 #include "chosen_parameters.h"
 #include "controller_communicator.h"
 #include "core_call.h"
 #include "field_values.h"
-#include "meeting.h"
 #include "point_arrays.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -37,14 +36,16 @@ vtkNew<Array> filled(const char* name, vtkIdType size, Value value) {
 }
 
 // How many points the processes before this one have.
-symsurf::Index points_before(vtkMultiProcessController* controller, symsurf::Index own) {
-  const ControllerCommunicator processes(controller);
+symsurf::Index points_before(const ControllerCommunicator& processes, symsurf::Index own) {
   if (processes.size() == 1) return 0;
-  const vtkIdType count = own;
-  std::vector<vtkIdType> counts(processes.size());
-  meet_all(controller);
-  controller->AllGather(&count, counts.data(), 1);
-  return std::accumulate(counts.begin(), counts.begin() + processes.rank(), symsurf::Index{0});
+  const auto counts = processes.gather(std::as_bytes(std::span(&own, 1)));
+  symsurf::Index before = 0;
+  for (int rank = 0; rank < processes.rank(); ++rank) {
+    symsurf::Index count;
+    std::memcpy(&count, counts[rank].data(), sizeof count);
+    before += count;
+  }
+  return before;
 }
 
 void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
@@ -117,7 +118,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     const PointArray points = points_of(input);
     const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
     const ControllerCommunicator processes(this->Controller);
-    const symsurf::Index before = points_before(this->Controller, points.view().size());
+    const symsurf::Index before = points_before(processes, points.view().size());
 
     symsurf::Options options;
     options.method = this->Method;
