@@ -45,8 +45,10 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
 
 if(SYMSURF_VTK_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
+  set(symsurf_python_folder
+    ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
   vtk_module_wrap_python(MODULES ${symsurf_modules} PYTHON_PACKAGE symsurf_filters
-    MODULE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages
+    MODULE_DESTINATION ${symsurf_python_folder}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)
 endif()
 
