@@ -14,12 +14,12 @@ namespace {
 
 constexpr int meeting_tag = 7121;
 
-// Awake at first: where each process has a core of its own, most waits are shorter than falling
-// asleep. Then each sleep is a part of the time waited so far, and oversleeping costs no more.
+// Awake at first: where each process has a core of its own, many waits are shorter than falling
+// asleep. Then each sleep is a small part of the time waited so far, and oversleeping costs no more.
 void wait(vtkMPICommunicator::Request& request) {
   using std::chrono::steady_clock, std::chrono::microseconds;
-  constexpr steady_clock::duration patience = microseconds(100), longest = microseconds(1000);
-  constexpr int part = 4;
+  constexpr steady_clock::duration patience = microseconds(20), longest = microseconds(1000);
+  constexpr int part = 16;
   const auto start = steady_clock::now();
   while (!request.Test()) {
     const auto waited = steady_clock::now() - start;

@@ -93,15 +93,11 @@ class SharedMatching {
   // An image's partner is mostly where the image lies: found there first, it leaves little to look
   // for elsewhere.
   void match() {
-    look_at_home();
-    // Each round pairs the processes off: whoever is mine, I am his.
-    for (int round = 0; round < processes_.size(); ++round) {
-      const int other = (round - processes_.rank() + processes_.size()) % processes_.size();
-      if (other != processes_.rank()) consult(other);
-    }
-    std::erase_if(away_, [&](std::int32_t p) { return !within_reach(p, processes_.rank()); });
-    for (std::size_t at = 0; at < away_.size(); at += own_chunk)
-      ask_own(part_of(away_, at, own_chunk));
+    find_homes();
+    consult_each([&](Index place, int process) { return home_[place] == process; });
+    consult_each([&](Index place, int process) {
+      return home_[place] != process && within_reach(place, process);
+    });
   }
 
   void into(Result& result) && {
@@ -133,36 +129,52 @@ class SharedMatching {
     return places.subspan(begin, std::min(count, places.size() - begin));
   }
 
-  bool at_home(const Vector3& image) const {
-    const double own = boxes_[processes_.rank()].squared_distance(image);
-    return own == 0 || std::all_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
-             return own <= box.squared_distance(image);
-           });
-  }
-
-  // May points of that process be nearer to the image than its best so far?
-  bool within_reach(std::int32_t place, int process) const {
-    return boxes_[process].squared_distance(images_[place]) <= squared_[place];
-  }
-
-  void look_at_home() {
+  // An image's home is the process whose box is nearest, of several this one.
+  void find_homes() {
     const Index size = own_.size();
-    for (Index begin = 0; begin < size; begin += own_chunk) {
-      const Index end = std::min(size, begin + own_chunk);
-      Places home;
-      for (Index p = begin; p < end; ++p)
-        (at_home(images_[p]) ? home : away_).push_back(static_cast<std::int32_t>(p));
-      ask_own(home);
-      context_.report(static_cast<double>(end) / static_cast<double>(size));
+    home_.assign(size, processes_.rank());
+    for (Index p = 0; p < size; ++p) {
+      if (p % own_chunk == 0) context_.check();
+      double nearest = boxes_[home_[p]].squared_distance(images_[p]);
+      for (int process = 0; nearest > 0 && process < processes_.size(); ++process) {
+        const double distance = boxes_[process].squared_distance(images_[p]);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        home_[p] = process;
+      }
     }
   }
 
-  // Asks another process about the images that it may have partners for, and answers it.
-  void consult(int other) {
-    Places places;
-    for (std::size_t p = 0; p < images_.size(); ++p)
-      if (within_reach(static_cast<std::int32_t>(p), other))
-        places.push_back(static_cast<std::int32_t>(p));
+  // May points of that process be nearer to the image than its best so far?
+  bool within_reach(Index place, int process) const {
+    return boxes_[process].squared_distance(images_[place]) <= squared_[place];
+  }
+
+  // Asks every process about the images chosen for it, and answers its questions. Each round pairs
+  // the processes off: whoever is mine, I am his; who is left alone asks himself meanwhile.
+  template <typename Chosen>
+  void consult_each(const Chosen& chosen) {
+    const int size = processes_.size();
+    for (int round = 0; round < size; ++round) {
+      const int process = (round - processes_.rank() + size) % size;
+      Places places;
+      for (Index p = 0; p < own_.size(); ++p)
+        if (chosen(p, process)) places.push_back(static_cast<std::int32_t>(p));
+      if (process == processes_.rank())
+        ask_own(places);
+      else
+        ask_other(process, places);
+    }
+  }
+
+  void ask_own(Part places) {
+    for (std::size_t at = 0; at < places.size(); at += own_chunk) {
+      const Part asked = part_of(places, at, own_chunk);
+      keep_nearer(asked, answered(questions(asked)));
+    }
+  }
+
+  void ask_other(int other, Part places) {
     const auto counts = items_of<std::size_t>(
         processes_.swap(other, bytes_of(std::vector<std::size_t>{places.size()})));
     const std::size_t most = std::max(places.size(), counts.front());
@@ -172,8 +184,6 @@ class SharedMatching {
       keep_nearer(asked, items_of<Partner>(processes_.swap(other, bytes_of(answered(given)))));
     }
   }
-
-  void ask_own(Part places) { keep_nearer(places, answered(questions(places))); }
 
   std::vector<Question> questions(Part places) const {
     std::vector<Question> asked;
@@ -196,6 +206,10 @@ class SharedMatching {
       squared_[i] = neighbour.squared_distance;
       opposite_.row(i) = point.transpose();
     }
+    asked_ += places.size();
+    if (!places.empty())
+      context_.report(
+          std::min(1.0, static_cast<double>(asked_) / static_cast<double>(own_.size())));
   }
 
   PointsView own_;
@@ -205,7 +219,8 @@ class SharedMatching {
   Index first_;
   std::vector<Box> boxes_;
   std::vector<Vector3> images_;  // this and all else by place
-  Places away_;                  // not at home
+  std::vector<std::int32_t> home_;
+  std::size_t asked_ = 0;
   // The best so far: numbered through all processes, -1 none; squared distance; the point.
   std::vector<Index> index_;
   Eigen::VectorXd squared_;
