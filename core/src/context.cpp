@@ -2,12 +2,16 @@
 #include <symsurf/context.h>
 #include <symsurf/errors.h>
 
+#include <atomic>
+#include <chrono>
 #include <string>
 #include <thread>
 
 namespace symsurf {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 // Front ends redraw on every report; more often than this nobody can see.
 constexpr std::chrono::milliseconds report_interval{20};
@@ -18,10 +22,19 @@ int hardware_threads() {
 
 }  // namespace
 
-Context::Context() : threads_(hardware_threads()) {}
+struct Context::Report {
+  std::atomic<std::thread::id> caller;
+  std::atomic<bool> cancelled = false;
+  Clock::time_point time;  // this and the fraction are the calling thread's
+  double fraction = 0;     // of the whole
+};
+
+Context::Context() : Context(nullptr) {}
 
 Context::Context(Progress progress, int threads)
-    : progress_(std::move(progress)), threads_(threads == 0 ? hardware_threads() : threads) {
+    : progress_(std::move(progress)),
+      threads_(threads == 0 ? hardware_threads() : threads),
+      last_(std::make_shared<Report>()) {
   if (threads < 0)
     throw InvalidParameter("threads is " + std::to_string(threads) +
                            "; allowed are 0 (all the machine has) and above");

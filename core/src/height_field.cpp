@@ -1,12 +1,13 @@
 #include <symsurf/errors.h>
 #include <symsurf/height_field.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "height_interpolant.h"
 #include "orthogonal_to.h"
+#include "symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -58,8 +59,8 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
       (object.matrix().rowwise() - origin_.transpose()) * across_;
   const Eigen::RowVector2d centre = flat.colwise().mean();
   flat.rowwise() -= centre;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(flat.transpose() * flat);
-  flat = flat * principal.eigenvectors();
+  const Eigen::Matrix2d principal = eigen_of<2>(flat.transpose() * flat).vectors;
+  flat = flat * principal;
   const Eigen::RowVector2d low = flat.colwise().minCoeff(), high = flat.colwise().maxCoeff();
   const double cell = (high - low).maxCoeff() / resolution;
   const auto cells = [&](double span) {
@@ -88,7 +89,7 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
     if (index < 0) {
       const Eigen::RowVector2d at = low + size.cwiseProduct(Eigen::RowVector2d(c, r));
       const Vector3 flat_point =
-          origin_ + across_ * (centre + at * principal.eigenvectors().transpose()).transpose();
+          origin_ + across_ * (centre + at * principal.transpose()).transpose();
       index = static_cast<Index>(vertices.size());
       vertices.push_back(foot(flat_point));
     }

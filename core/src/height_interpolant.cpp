@@ -1,8 +1,10 @@
 #include "height_interpolant.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -62,7 +64,7 @@ HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
   }
   const double ridge = least_curvature_weight * normal.trace();
   normal.diagonal() += ridge * Vector5{1e-3, 1e-3, 1, 2, 1};
-  const Vector5 solution = normal.ldlt().solve(right);
+  const Vector5 solution = solved(normal, right);
   if (!solution.allFinite()) return quadratic;
   quadratic.slope = solution.head<2>() / radius;
   quadratic.curvature = solution.tail<3>() / (radius * radius);

@@ -26,6 +26,10 @@ Points each(PointsView points, const Context& context, const Function& function)
 
 Vector3 Mirror::no_point() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
+Vector3 Mirror::reflect(const Vector3& x) const {
+  return has_image(x) ? Vector3(x + 2 * (foot(x) - x)) : no_point();
+}
+
 Points Mirror::reflect(PointsView points, const Context& context) const {
   return each(points, context, [this](const Vector3& x) { return reflect(x); });
 }

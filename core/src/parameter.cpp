@@ -161,4 +161,24 @@ ParameterValues::ParameterValues(std::string_view owner, const std::vector<Param
                              "'; it has " + (names.empty() ? "none" : join(names, ", ")));
 }
 
+bool ParameterValues::boolean(const std::string& name) const {
+  return std::get<bool>(values_.at(name));
+}
+
+Index ParameterValues::integer(const std::string& name) const {
+  return std::get<Index>(values_.at(name));
+}
+
+double ParameterValues::real(const std::string& name) const {
+  return std::get<double>(values_.at(name));
+}
+
+const std::string& ParameterValues::choice(const std::string& name) const {
+  return std::get<std::string>(values_.at(name));
+}
+
+const Vector3& ParameterValues::vector(const std::string& name) const {
+  return std::get<Vector3>(values_.at(name));
+}
+
 }  // namespace symsurf

@@ -1,10 +1,11 @@
 #include <symsurf/errors.h>
 #include <symsurf/plane.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "grid_mesh.h"
+#include "symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -38,8 +39,7 @@ Mesh Plane::mesh_over(PointsView object, int resolution) const {
   const Points feet = project(object);
   const Eigen::RowVector3d centre = feet.colwise().mean();
   const Points centred = feet.rowwise() - centre;
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(centred.transpose() * centred);
-  const Vector3 u = axes.eigenvectors().col(2);
+  const Vector3 u = eigen_of<3>(centred.transpose() * centred).vectors.col(2);
   const Vector3 v = normal_.cross(u).normalized();
   const Eigen::VectorXd along_u = centred * u, along_v = centred * v;
   const double u0 = along_u.minCoeff(), v0 = along_v.minCoeff();

@@ -1,10 +1,11 @@
 #include <symsurf/principal_frame.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <limits>
 
 #include "gathered.h"
 #include "parallel.h"
+#include "symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -32,6 +33,12 @@ std::vector<Vector3> first_of(PointsView points) {
 
 }  // namespace
 
+Vector3 PrincipalFrame::enter(const Vector3& x) const {
+  return axes.transpose() * (x - centroid) / size;
+}
+
+Vector3 PrincipalFrame::leave(const Vector3& x) const { return centroid + size * (axes * x); }
+
 PrincipalFrame principal_frame(PointsView points, const Context& context) {
   const double count = static_cast<double>(share_of(context, points.size()).total);
   PrincipalFrame frame;
@@ -56,9 +63,9 @@ PrincipalFrame principal_frame(PointsView points, const Context& context) {
         }
         return sum;
       }));
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(scatter);
-  frame.axes = eigen.eigenvectors().rowwise().reverse();
-  frame.variance = eigen.eigenvalues().reverse() / count;
+  const SymmetricEigen<3> eigen = eigen_of(scatter);
+  frame.axes = eigen.vectors.rowwise().reverse();
+  frame.variance = eigen.values.reverse() / count;
 
   const Extent extent = summed(
       context, parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {

@@ -1,12 +1,13 @@
 #include <symsurf/errors.h>
 #include <symsurf/quadric.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "surface_net.h"
+#include "symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -21,9 +22,9 @@ Quadric::Quadric(const Matrix3& matrix, const Vector3& linear, double constant)
   if (!matrix.allFinite() || !linear.allFinite() || !std::isfinite(constant) ||
       (matrix_.isZero(0) && linear.isZero(0)))
     throw InvalidInput("a quadric needs finite numbers, and not all of A and b zero");
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(matrix_);
-  axes_ = solver.eigenvectors();
-  curves_ = solver.eigenvalues();
+  const SymmetricEigen<3> eigen = eigen_of(matrix_);
+  axes_ = eigen.vectors;
+  curves_ = eigen.values;
 }
 
 Vector3 Quadric::foot(const Vector3& x) const {

@@ -8,6 +8,7 @@
 #include "plane/unit_plane.h"
 #include "random_cloud.h"
 #include "sphere/sphere_measure.h"
+#include "sphere/sphere_step.h"
 
 namespace symsurf {
 namespace {

@@ -2,11 +2,8 @@
 
 #include <symsurf/types.h>
 
-#include <atomic>
-#include <chrono>
 #include <functional>
 #include <memory>
-#include <thread>
 
 namespace symsurf {
 
@@ -41,13 +38,7 @@ class Context {
   Context stage(double from, double to) const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-  struct Report {
-    std::atomic<std::thread::id> caller;
-    std::atomic<bool> cancelled = false;
-    Clock::time_point time;  // this and the fraction are the calling thread's
-    double fraction = 0;     // of the whole
-  };
+  struct Report;
 
   bool is_due() const;
   void tell(double fraction) const;
@@ -56,7 +47,7 @@ class Context {
   int threads_ = 1;
   double from_ = 0, to_ = 1;
   const Communicator* communicator_ = nullptr;
-  std::shared_ptr<Report> last_ = std::make_shared<Report>();
+  std::shared_ptr<Report> last_;
 };
 
 }  // namespace symsurf

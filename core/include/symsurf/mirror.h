@@ -33,7 +33,7 @@ class Mirror {
   virtual double signed_distance(const Vector3& x) const = 0;
 
   /// The image of x, NaN where it has none.
-  Vector3 reflect(const Vector3& x) const { return has_image(x) ? image(x) : no_point(); }
+  Vector3 reflect(const Vector3& x) const;
   Points reflect(PointsView points, const Context& context = {}) const;
   /// The feet. Throws Cancelled, as the others of many points do.
   Points project(PointsView points, const Context& context = {}) const;
@@ -79,8 +79,6 @@ class Mirror {
   static Vector3 no_point();
 
  private:
-  Vector3 image(const Vector3& x) const { return x + 2 * (foot(x) - x); }
-
   std::shared_ptr<const Points> footprint_;
 };
 

@@ -51,20 +51,15 @@ class ParameterValues {
   ParameterValues(std::string_view owner, const std::vector<Parameter>& described,
                   const Values& given);
 
-  bool boolean(const std::string& name) const { return get<bool>(name); }
-  Index integer(const std::string& name) const { return get<Index>(name); }
-  double real(const std::string& name) const { return get<double>(name); }
-  const std::string& choice(const std::string& name) const { return get<std::string>(name); }
-  const Vector3& vector(const std::string& name) const { return get<Vector3>(name); }
+  bool boolean(const std::string& name) const;
+  Index integer(const std::string& name) const;
+  double real(const std::string& name) const;
+  const std::string& choice(const std::string& name) const;
+  const Vector3& vector(const std::string& name) const;
 
   const Values& all() const { return values_; }
 
  private:
-  template <typename T>
-  const T& get(const std::string& name) const {
-    return std::get<T>(values_.at(name));
-  }
-
   Values values_;
 };
 

@@ -16,8 +16,8 @@ struct PrincipalFrame {
   Vector3 variance = Vector3::Zero();  ///< along the axes, in input units squared
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();  ///< the box, in the frame
 
-  Vector3 enter(const Vector3& x) const { return axes.transpose() * (x - centroid) / size; }
-  Vector3 leave(const Vector3& x) const { return centroid + size * (axes * x); }
+  Vector3 enter(const Vector3& x) const;
+  Vector3 leave(const Vector3& x) const;
 };
 
 /// Of processes that share out a point set, each gets the frame of the whole.

@@ -3,11 +3,13 @@
 #include <symsurf/cylinder.h>
 #include <symsurf/errors.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -105,7 +107,7 @@ class Spread final : public Chart {
       const Vector3 across = n - n.dot(normal) * normal;
       spread += across * across.transpose();
     }
-    Vector3 most = Eigen::SelfAdjointEigenSolver<Matrix3>(spread).eigenvectors().col(2);
+    Vector3 most = eigen_of(spread).vectors.col(2);
     most -= most.dot(normal) * normal;
     axes_.col(0) =
         most.norm() > 0.5 ? Vector3(most.normalized()) : Vector3(normal.unitOrthogonal());

@@ -1,11 +1,12 @@
 #include "height_regression.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "../quantile.h"
+#include "../symmetric_matrix.h"
 #include "working_cloud.h"
 
 namespace symsurf {
@@ -64,7 +65,7 @@ double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Ne
   if (!(normal(0, 0) > 0)) return std::numeric_limits<double>::quiet_NaN();
   const double ridge = normal(0, 0) * curvature_ridge;
   normal.diagonal() += ridge * Vector6{1e-9, 1e-2, 1e-2, 1, 1, 1};
-  return level + normal.selfadjointView<Eigen::Lower>().ldlt().solve(right)[0];
+  return level + solved(normal, right)[0];
 }
 
 void HeightRegression::nearest(const Eigen::Vector2d& place, Index neighbours,

@@ -1,7 +1,9 @@
 #include "pairing.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -31,7 +33,7 @@ Vector3 common_direction(const WorkingCloud& cloud, const std::vector<ChordPair>
     const Vector3 chord = cloud.point(b) - cloud.point(a);
     scatter += chord * chord.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(2);
+  return eigen_of(scatter).vectors.col(2);
 }
 
 }  // namespace symsurf

@@ -1,11 +1,12 @@
 #include "sheet_patches.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "../orthogonal_to.h"
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -41,7 +42,7 @@ SheetPatches::SheetPatches(const WorkingCloud& cloud, Index neighbours, const Co
       right += weight * patch.normal.dot(d) * row;
     }
     normal.diagonal() += 1e-3 * normal(0, 0) * Vector6{0, 0, 0, 1, 1, 1};
-    const Vector6 h = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    const Vector6 h = solved(normal, right);
     const double r = patch.reach;
     patch.height << h[0] * r, h[1], h[2], h[3] / r, h[4] / r, h[5] / r;
   }

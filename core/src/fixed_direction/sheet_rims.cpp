@@ -1,8 +1,10 @@
 #include "sheet_rims.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -92,7 +94,7 @@ Eigen::Vector2d RimAlignment::turn(const Eigen::Vector2d& start) const {
   normal.diagonal() += Vector3(prior, prior, 1);
   Vector3 right = right_;
   right.head<2>() += prior * start;
-  return normal.ldlt().solve(right).head<2>();
+  return solved(normal, right).head<2>();
 }
 
 }  // namespace symsurf

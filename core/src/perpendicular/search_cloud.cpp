@@ -1,6 +1,6 @@
 #include "search_cloud.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "../quantile.h"
 #include "../radix_sort.h"
+#include "../symmetric_matrix.h"
 
 namespace symsurf::perpendicular {
 
@@ -145,7 +146,7 @@ void jet(const Points& points, const std::vector<Neighbour>& around, const Surfe
     right += weight * d.x() * row;
   }
   for (int k = 3; k < 6; ++k) matrix(k, k) += 0.01 * static_cast<double>(around.size());
-  const Row fit = matrix.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  const Row fit = solved(matrix, right);
   x += radius * fit[0] * surfel.axes.col(0);
   normal = (surfel.axes * Vector3(1, -fit[1], -fit[2])).normalized();
 }

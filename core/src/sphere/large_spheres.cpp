@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "../plane/plane_step.h"
+#include "../plane/unit_plane.h"
 
 namespace symsurf {
 

@@ -6,6 +6,7 @@
 #include "../plane/agreement.h"
 #include "../quantile.h"
 #include "sheet_slide.h"
+#include "sphere_step.h"
 
 namespace symsurf {
 

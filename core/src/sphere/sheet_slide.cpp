@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "../symmetric_matrix.h"
+
 namespace symsurf {
 
 namespace {
@@ -32,14 +34,14 @@ Eigen::Vector2d highest(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& v
     squares += powers * powers.transpose();
     products += values[k] * powers;
   }
-  const Powers fit = squares.ldlt().solve(products);
+  const Powers fit = solved(squares, products);
   Eigen::Matrix2d bend;
   bend << 2 * fit[3], fit[4], fit[4], 2 * fit[5];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(bend);
+  const SymmetricEigen<2> axes = eigen_of(bend);
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector2d axis = axes.eigenvectors().col(k);
-    const double bent = axes.eigenvalues()[k], rise = axis.dot(fit.segment<2>(1));
+    const Eigen::Vector2d axis = axes.vectors.col(k);
+    const double bent = axes.values[k], rise = axis.dot(fit.segment<2>(1));
     at += (bent < 0 ? std::clamp(-rise / bent, -1.0, 1.0) : std::copysign(1.0, rise)) * axis;
   }
   return at;

@@ -1,11 +1,11 @@
 #include "sheet_score.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "../parallel.h"
 #include "../sheet_spacing.h"
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -26,7 +26,7 @@ double off_sheet(PointsView surface, const std::vector<Neighbour>& neighbours) {
     const Vector3 w = surface[neighbours[k].index] - mean;
     scatter.noalias() += w * w.transpose();
   }
-  const Vector3 normal = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter).eigenvectors().col(0);
+  const Vector3 normal = eigen_of(scatter).vectors.col(0);
   return std::abs(normal.dot(surface[neighbours[0].index] - mean));
 }
 
