@@ -59,7 +59,7 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
       (object.matrix().rowwise() - origin_.transpose()) * across_;
   const Eigen::RowVector2d centre = flat.colwise().mean();
   flat.rowwise() -= centre;
-  const Eigen::Matrix2d principal = eigen_of<2>(flat.transpose() * flat).vectors;
+  const Eigen::Matrix2d principal = eigen_of(Eigen::Matrix2d(flat.transpose() * flat)).vectors;
   flat = flat * principal;
   const Eigen::RowVector2d low = flat.colwise().minCoeff(), high = flat.colwise().maxCoeff();
   const double cell = (high - low).maxCoeff() / resolution;

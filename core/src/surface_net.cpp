@@ -32,7 +32,7 @@ Grid grid_along(const Points& points, int resolution) {
   Grid grid;
   const Eigen::RowVector3d centre = points.colwise().mean();
   const Points centred = points.rowwise() - centre;
-  grid.axes = eigen_of<3>(centred.transpose() * centred).vectors;
+  grid.axes = eigen_of(Matrix3(centred.transpose() * centred)).vectors;
   const Points along = centred * grid.axes;
   const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
   const double longest = (high - low).maxCoeff();

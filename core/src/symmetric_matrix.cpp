@@ -5,9 +5,20 @@
 
 namespace symsurf {
 
-template <int n>
-SymmetricEigen<n> eigen_of(const Eigen::Matrix<double, n, n>& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(symmetric);
+// Through any size, which the pencils below need as well.
+SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
+                                        const Eigen::MatrixXd& definite) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric, definite);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
@@ -17,18 +28,12 @@ Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
   return semidefinite.ldlt().solve(right);
 }
 
-template SymmetricEigen<2> eigen_of(const Eigen::Matrix<double, 2, 2>&);
-template SymmetricEigen<3> eigen_of(const Eigen::Matrix<double, 3, 3>&);
-
-template Eigen::Vector<double, 3> solved(const Eigen::Matrix<double, 3, 3>&,
-                                         const Eigen::Vector<double, 3>&);
-template Eigen::Vector<double, 4> solved(const Eigen::Matrix<double, 4, 4>&,
-                                         const Eigen::Vector<double, 4>&);
+template Eigen::Vector3d solved(const Eigen::Matrix3d&, const Eigen::Vector3d&);
+template Eigen::Vector4d solved(const Eigen::Matrix4d&, const Eigen::Vector4d&);
 template Eigen::Vector<double, 5> solved(const Eigen::Matrix<double, 5, 5>&,
                                          const Eigen::Vector<double, 5>&);
 template Eigen::Vector<double, 6> solved(const Eigen::Matrix<double, 6, 6>&,
                                          const Eigen::Vector<double, 6>&);
-template Eigen::Vector<double, 10> solved(const Eigen::Matrix<double, 10, 10>&,
-                                          const Eigen::Vector<double, 10>&);
+template Eigen::VectorXd solved(const Eigen::MatrixXd&, const Eigen::VectorXd&);
 
 }  // namespace symsurf

@@ -14,13 +14,16 @@ struct SymmetricEigen {
   Eigen::Matrix<double, n, n> vectors;
 };
 
-/// By tridiagonalisation and implicit QR steps (Golub and Van Loan, "Matrix Computations", 8.3);
-/// n is 2 or 3.
-template <int n>
-SymmetricEigen<n> eigen_of(const Eigen::Matrix<double, n, n>& symmetric);
+/// By tridiagonalisation and implicit QR steps (Golub and Van Loan, "Matrix Computations", 8.3).
+SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric);
+SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric);
+
+/// The same of A v = lambda B v, v' B v = 1, for a positive definite B (Golub and Van Loan, 8.7).
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
+                                        const Eigen::MatrixXd& definite);
 
 /// x of A x = b for a semidefinite A by L D L' with pivots (Golub and Van Loan, 4.2); 0 along what
-/// A leaves open. n is 3 to 6 or 10.
+/// A leaves open. n is 3 to 6 or any (Eigen::Dynamic).
 template <int n>
 Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
                                 const Eigen::Vector<double, n>& right);

@@ -1,12 +1,13 @@
 #include "refinement.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 
 #include "../plane/agreement.h"
 #include "../quantile.h"
 #include "../sheet_spacing.h"
+#include "../symmetric_matrix.h"
 #include "shapes.h"
 
 namespace symsurf {
@@ -20,8 +21,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> loosest_changes(const Eigen::MatrixXd& 
   if (!(count > 0)) return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(moved.rows(), 2);
   moved /= count;
   moved.diagonal().array() += 1e-9 * moved.trace();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, moved);
-  return eigen.eigenvectors().leftCols(2);
+  return eigen_of(held, moved).vectors.leftCols(2);
 }
 
 // The mean over tolerances from coarse to fine: images that meet a point exactly count in full,

@@ -1,10 +1,11 @@
 #include "parametric.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "../quantile.h"
+#include "../symmetric_matrix.h"
 
 namespace symsurf::perpendicular {
 
@@ -60,7 +61,7 @@ void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model
   for (int k = 0; k < steps; ++k) {
     Eigen::MatrixXd damped = here.matrix;
     damped.diagonal().array() += damping * here.matrix.trace() + 1e-300;
-    const Eigen::VectorXd by = damped.ldlt().solve(here.right);
+    const Eigen::VectorXd by = solved(damped, here.right);
     if (!by.allFinite()) return;
     std::unique_ptr<Model> next = model->copy();
     next->step(by);
