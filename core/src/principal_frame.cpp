@@ -34,7 +34,7 @@ std::vector<Vector3> first_of(PointsView points) {
 }  // namespace
 
 Vector3 PrincipalFrame::enter(const Vector3& x) const {
-  return axes.transpose() * (x - centroid) / size;
+  return axes.transpose() * (x - centroid) * (1 / size);
 }
 
 Vector3 PrincipalFrame::leave(const Vector3& x) const { return centroid + size * (axes * x); }

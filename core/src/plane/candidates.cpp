@@ -75,6 +75,11 @@ std::uint32_t ticket(Index i, Index j) {
   return mixed ^ mixed >> 15;
 }
 
+UnitPlane plane_between(const Vector3& a, const Vector3& b) {
+  const Vector3 normal = (b - a).normalized();
+  return {normal, -normal.dot(a + b) / 2};
+}
+
 void sort_best_first(std::vector<PlaneCandidate>& candidates) {
   std::stable_sort(
       candidates.begin(), candidates.end(),
@@ -114,27 +119,31 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   const Index step = std::max<Index>(1, surfels.size() / seeds);
   const Index glancing = std::max<Index>(1, surfels.size() / glance);
   const Index coarse = std::max<Index>(1, surfels.size() / first_look);
-  std::vector<std::pair<std::uint32_t, UnitPlane>> planes;
-  double pairs = 0;
+  struct Pair {
+    std::uint32_t ticket;
+    std::int32_t i, j;
+  };
+  std::vector<Pair> pairs;
+  double telling = 0;
   for (Index i = 0; i < surfels.size(); i += step)
     for (Index j = i + step; j < surfels.size(); j += step) {
       const Surfel &a = surfels[i], &b = surfels[j];
       const Vector3 chord = b.position - a.position;
-      const double length = chord.norm();
-      if (length < shortest_chord) continue;
-      UnitPlane plane{chord / length, 0};
+      const double squared = chord.squaredNorm();
+      if (squared < shortest_chord * shortest_chord) continue;
       const bool sheets = a.flatness * b.flatness > 0.25;
-      const double cosine = plane.reflect_direction(a.normal).dot(b.normal);
+      const double cosine =
+          a.normal.dot(b.normal) - 2 * chord.dot(a.normal) * chord.dot(b.normal) / squared;
       if (sheets && std::abs(cosine) < facing_cosine) continue;
-      pairs += sheets ? 1 : blind;
-      plane.offset = -plane.normal.dot(a.position + b.position) / 2;
-      planes.emplace_back(ticket(i, j), plane);
+      telling += sheets ? 1 : blind;
+      pairs.push_back({ticket(i, j), static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
     }
 
   std::vector<PlaneCandidate> found;
-  const double last_ticket = first_count / pairs * std::numeric_limits<std::uint32_t>::max();
-  for (const auto& [ticket, plane] : planes) {
+  const double last_ticket = first_count / telling * std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
+    const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
     const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
     if (explained > least_explained) found.push_back({plane, explained});
   }

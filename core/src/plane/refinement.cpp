@@ -178,7 +178,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
                                 p);
       const double r = distance_past(gap, p, spacing_) / tolerance;
       const double trusted =
-          weight * agreement.facing * inside_sheet(gap, p, spacing_) * std::exp(-r * r / 2);
+          weight * agreement.facing * inside_sheet(gap, p, spacing_) * fading(r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
       sum.add(s.position, gap, agreement.metric(along_sheet), trusted);
