@@ -39,7 +39,7 @@ std::optional<PointGrid> PointGrid::where_faster(PointsView points) {
 // Cells that hold a few points where they hold any. Sheets fill cells as the square of the cell's
 // length, so a guess and a correction are enough.
 void PointGrid::choose_cell(PointsView points) {
-  constexpr double wanted = 2, most_cells = 32;  // points in a cell; cells a point
+  constexpr double wanted = 3, most_cells = 32;  // points in a cell; cells a point
   const double longest = (high_ - low_).maxCoeff();
   const double count = static_cast<double>(points.size());
   if (!(longest > 0)) return;
@@ -90,12 +90,15 @@ template <std::size_t k>
 std::array<Neighbour, k> PointGrid::best(const Vector3& query, double limit) const {
   std::array<Neighbour, k> found;
   if (!query.allFinite()) return found;
-  constexpr double rounding = 1 + 1e-9;
-  const double farthest = rounding * std::sqrt(limit);
-  for (double reach = 0.75 * cell_;;) {
+  constexpr double first_look = 0.45, rounding = 1e-9;  // of a cell
+  const Eigen::Array3d last = (size_ - 1).cast<double>(), at = (query - low_).array() * cells_;
+  const double farthest = std::sqrt(limit);
+  for (double reach = first_look * cell_;;) {
     reach = std::min(reach, farthest);
     found.fill({-1, limit});
-    const Cell from = cell_of(query.array() - reach), to = cell_of(query.array() + reach);
+    const double width = reach * cells_ + rounding;
+    const Cell from = (at - width).max(0.0).min(last).cast<int>();
+    const Cell to = (at + width).max(0.0).min(last).cast<int>();
     for (int z = from.z(); z <= to.z(); ++z)
       for (int y = from.y(); y <= to.y(); ++y) {
         const Index row = linear({0, y, z});
@@ -107,7 +110,7 @@ std::array<Neighbour, k> PointGrid::best(const Vector3& query, double limit) con
       limit = found.back().squared_distance;
       const double distance = std::sqrt(limit);
       if (distance <= reach) return found;
-      reach = rounding * distance;
+      reach = distance;
     } else {
       if (reach >= farthest || (to - from + 1 == size_).all()) return found;
       reach *= 2;
