@@ -105,7 +105,6 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   std::vector<Moved> asked;
   std::vector<Vector3> images;
   for (const Sample& s : samples_) {
-    context_.check();
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
       moved += 1;
@@ -119,7 +118,6 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   }
   const std::vector<Vector3> partners = points_.nearest(images, reach * size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    context_.check();
     if (!partners[k].allFinite()) continue;
     const auto& [s, weight] = asked[k];
     const Vector3 x = cloud_.frame.leave(s->position), image = images[k];

@@ -9,6 +9,7 @@ namespace symsurf {
 
 namespace {
 
+constexpr std::size_t grain = 64;  // queries between two looks at the clock
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 
@@ -28,7 +29,7 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   std::vector<Found> best;
   best.reserve(queries.size());
   for (const Vector3& query : queries) {
-    context_.check();
+    if (best.size() % grain == 0) context_.check();
     best.push_back(found(grid_ ? grid_->nearest(query, limit) : own_.nearest(query, limit)));
   }
   if (context_.communicator()) {
@@ -48,7 +49,7 @@ std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& q
   std::vector<Found> own;
   std::vector<Neighbour> neighbours;
   for (const Vector3& query : queries) {
-    context_.check();
+    if (own.size() % (2 * grain) == 0) context_.check();
     if (grid_) {
       for (const Neighbour& neighbour : grid_->two_nearest(query)) own.push_back(found(neighbour));
     } else {
