@@ -17,6 +17,8 @@ constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
+// Stricter than the score: of rivals that both meet a damaged cloud the false one misses by less.
+constexpr Testimony testimony{.misses = 0.013};
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
@@ -102,8 +104,7 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Vector3 gap = plane.reflect(s.position) - match.partner;
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
-    explained +=
-        weight * Testimony{}(distance_past(gap, *match.surfel, spacing_), agreement.facing);
+    explained += weight * testimony(distance_past(gap, *match.surfel, spacing_), agreement.facing);
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
 }
