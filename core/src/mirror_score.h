@@ -22,10 +22,10 @@ namespace symsurf {
 /// images into the void, a wrong one sends them past the surface everywhere.
 struct Testimony {
   double meets = 0.0015, misses = 0.016;  ///< distances from the surface, over the cloud's size
+  double objection = 0.7;                 ///< what a miss counts
 
   /// `facing`, 0..1: do the normals mirror each other?
   double operator()(double residual, double facing) const {
-    constexpr double objection = 0.7;
     const double near = residual / meets, past = residual / misses;
     return facing / (1 + near * near) - objection * past * past * std::exp(1 - past * past);
   }

@@ -18,7 +18,7 @@ constexpr double shortest_chord = 0.04;
 constexpr double facing_cosine = 0.88;                           // 28 degrees
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
 constexpr double search_tolerance = 0.015;
-constexpr double contradiction = 0.6;  // how much an image beside the cloud speaks against a plane
+constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
 constexpr double first_count = 5500;  // pairs that are tried
 constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none

@@ -17,8 +17,9 @@ constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
-// Stricter than the score: of rivals that both meet a damaged cloud the false one misses by less.
-constexpr Testimony testimony{.misses = 0.013};
+// Stricter than the score: where much is missing, it is misses that tell a false plane from the
+// true.
+constexpr Testimony testimony{.misses = 0.013, .objection = 1.0};
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
