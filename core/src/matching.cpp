@@ -69,6 +69,8 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   }
   const Index size = points.size();
   const Index found = size - std::count(partners.index.begin(), partners.index.end(), -1);
+  // The largest first, into the space that the tree left.
+  result.surface_points.resize(found, 3);
   Pairs& pairs = result.pairs;
   pairs.resize(found, 2);
   Index row = 0;
@@ -78,10 +80,9 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
     partners.distance[row] = partners.distance[i];
     pairs.row(row++) << i, partner;
   });
-  partners.index = {};
+  partners.index = std::vector<std::int32_t>();
   result.residuals = std::move(partners.distance);
   result.residuals.conservativeResize(found);
-  result.surface_points.resize(found, 3);
   interruptible_for(context, found, [&](Index k) {
     result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
   });

@@ -105,7 +105,7 @@ class SharedMatching {
     Places place_of(size);
     for (Index p = 0; p < size; ++p) place_of[tree_->order()[p]] = static_cast<std::int32_t>(p);
     tree_.reset();
-    images_ = {};
+    images_ = std::vector<Vector3>();
     const Index found = size - std::count(index_.begin(), index_.end(), -1);
     result.pairs.resize(found, 2);
     result.residuals.resize(found);
