@@ -124,7 +124,6 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
   double cells =
       std::min<double>(finest_cells, guess > 0 ? longest / guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
-  const PrincipalFrame frame = cloud.frame;
   for (int k = 0; k < guesses; ++k) {
     cell_ = longest / cells;
     cells_ = 1 / cell_;
@@ -133,7 +132,7 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
     size_ = ((cloud.frame.high - low_) * cells_).array().floor().cast<int>() + 1;
     std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
     for (Index i = 0; i < cloud.points.size(); ++i)
-      seen[linear(cell_of(frame.enter(cloud.points[i])))] = 1;
+      seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
     if (context.communicator())
       for (const std::vector<std::uint8_t>& part : gathered(context, seen))
         for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
@@ -148,9 +147,8 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
 void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   slot_.assign(size_.cast<Index>().prod(), -1);
   std::vector<Patch> patches;
-  const PrincipalFrame frame = cloud.frame;
   for (Index i = 0; i < cloud.points.size(); ++i) {
-    const Vector3 x = frame.enter(cloud.points[i]);
+    const Vector3 x = cloud.frame.enter(cloud.points[i]);
     const Cell c = cell_of(x);
     std::int32_t& s = slot_[linear(c)];
     if (s < 0) {
@@ -167,14 +165,12 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
   if (context.communicator()) join(patches, context);
 
   // In the order of the cells, not in that of the points.
-  std::vector<std::pair<Index, std::int32_t>> order;
-  order.reserve(patches.size());
+  std::sort(patches.begin(), patches.end(),
+            [&](const Patch& a, const Patch& b) { return linear(a.cell) < linear(b.cell); });
   for (std::size_t s = 0; s < patches.size(); ++s)
-    order.emplace_back(linear(patches[s].cell), static_cast<std::int32_t>(s));
-  std::sort(order.begin(), order.end());
+    slot_[linear(patches[s].cell)] = static_cast<std::int32_t>(s);
   surfels_.reserve(patches.size());
-  for (const auto& [place, s] : order) {
-    const Patch& patch = patches[s];
+  for (const Patch& patch : patches) {
     Moments around;
     const Cell from = (patch.cell.array() - 1).max(0);
     const Cell to = (patch.cell.array() + 1).min(size_.array() - 1);
@@ -189,8 +185,6 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
                         thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
                         thinnest.thickness, thinnest.width, patch.nearest.index, patch.sampled});
   }
-  for (std::size_t k = 0; k < order.size(); ++k)
-    slot_[order[k].first] = static_cast<std::int32_t>(k);
 }
 
 // The patches of all processes, those of one cell made one.
