@@ -88,4 +88,10 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   });
 }
 
+void keep_pairs(Result& result, const std::vector<Index>& rows) {
+  result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
+  result.residuals = Eigen::VectorXd(result.residuals(rows));
+  result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
+}
+
 }  // namespace symsurf

@@ -4,6 +4,8 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
+#include <vector>
+
 #include "point_tree.h"
 
 namespace symsurf {
@@ -15,5 +17,8 @@ namespace symsurf {
 /// cloud: for each own point, among the points of all.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
+
+/// Keeps these rows of the result's pairs, residuals and surface points.
+void keep_pairs(Result& result, const std::vector<Index>& rows);
 
 }  // namespace symsurf

@@ -17,9 +17,9 @@
 
 namespace symsurf {
 
-/// What an image says for or against a mirror: 1 where it meets the cloud's surface, about -0.7
-/// where it just misses it, 0 far from it. A true mirror of a shape with a piece missing sends
-/// images into the void, a wrong one sends them past the surface everywhere.
+/// What an image says for or against a mirror: 1 where it meets the cloud's surface, minus the
+/// objection where it just misses it, 0 far from it. A true mirror of a shape with a piece missing
+/// sends images into the void, a wrong one sends them past the surface everywhere.
 struct Testimony {
   double meets = 0.0015, misses = 0.016;  ///< distances from the surface, over the cloud's size
   double objection = 0.7;                 ///< what a miss counts

@@ -7,6 +7,7 @@
 
 #include "cloud.h"
 #include "gathered.h"
+#include "matching.h"
 #include "outline.h"
 #include "shared_cloud.h"
 
@@ -74,9 +75,7 @@ void keep_pairs_of(Result& result, Index first, Index size) {
   std::vector<Index> kept;
   for (Index row = 0; row < result.pairs.rows(); ++row)
     if (result.pairs(row, 0) >= first && result.pairs(row, 0) < first + size) kept.push_back(row);
-  result.pairs = Pairs(result.pairs(kept, Eigen::indexing::all));
-  result.residuals = Eigen::VectorXd(result.residuals(kept));
-  result.surface_points = Points(result.surface_points(kept, Eigen::indexing::all));
+  keep_pairs(result, kept);
 }
 
 // With nobody to wait for once all points are here.

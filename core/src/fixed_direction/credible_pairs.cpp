@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "../matching.h"
 #include "../parallel.h"
 #include "../point_tree.h"
 #include "../quantile.h"
@@ -16,12 +17,6 @@ constexpr double rounding = 1e-6;  // spacings
 constexpr Index witnesses = 16;    // both ends of a pair share a surface point
 constexpr double near = 2;         // spacings: an image's neighbour
 constexpr double one_sided = 0.5;
-
-void keep(Result& result, const std::vector<Index>& rows) {
-  result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
-  result.residuals = Eigen::VectorXd(result.residuals(rows));
-  result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
-}
 
 // Between exact pairs the surface is known; beyond them, as at a hole's rim, it is a guess.
 bool surrounded(const Vector3& x, const Points& known, const PointTree& tree,
@@ -62,7 +57,7 @@ void keep_credible_pairs(Result& result, double spacing, const Context& context)
       if (kept[k]) credible.push_back(doubtful[k]);
     std::sort(credible.begin(), credible.end());
   }
-  keep(result, credible);
+  keep_pairs(result, credible);
 }
 
 }  // namespace symsurf

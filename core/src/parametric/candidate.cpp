@@ -42,23 +42,7 @@ struct Action {
 template <typename Shape>
 double explained_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
                        double tolerance, Index stride) {
-  constexpr double least_moved = 0.35;
-  double moved = 0, explained = 0;
-  Index looked = 0;
-  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
-    const Surfel& s = surfels[i];
-    const double weight = displaced(shape.distance(s.position), tolerance);
-    if (weight <= 0) continue;
-    moved += weight;
-    const Vector3 image = shape.reflect(s.position);
-    const Index j = map.nearest(image);
-    if (j < 0) continue;
-    const Agreement agreement(image - surfels[j].position,
-                              shape.reflect_direction(s.position, s.normal), s.flatness,
-                              surfels[j]);
-    explained += weight * agreement.weight(tolerance);
-  }
-  return explained / std::max(moved, least_moved * static_cast<double>(looked));
+  return agreeing_share(surfels, map, shape, tolerance, stride, 0);
 }
 
 template <typename Shape>

@@ -23,7 +23,6 @@ constexpr double least_explained = 0.1;
 constexpr double first_count = 5500;  // pairs that are tried
 constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
 constexpr std::size_t looked_at = 1500, second_count = 200;
-constexpr double least_moved = 0.35;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
 // tetrahedron as wide as the cloud.
@@ -96,22 +95,7 @@ void keep_best(std::vector<PlaneCandidate>& candidates, std::size_t count) {
 
 double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
                        double tolerance, Index stride) {
-  double moved = 0, explained = 0;
-  Index looked = 0;
-  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
-    const Surfel& s = surfels[i];
-    const double weight = displaced(plane.distance(s.position), tolerance);
-    if (weight <= 0) continue;
-    moved += weight;
-    const Vector3 image = plane.reflect(s.position);
-    const Index j = map.nearest(image);
-    if (j < 0) continue;
-    const Agreement agreement(image - surfels[j].position, plane.reflect_direction(s.normal),
-                              s.flatness, surfels[j]);
-    const double agrees = agreement.weight(tolerance);
-    explained += weight * (agrees - contradiction * (1 - agrees));
-  }
-  return explained / std::max(moved, least_moved * static_cast<double>(looked));
+  return agreeing_share(surfels, map, plane, tolerance, stride, contradiction);
 }
 
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
