@@ -31,7 +31,7 @@ Vector3 image_normal(const Mirror& mirror, const Vector3& x, const Vector3& norm
 
 }  // namespace
 
-double distance_past(const Vector3& gap, const Surfel& partner, double spacing) {
+double distance_past(const Vector3& gap, const Facet& partner, double spacing) {
   const auto squared = [](double x) { return x * x; };
   const double length = gap.norm(), off_sheet = gap.dot(partner.normal);
   const double along_sheet = std::sqrt(std::max(0.0, squared(length) - squared(off_sheet)));

@@ -33,7 +33,7 @@ struct Testimony {
 
 /// How far an image is from the cloud's surface, `gap` from its partner. Along a sheet, or inside a
 /// blob, a partner is as near as the points' spacing allows: only what exceeds it counts.
-double distance_past(const Vector3& gap, const Surfel& partner, double spacing);
+double distance_past(const Vector3& gap, const Facet& partner, double spacing);
 
 /// What a mirror explains of a cloud, before the discount for its freedom; both in [0, 1].
 struct Explained {

@@ -20,8 +20,9 @@ constexpr Index started = 20;         // candidates that are settled on the surf
 constexpr Index settled_well = 14;    // of these, on all of them
 constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr Index finalists = 6;        // of these, are fitted carefully
-constexpr double convincing = 0.95;   // of what the best explains: worth the last digits
-constexpr double hopeless = 0.6;      // of what the best explains: not worth fitting
+constexpr double convincing = 0.05;   // below the best by this share of it: worth the last digits
+constexpr double hopeless = 0.4;      // further below than that: not worth fitting
+constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
 constexpr double alike = 0.05;        // planes closer than this are one
 constexpr Index measured = 300;       // surfels that the measure is taken over
 
@@ -37,8 +38,10 @@ void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candida
   if (explained > candidate.explained) candidate = {plane, explained};
 }
 
+double below(double best, double share) { return best - share * std::max(best, meagre); }
+
 void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
-  const double most = candidates.front().explained, least = std::min(most, hopeless * most);
+  const double least = below(candidates.front().explained, hopeless);
   std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
 }
 
@@ -84,7 +87,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   keep_distinct(candidates, alike, finalists);
   refine(0.46, 0.5, [&](const PlaneCandidate& c) {
     if (&c == &candidates.front()) return refinement.final(c, -1);
-    const double least = convincing * candidates.front().explained;
+    const double least = below(candidates.front().explained, convincing);
     return c.explained < least ? c : refinement.final(c, least);
   });
   keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));

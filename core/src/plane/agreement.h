@@ -30,14 +30,14 @@ inline double fading(double x) {
 /// How well an image lands on its partner: its offset from the partner's tangent plane counts in
 /// full, along the plane hardly, because partners are samples of a sheet.
 struct Agreement {
-  const Surfel& partner;
+  const Facet& partner;
   double isotropic;  ///< how much an offset in any direction counts
   double gap;        ///< squared, in all directions alike
   double squared;    ///< squared residual = offset' metric offset
   double facing;     ///< 0..1: do the normals mirror each other?
 
   Agreement(const Vector3& offset, const Vector3& image_normal, double image_flatness,
-            const Surfel& partner)
+            const Facet& partner)
       : partner(partner), gap(offset.squaredNorm()) {
     const double flat = partner.flatness, off_sheet = offset.dot(partner.normal);
     isotropic = isotropic_share(flat, 0.08);
@@ -74,7 +74,7 @@ inline double displaced(double distance, double tolerance) {
 
 /// 0..1. Past a rim images find their partners on it, whose tangent plane says nothing there;
 /// inside a sheet the nearest point is hardly further along it than half the spacing.
-inline double inside_sheet(const Vector3& gap, const Surfel& partner, double spacing) {
+inline double inside_sheet(const Vector3& gap, const Facet& partner, double spacing) {
   const double off = gap.dot(partner.normal);
   const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - off * off));
   const double past = 3 * partner.flatness * std::max(0.0, along / spacing - 0.5);

@@ -55,6 +55,7 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
   std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
   noise_ = measured_noise();
+  for (Sample& s : samples_) s.smoothed = smoothed(s.point, *s.surfel);
 }
 
 // From how far neighbours lie off the sheet. Being near, they have much of their noise in common.
@@ -63,16 +64,27 @@ double Refinement::measured_noise() const {
   const Subset few = about(few_samples);
   std::vector<Vector3> places;
   for (Index i = 0; i < few.end; i += few.stride)
-    places.push_back(cloud_.frame.leave(samples_[i].position));
+    places.push_back(cloud_.frame.leave(samples_[i].point));
   if (places.empty()) return 0;
   const std::vector<Vector3> neighbours = points_.second_nearest(places);
   std::vector<double> offsets;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Sample& s = samples_[static_cast<Index>(k) * few.stride];
-    const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.position;
+    const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.point;
     offsets.push_back(std::abs(chord.dot(s.surfel->normal)));
   }
   return median(std::move(offsets)) / shown;
+}
+
+// Noise beyond what curvature between neighbours makes. Wide, since a patch's own spread has the
+// noise in it.
+Vector3 Refinement::smoothed(const Vector3& x, const Surfel& surfel) const {
+  constexpr double noticed = 0.002, width = 4;
+  return noise_ > noticed ? surfel.smoothed(x, width * noise_) : x;
+}
+
+Vector3 Refinement::smoothed_gap(const UnitPlane& plane, const Match& match) const {
+  return plane.reflect(samples_[match.sample].smoothed) - smoothed(match.partner, *match.surfel);
 }
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
@@ -80,15 +92,14 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   std::vector<Vector3> images;
   images.reserve(subset.end / subset.stride + 1);
   for (Index i = 0; i < subset.end; i += subset.stride)
-    images.push_back(cloud_.frame.leave(plane.reflect(samples_[i].position)));
+    images.push_back(cloud_.frame.leave(plane.reflect(samples_[i].point)));
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
   std::vector<Match> found;
   found.reserve(images.size());
   for (Index k = 0; k < static_cast<Index>(partners.size()); ++k) {
     if (!partners[k].allFinite()) continue;
-    const Vector3 partner = cloud_.frame.enter(partners[k]);
-    if (const Surfel* surfel = surfel_at(partner))
-      found.push_back({k * subset.stride, partner, surfel});
+    const Vector3 x = cloud_.frame.enter(partners[k]);
+    if (const Surfel* surfel = surfel_at(x)) found.push_back({k * subset.stride, x, surfel});
   }
   return found;
 }
@@ -98,11 +109,11 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
   double moved = 0, explained = 0;
   Index looked = 0;
   for (Index i = 0; i < subset.end; i += subset.stride, ++looked)
-    moved += displaced(plane.distance(samples_[i].position), score_tolerance);
+    moved += displaced(plane.distance(samples_[i].smoothed), score_tolerance);
   for (const Match& match : found) {
     const Sample& s = samples_[match.sample];
-    const double weight = displaced(plane.distance(s.position), score_tolerance);
-    const Vector3 gap = plane.reflect(s.position) - match.partner;
+    const double weight = displaced(plane.distance(s.smoothed), score_tolerance);
+    const Vector3 gap = smoothed_gap(plane, match);
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
     explained += weight * testimony(distance_past(gap, *match.surfel, spacing_), agreement.facing);
@@ -130,7 +141,7 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 // what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) const {
   constexpr double wide = 0.01;
-  const double narrow = std::clamp(1.4 * noise_, 0.003, wide);  // noise agrees no closer
+  const double narrow = std::clamp(noise_, 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
   const Subset most = about(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
@@ -150,12 +161,11 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane, Subset subset) const {
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
-// nothing mirrors them, stop pulling. Where noise is left, partners stand on the plane through the
-// cells around them, which has averaged it out. Looking for partners is most of the work: they stay
-// until the plane has moved by a part of the spacing, or has settled between them.
+// nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
+// plane has moved by a part of the spacing, or has settled between them.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
                              std::vector<Match> found) const {
-  constexpr double least_tolerance = 0.002, widening = 2, noisy = 0.004, still = 1e-4;
+  constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
   constexpr double along_sheet = 0.01;  // partners hold the plane hardly where they may slide
   const double stale = 0.1 * spacing_, settled = 0.02 * spacing_;
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
@@ -168,14 +178,10 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
     double squares = 0, weights = 0;
     for (const Match& match : found) {
       const Sample& s = samples_[match.sample];
-      const double weight = displaced(plane.distance(s.position), tolerance);
+      const double weight = displaced(plane.distance(s.smoothed), tolerance);
       if (weight <= 0) continue;
-      const Vector3 image = plane.reflect(s.position);
-      Surfel p = *match.surfel;
-      p.flatness = p.flatness_without(noise_);
-      Vector3 gap = image - match.partner;
-      if (tolerance > noisy)
-        gap += (image.dot(p.normal) - p.height - gap.dot(p.normal)) * p.flatness * p.normal;
+      const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_)};
+      const Vector3 gap = smoothed_gap(plane, match);
       const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                                 p);
       const double r = distance_past(gap, p, spacing_) / tolerance;
@@ -183,7 +189,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
           weight * agreement.facing * inside_sheet(gap, p, spacing_) * fading(r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
-      sum.add(s.position, gap, agreement.metric(along_sheet), trusted);
+      sum.add(s.smoothed, gap, agreement.metric(along_sheet), trusted);
     }
     if (weights < 4) return plane;
     double change;
@@ -211,11 +217,11 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
     const Subset looked = about(step == 0 ? few_samples : most_samples);
     std::vector<Match> found = matches(plane, spacing_, looked);
     std::erase_if(found, [&](const Match& match) {
-      return displaced(plane.distance(samples_[match.sample].position), spacing_) < 1;
+      return displaced(plane.distance(samples_[match.sample].point), spacing_) < 1;
     });
     if (found.size() < 10) return start;
     const auto gap = [&](const Match& match) -> Vector3 {
-      return plane.reflect(samples_[match.sample].position) - match.partner;
+      return plane.reflect(samples_[match.sample].point) - match.partner;
     };
     std::vector<double> lengths;
     for (const Match& match : found) lengths.push_back(gap(match).norm());
@@ -224,7 +230,7 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
     PlaneStep sum(plane);
     for (const Match& match : found)
       if (gap(match).norm() <= 3 * typical)
-        sum.add(samples_[match.sample].position, gap(match), {1, 0, Vector3::Zero()}, 1);
+        sum.add(samples_[match.sample].point, gap(match), {1, 0, Vector3::Zero()}, 1);
     double moved;
     plane = sum.taken(&moved);
     if (moved < 1e-15) break;

@@ -40,14 +40,17 @@ class Refinement {
     const Surfel* surfel;  // the partner's
   };
   struct Sample {
-    Vector3 position;
+    Vector3 point;
     const Surfel* surfel;
-    std::uint32_t place;  // along a curve that fills space
+    std::uint32_t place;       // along a curve that fills space
+    Vector3 smoothed = point;  // less its noise
   };
 
   Subset about(Index wanted) const;
   Subset all() const;
   double measured_noise() const;
+  Vector3 smoothed(const Vector3& x, const Surfel& surfel) const;
+  Vector3 smoothed_gap(const UnitPlane& plane, const Match& match) const;
   PlaneCandidate rated(const UnitPlane& plane, Subset subset) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 

@@ -80,6 +80,12 @@ double Surfel::flatness_without(double noise) const {
   return wide > 0 ? std::max(flatness, 1 - std::sqrt(std::max(0.0, thin) / wide)) : flatness;
 }
 
+Vector3 Surfel::smoothed(const Vector3& x, double width) const {
+  Matrix3 widened = covariance;
+  widened.diagonal().array() += width * width;
+  return x - width * width * (widened.inverse() * (x - mean));
+}
+
 // What is known of the points of a cell.
 struct Surfels::Patch {
   Cell cell;
@@ -180,10 +186,16 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
         for (int z = from.z(); z <= to.z(); ++z)
           if (row[z] >= 0) around += patches[row[z]].moments;
       }
-    const Thinnest thinnest = thinnest_direction(around.covariance());
-    surfels_.push_back({low_ + patch.moments.mean(), thinnest.direction,
-                        thinnest.direction.dot(low_ + around.mean()), thinnest.flatness,
-                        thinnest.thickness, thinnest.width, patch.nearest.index, patch.sampled});
+    const Matrix3 covariance = around.covariance();
+    const Thinnest thinnest = thinnest_direction(covariance);
+    surfels_.push_back({{thinnest.direction, thinnest.flatness},
+                        low_ + patch.moments.mean(),
+                        thinnest.thickness,
+                        thinnest.width,
+                        patch.nearest.index,
+                        patch.sampled,
+                        low_ + around.mean(),
+                        covariance});
   }
 }
 

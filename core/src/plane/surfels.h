@@ -8,19 +8,28 @@
 
 namespace symsurf {
 
-/// A patch of the cloud: the points of one grid cell, as their mean and the plane through them and
-/// the cells around. All in the principal frame.
-struct Surfel {
-  Vector3 position;
+/// The plane through a patch of the cloud.
+struct Facet {
   Vector3 normal;   ///< unit, sign arbitrary
-  double height;    ///< of the plane through the cells around, along the normal: a' normal = height
   double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
+};
+
+/// A patch of the cloud: the points of one grid cell, as their mean, and with the cells around as
+/// their plane. All in the principal frame.
+struct Surfel : Facet {
+  Vector3 position;
   double thickness, width;  ///< standard deviations along the thinnest direction and the next
   Index sample;             ///< the cloud's point nearest to the middle of the cell
   Vector3 sampled;          ///< where that point is
+  Vector3 mean;             ///< of the points of the cells around
+  Matrix3 covariance;       ///< theirs
 
   /// What the flatness would be without noise of that standard deviation.
   double flatness_without(double noise) const;
+
+  /// x moved towards the mean along directions in which the patch spreads less than `width`: by
+  /// Tikhonov's filter, x - w^2 (C + w^2)^-1 (x - mean).
+  Vector3 smoothed(const Vector3& x, double width) const;
 };
 
 /// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
