@@ -41,10 +41,9 @@ double distance_past(const Vector3& gap, const Facet& partner, double spacing) {
   return std::min(std::sqrt(flat * sheet + round * blob), 3 * length);
 }
 
-MirrorScore::MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context)
+MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
     : cloud_(cloud),
-      context_(context),
-      points_(cloud, tree, context),
+      points_(points),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)) {
   take_samples();

@@ -13,7 +13,6 @@
 
 #include "nearest_points.h"
 #include "plane/surfels.h"
-#include "point_tree.h"
 
 namespace symsurf {
 
@@ -47,8 +46,8 @@ struct Explained {
 /// of the same freedom explains of random clouds, which have no exact partners.
 class MirrorScore {
  public:
-  /// The cloud and the tree of its points must outlive the score.
-  MirrorScore(const Cloud& cloud, const PointTree& tree, const Context& context);
+  /// The cloud and its points must outlive the score.
+  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
   Explained explained(const Mirror& mirror) const;
 
@@ -71,8 +70,7 @@ class MirrorScore {
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   const Cloud& cloud_;
-  const Context context_;
-  NearestPoints points_;
+  const NearestPoints& points_;
   Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;

@@ -27,12 +27,16 @@ Points mirrored_sheets(std::uint64_t seed) {
 
 struct Scored {
   explicit Scored(const Points& points)
-      : cloud(checked_cloud(points, {}, 4, {})), tree(points), score(cloud, tree, {}) {}
+      : cloud(checked_cloud(points, {}, 4, {})),
+        tree(points),
+        nearest(cloud, tree, {}),
+        score(cloud, nearest, {}) {}
   double operator()(const Mirror& mirror) const {
     return discounted(score.explained(mirror), mirror.kind());
   }
   Cloud cloud;
   PointTree tree;
+  NearestPoints nearest;
   MirrorScore score;
 };
 

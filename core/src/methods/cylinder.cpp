@@ -91,7 +91,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const CylinderCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Cylinder>(in_input_units(candidate.shape, cloud.frame)));
-  best = MirrorScore(cloud, tree, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
+  best = MirrorScore(cloud, points, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   return best;

@@ -125,7 +125,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   }
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
-  const MirrorScore score(cloud, tree, context.stage(0.7, 0.75));
+  const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
   if (candidates.empty()) return best;
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));

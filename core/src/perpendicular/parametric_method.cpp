@@ -29,7 +29,8 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
   });
 
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
-  const MirrorScore score(cloud, tree, context.stage(0.75, 0.8));
+  const NearestPoints points(cloud, tree, context);
+  const MirrorScore score(cloud, points, context.stage(0.75, 0.8));
   Result result;
   result.method = method;
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));

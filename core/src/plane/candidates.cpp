@@ -20,9 +20,9 @@ constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a ca
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr double first_count = 5500;  // pairs that are tried
+constexpr double first_count = 3000;  // pairs that are tried
 constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
-constexpr std::size_t looked_at = 1500, second_count = 200;
+constexpr std::size_t looked_at = 800, second_count = 150;
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
 // tetrahedron as wide as the cloud.

@@ -13,7 +13,6 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index small_cloud = 8192;  // whose every point is a sample
 constexpr Index most_samples = 1000, few_samples = 250;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
@@ -41,19 +40,12 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   spacing_ =
       coarse.spacing() * std::sqrt(static_cast<double>(coarse.size()) / static_cast<double>(n));
 
-  // Evenly spread ones first; of a small cloud the rest as well.
-  std::vector<std::uint8_t> taken(n <= small_cloud ? n : 0, 0);
-  const auto take = [&](Index i, const Vector3& x) {
+  for (Index k = 0; k < fine.size(); ++k) {
+    const Vector3& x = fine[k].sampled;
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
-    if (!taken.empty()) taken[i] = 1;
-  };
-  for (Index k = 0; k < fine.size(); ++k) take(fine[k].sample, fine[k].sampled);
-  even_samples_ = static_cast<Index>(samples_.size());
-  for (std::size_t i = 0; i < taken.size(); ++i)
-    if (!taken[i]) take(static_cast<Index>(i), cloud.frame.enter(cloud.points[i]));
-  const auto along_curve = [](const Sample& a, const Sample& b) { return a.place < b.place; };
-  std::stable_sort(samples_.begin(), samples_.begin() + even_samples_, along_curve);
-  std::stable_sort(samples_.begin() + even_samples_, samples_.end(), along_curve);
+  }
+  std::stable_sort(samples_.begin(), samples_.end(),
+                   [](const Sample& a, const Sample& b) { return a.place < b.place; });
   noise_ = measured_noise();
   for (Sample& s : samples_) s.smoothed = smoothed(s.point, *s.surfel);
 }
@@ -61,15 +53,15 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
 // From how far neighbours lie off the sheet. Being near, they have much of their noise in common.
 double Refinement::measured_noise() const {
   constexpr double shown = 0.67;  // of it, in the median
-  const Subset few = about(few_samples);
+  const auto stride = static_cast<std::size_t>(stride_for(few_samples));
   std::vector<Vector3> places;
-  for (Index i = 0; i < few.end; i += few.stride)
+  for (std::size_t i = 0; i < samples_.size(); i += stride)
     places.push_back(cloud_.frame.leave(samples_[i].point));
   if (places.empty()) return 0;
   const std::vector<Vector3> neighbours = points_.second_nearest(places);
   std::vector<double> offsets;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const Sample& s = samples_[static_cast<Index>(k) * few.stride];
+    const Sample& s = samples_[k * stride];
     const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.point;
     offsets.push_back(std::abs(chord.dot(s.surfel->normal)));
   }
@@ -88,10 +80,10 @@ Vector3 Refinement::smoothed_gap(const UnitPlane& plane, const Match& match) con
 }
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
-                                                   Subset subset) const {
+                                                   Index stride) const {
   std::vector<Vector3> images;
-  images.reserve(subset.end / subset.stride + 1);
-  for (Index i = 0; i < subset.end; i += subset.stride)
+  images.reserve(samples_.size() / stride + 1);
+  for (std::size_t i = 0; i < samples_.size(); i += stride)
     images.push_back(cloud_.frame.leave(plane.reflect(samples_[i].point)));
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
   std::vector<Match> found;
@@ -99,16 +91,16 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   for (Index k = 0; k < static_cast<Index>(partners.size()); ++k) {
     if (!partners[k].allFinite()) continue;
     const Vector3 x = cloud_.frame.enter(partners[k]);
-    if (const Surfel* surfel = surfel_at(x)) found.push_back({k * subset.stride, x, surfel});
+    if (const Surfel* surfel = surfel_at(x)) found.push_back({k * stride, x, surfel});
   }
   return found;
 }
 
 double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found,
-                             Subset subset) const {
+                             Index stride) const {
   double moved = 0, explained = 0;
   Index looked = 0;
-  for (Index i = 0; i < subset.end; i += subset.stride, ++looked)
+  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
     moved += displaced(plane.distance(samples_[i].smoothed), score_tolerance);
   for (const Match& match : found) {
     const Sample& s = samples_[match.sample];
@@ -121,19 +113,17 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
 }
 
-Refinement::Subset Refinement::about(Index wanted) const {
-  return {even_samples_, std::max<Index>(1, even_samples_ / wanted)};
+Index Refinement::stride_for(Index wanted) const {
+  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
 }
 
-Refinement::Subset Refinement::all() const { return {static_cast<Index>(samples_.size()), 1}; }
-
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
-  const Subset few = about(few_samples);
+  const Index few = stride_for(few_samples);
   return rated(fitted(start.plane, 0.02, few, 2), few);
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  const Subset most = about(most_samples);
+  const Index most = stride_for(most_samples);
   return rated(fitted(start.plane, 0.01, most, 2), most);
 }
 
@@ -143,7 +133,7 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_, 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
-  const Subset most = about(most_samples);
+  const Index most = stride_for(most_samples);
   const UnitPlane rough = fitted(start.plane, wide, most, steps);
   const std::vector<Match> around = matches(rough, reach, most);
   const double roughly = explained(rough, around, most);
@@ -151,19 +141,19 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around), most);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
-      fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), all(), 2);
+      fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
   return {fitted_to_exact_pairs(plane), std::max(closely.explained, roughly)};
 }
 
-PlaneCandidate Refinement::rated(const UnitPlane& plane, Subset subset) const {
-  return {plane, explained(plane, matches(plane, reach, subset), subset)};
+PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
+  return {plane, explained(plane, matches(plane, reach, stride), stride)};
 }
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
 // nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
 // plane has moved by a part of the spacing, or has settled between them.
-UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
+UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                              std::vector<Match> found) const {
   constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
   constexpr double along_sheet = 0.01;  // partners hold the plane hardly where they may slide
@@ -171,7 +161,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Subset subset, i
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
-      found = matches(plane, std::min(reach, 4 * tolerance + spacing_), subset);
+      found = matches(plane, std::min(reach, 4 * tolerance + spacing_), stride);
       moved = 0;
     }
     PlaneStep sum(plane);
@@ -214,7 +204,7 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
   double typical = 0;
   for (int step = 0; step < steps; ++step) {
     // A first look at few is mostly the last.
-    const Subset looked = about(step == 0 ? few_samples : most_samples);
+    const Index looked = stride_for(step == 0 ? few_samples : most_samples);
     std::vector<Match> found = matches(plane, spacing_, looked);
     std::erase_if(found, [&](const Match& match) {
       return displaced(plane.distance(samples_[match.sample].point), spacing_) < 1;

@@ -30,10 +30,6 @@ class Refinement {
   PlaneCandidate final(const PlaneCandidate& start, double least) const;
 
  private:
-  // Every `stride`-th of the samples before `end`.
-  struct Subset {
-    Index end, stride;
-  };
   struct Match {
     Index sample;
     Vector3 partner;
@@ -46,28 +42,27 @@ class Refinement {
     Vector3 smoothed = point;  // less its noise
   };
 
-  Subset about(Index wanted) const;
-  Subset all() const;
+  // Every how manieth sample to look at, for about so many.
+  Index stride_for(Index wanted) const;
   double measured_noise() const;
   Vector3 smoothed(const Vector3& x, const Surfel& surfel) const;
   Vector3 smoothed_gap(const UnitPlane& plane, const Match& match) const;
-  PlaneCandidate rated(const UnitPlane& plane, Subset subset) const;
+  PlaneCandidate rated(const UnitPlane& plane, Index stride) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
-  std::vector<Match> matches(const UnitPlane& plane, double limit, Subset subset) const;
-  double explained(const UnitPlane& plane, const std::vector<Match>& found, Subset subset) const;
+  std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
+  double explained(const UnitPlane& plane, const std::vector<Match>& found, Index stride) const;
   // `found`: the plane's partners, where they are known.
-  UnitPlane fitted(UnitPlane plane, double tolerance, Subset subset, int steps,
+  UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                    std::vector<Match> found = {}) const;
   UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
-  double spacing_;    // of the points on a sheet
-  double noise_ = 0;  // their standard deviation off it
-  std::vector<Sample> samples_;
-  Index even_samples_ = 0;  // the first ones, spread evenly over the cloud
+  double spacing_;               // of the points on a sheet
+  double noise_ = 0;             // their standard deviation off it
+  std::vector<Sample> samples_;  // spread evenly over the cloud
 };
 
 }  // namespace symsurf

@@ -192,7 +192,6 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
                         low_ + patch.moments.mean(),
                         thinnest.thickness,
                         thinnest.width,
-                        patch.nearest.index,
                         patch.sampled,
                         low_ + around.mean(),
                         covariance});

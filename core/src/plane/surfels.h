@@ -19,8 +19,7 @@ struct Facet {
 struct Surfel : Facet {
   Vector3 position;
   double thickness, width;  ///< standard deviations along the thinnest direction and the next
-  Index sample;             ///< the cloud's point nearest to the middle of the cell
-  Vector3 sampled;          ///< where that point is
+  Vector3 sampled;          ///< the cloud's point nearest to the middle of the cell
   Vector3 mean;             ///< of the points of the cells around
   Matrix3 covariance;       ///< theirs
 
