@@ -38,7 +38,7 @@ TEST(Surfels, SmoothingTakesNoiseOffSheetsAndRods) {
       for (Index i = 0; i < points.rows(); ++i)
         for (Index axis = along; axis < 3; ++axis)
           points(i, axis) = noise * std::sqrt(3) * random.uniform(-1, 1);
-      const Points moved = smoothed(points, 3 * noise);
+      const Points moved = smoothed(points, 2 * noise);
       const Index across = 3 - along;
       EXPECT_LT(root_mean_square(moved.rightCols(across)),
                 0.35 * root_mean_square(points.rightCols(across)))

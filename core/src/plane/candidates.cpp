@@ -20,9 +20,10 @@ constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a ca
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-constexpr double first_count = 3000;  // pairs that are tried
-constexpr double blind = 0.6;         // of a pair with normals: more are tried where there are none
-constexpr std::size_t looked_at = 800, second_count = 150;
+// Pairs that are tried, looked at again, and once more: for so many surfels or more. Of fewer,
+// which lie further from their partners, fewer pairs come near a plane, and more are tried.
+constexpr double first_count = 3000, looked_at = 800, second_count = 150, many = 800;
+constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
 // tetrahedron as wide as the cloud.
@@ -85,10 +86,10 @@ void sort_best_first(std::vector<PlaneCandidate>& candidates) {
       [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.explained > b.explained; });
 }
 
-void keep_best(std::vector<PlaneCandidate>& candidates, std::size_t count) {
-  if (candidates.size() <= count) return;
+void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
+  if (static_cast<double>(candidates.size()) <= count) return;
   sort_best_first(candidates);
-  candidates.resize(count);
+  candidates.resize(static_cast<std::size_t>(count));
 }
 
 }  // namespace
@@ -124,14 +125,16 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
     }
 
   std::vector<PlaneCandidate> found;
-  const double last_ticket = first_count / telling * std::numeric_limits<std::uint32_t>::max();
+  const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
+  const double last_ticket =
+      sparser * first_count / telling * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
     const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
     if (explained > least_explained) found.push_back({plane, explained});
   }
-  keep_best(found, looked_at);
+  keep_best(found, sparser * looked_at);
 
   std::map<std::int32_t, Average> bins;
   for (const auto& [plane, glanced] : found) {
@@ -140,7 +143,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   }
   found.clear();
   for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
-  keep_best(found, second_count);
+  keep_best(found, sparser * second_count);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
     candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);

@@ -68,10 +68,10 @@ double Refinement::measured_noise() const {
   return median(std::move(offsets)) / shown;
 }
 
-// Noise beyond what curvature between neighbours makes. Wide, since a patch's own spread has the
-// noise in it.
+// Noise beyond what curvature between neighbours makes. What spreads little more than the noise, as
+// small patches do across their sheet, is taken for noise as well.
 Vector3 Refinement::smoothed(const Vector3& x, const Surfel& surfel) const {
-  constexpr double noticed = 0.002, width = 4;
+  constexpr double noticed = 0.002, width = 2;
   return noise_ > noticed ? surfel.smoothed(x, width * noise_) : x;
 }
 

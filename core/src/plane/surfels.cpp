@@ -81,9 +81,10 @@ double Surfel::flatness_without(double noise) const {
 }
 
 Vector3 Surfel::smoothed(const Vector3& x, double width) const {
-  Matrix3 widened = covariance;
-  widened.diagonal().array() += width * width;
-  return x - width * width * (widened.inverse() * (x - mean));
+  const double narrow = width * width * width * width;
+  Matrix3 widened = covariance * covariance;
+  widened.diagonal().array() += narrow;
+  return x - narrow * (widened.inverse() * (x - mean));
 }
 
 // What is known of the points of a cell.

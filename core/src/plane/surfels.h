@@ -26,8 +26,8 @@ struct Surfel : Facet {
   /// What the flatness would be without noise of that standard deviation.
   double flatness_without(double noise) const;
 
-  /// x moved towards the mean along directions in which the patch spreads less than `width`: by
-  /// Tikhonov's filter, x - w^2 (C + w^2)^-1 (x - mean).
+  /// x moved towards the mean along directions in which the patch spreads less than `width`:
+  /// x - w^4 (C^2 + w^4)^-1 (x - mean), as Butterworth's filter parts low frequencies from high.
   Vector3 smoothed(const Vector3& x, double width) const;
 };
 
