@@ -45,14 +45,13 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
     : cloud_(cloud),
       points_(points),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
-      fine_(cloud, coarse_, context.stage(0.5, 1)) {
+      fine_(cloud, coarse_, context.stage(0.5, 1)),
+      spacing_(coarse_.spacing_of(cloud.total)) {
   take_samples();
   look_at_neighbours();
 }
 
 void MirrorScore::take_samples() {
-  const auto points = static_cast<double>(cloud_.total);
-  spacing_ = coarse_.spacing() * std::sqrt(static_cast<double>(coarse_.size()) / points);
   const Index step = std::max<Index>(1, fine_.size() / most_samples);
   for (Index k = 0; k < fine_.size(); k += step) {
     const Vector3 x = fine_[k].sampled;

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "../parametric/settling.h"
-#include "agreement.h"
 #include "plane_step.h"
 
 namespace symsurf {

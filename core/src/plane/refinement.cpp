@@ -35,11 +35,11 @@ std::uint32_t place_on_curve(const Vector3& x) {
 
 Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
                        const Surfels& fine)
-    : cloud_(cloud), points_(points), coarse_(coarse), fine_(fine) {
-  const Index n = cloud.total;
-  spacing_ =
-      coarse.spacing() * std::sqrt(static_cast<double>(coarse.size()) / static_cast<double>(n));
-
+    : cloud_(cloud),
+      points_(points),
+      coarse_(coarse),
+      fine_(fine),
+      spacing_(coarse.spacing_of(cloud.total)) {
   for (Index k = 0; k < fine.size(); ++k) {
     const Vector3& x = fine[k].sampled;
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
@@ -53,7 +53,7 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
 // From how far neighbours lie off the sheet. Being near, they have much of their noise in common.
 double Refinement::measured_noise() const {
   constexpr double shown = 0.67;  // of it, in the median
-  const auto stride = static_cast<std::size_t>(stride_for(few_samples));
+  const Index stride = stride_for(few_samples);
   std::vector<Vector3> places;
   for (std::size_t i = 0; i < samples_.size(); i += stride)
     places.push_back(cloud_.frame.leave(samples_[i].point));

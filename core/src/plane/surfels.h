@@ -2,6 +2,7 @@
 
 #include <symsurf/method.h>
 
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -48,6 +49,11 @@ class Surfels {
 
   /// Edge of a cell, about the distance between surfels.
   double spacing() const { return cell_; }
+
+  /// The same of that many points, all the cloud has: on a sheet.
+  double spacing_of(Index points) const {
+    return cell_ * std::sqrt(static_cast<double>(size()) / static_cast<double>(points));
+  }
 
   /// The surfel of the cell that holds x, -1 where the cell is empty or x lies outside the grid.
   Index containing(const Vector3& x) const;
