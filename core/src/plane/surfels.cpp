@@ -17,33 +17,27 @@ constexpr double lattice_shift = 0.38197;
 constexpr double line_thinness = 1e-8;  // of the squared width against the squared length
 constexpr int finest_cells = 128;       // along the longest side
 
+// How many points, their sum, and that of their products: side by side, to be added at once.
 struct Moments {
-  double count = 0;
-  Vector3 sum = Vector3::Zero();
-  Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 10, 1> sums = Eigen::Matrix<double, 10, 1>::Zero();
 
   Moments& operator+=(const Moments& other) {
-    count += other.count;
-    sum += other.sum;
-    squares += other.squares;
+    sums += other.sums;
     return *this;
   }
   void add(const Vector3& x) {
-    ++count;
-    sum += x;
-    squares[0] += x.x() * x.x();
-    squares[1] += x.x() * x.y();
-    squares[2] += x.x() * x.z();
-    squares[3] += x.y() * x.y();
-    squares[4] += x.y() * x.z();
-    squares[5] += x.z() * x.z();
+    sums[0] += 1;
+    sums.segment<3>(1) += x;
+    sums.segment<3>(4) += x.x() * x;
+    sums.segment<2>(7) += x.y() * x.tail<2>();
+    sums[9] += x.z() * x.z();
   }
-  Vector3 mean() const { return sum / count; }
+  double count() const { return sums[0]; }
+  Vector3 mean() const { return sums.segment<3>(1) / count(); }
   Matrix3 covariance() const {
     Matrix3 s;
-    s << squares[0], squares[1], squares[2], squares[1], squares[3], squares[4], squares[2],
-        squares[4], squares[5];
-    return s / count - mean() * mean().transpose();
+    s << sums[4], sums[5], sums[6], sums[5], sums[7], sums[8], sums[6], sums[8], sums[9];
+    return s / count() - mean() * mean().transpose();
   }
 };
 
@@ -89,7 +83,7 @@ Vector3 Surfel::smoothed(const Vector3& x, double width) const {
 
 // What is known of the points of a cell.
 struct Surfels::Patch {
-  Cell cell;
+  Cell cell = Cell::Zero();
   Moments moments;
   Neighbour nearest;  // to the middle of the cell
   Vector3 sampled = Vector3::Zero();
@@ -137,13 +131,14 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
     // Off any lattice that the points may lie on: rounding must not decide between two cells.
     low_ = cloud.frame.low.array() - lattice_shift * cell_;
     size_ = ((cloud.frame.high - low_) * cells_).array().floor().cast<int>() + 1;
-    std::vector<std::uint8_t> seen(size_.cast<Index>().prod(), 0);
+    occupied_ = OccupiedCells(size_.cast<Index>().prod());
     for (Index i = 0; i < cloud.points.size(); ++i)
-      seen[linear(cell_of(cloud.frame.enter(cloud.points[i])))] = 1;
+      occupied_.add(linear(cell_of(cloud.frame.enter(cloud.points[i]))));
     if (context.communicator())
-      for (const std::vector<std::uint8_t>& part : gathered(context, seen))
-        for (std::size_t c = 0; c < seen.size(); ++c) seen[c] |= part[c];
-    const double occupied = static_cast<double>(std::count(seen.begin(), seen.end(), 1));
+      for (const OccupiedCells::Words& part : gathered(context, occupied_.words()))
+        occupied_.add(part);
+    occupied_.number_them();
+    const double occupied = static_cast<double>(occupied_.count());
     context.report((k + 1.0) / guesses);
     const double better = std::min<double>(finest_cells, cells * std::sqrt(wanted / occupied));
     if (std::abs(occupied / wanted - 1) < 0.15 || std::abs(better - cells) < 0.5) return;
@@ -152,30 +147,21 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
 }
 
 void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
-  slot_.assign(size_.cast<Index>().prod(), -1);
-  std::vector<Patch> patches;
+  std::vector<Patch> patches(occupied_.count());
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
     const Cell c = cell_of(x);
-    std::int32_t& s = slot_[linear(c)];
-    if (s < 0) {
-      s = static_cast<std::int32_t>(patches.size());
-      patches.emplace_back().cell = c;
-    }
     const Vector3 middle = low_ + cell_ * (c.cast<double>().array() + 0.5).matrix();
-    patches[s].moments.add(x - low_);
-    patches[s].sample({cloud.first + i, (x - middle).squaredNorm()}, x);
+    Patch& patch = patches[occupied_.number(linear(c))];
+    patch.cell = c;
+    patch.moments.add(x - low_);
+    patch.sample({cloud.first + i, (x - middle).squaredNorm()}, x);
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 
   if (context.communicator()) join(patches, context);
 
-  // In the order of the cells, not in that of the points.
-  std::sort(patches.begin(), patches.end(),
-            [&](const Patch& a, const Patch& b) { return linear(a.cell) < linear(b.cell); });
-  for (std::size_t s = 0; s < patches.size(); ++s)
-    slot_[linear(patches[s].cell)] = static_cast<std::int32_t>(s);
   surfels_.reserve(patches.size());
   for (const Patch& patch : patches) {
     Moments around;
@@ -183,9 +169,8 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
     const Cell to = (patch.cell.array() + 1).min(size_.array() - 1);
     for (int x = from.x(); x <= to.x(); ++x)
       for (int y = from.y(); y <= to.y(); ++y) {
-        const std::int32_t* row = &slot_[linear({x, y, 0})];
-        for (int z = from.z(); z <= to.z(); ++z)
-          if (row[z] >= 0) around += patches[row[z]].moments;
+        const Index row = linear({x, y, 0}), end = occupied_.before(row + to.z() + 1);
+        for (Index k = occupied_.before(row + from.z()); k < end; ++k) around += patches[k].moments;
       }
     const Matrix3 covariance = around.covariance();
     const Thinnest thinnest = thinnest_direction(covariance);
@@ -201,19 +186,15 @@ void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
 
 // The patches of all processes, those of one cell made one.
 void Surfels::join(std::vector<Patch>& patches, const Context& context) {
+  std::erase_if(patches, [](const Patch& patch) { return patch.moments.count() == 0; });
   const auto parts = gathered(context, patches);
-  patches.clear();
-  std::fill(slot_.begin(), slot_.end(), -1);
+  patches.assign(occupied_.count(), {});
   for (const std::vector<Patch>& part : parts)
-    for (const Patch& patch : part) {
-      std::int32_t& s = slot_[linear(patch.cell)];
-      if (s < 0) {
-        s = static_cast<std::int32_t>(patches.size());
-        patches.push_back(patch);
-        continue;
-      }
-      patches[s].moments += patch.moments;
-      patches[s].sample(patch.nearest, patch.sampled);
+    for (const Patch& other : part) {
+      Patch& patch = patches[occupied_.number(linear(other.cell))];
+      patch.cell = other.cell;
+      patch.moments += other.moments;
+      patch.sample(other.nearest, other.sampled);
     }
 }
 
@@ -221,7 +202,7 @@ Index Surfels::containing(const Vector3& x) const {
   const Vector3 at = (x - low_) * cells_;
   // Points on the far faces belong to the last cell, as in cell_of.
   if (!((at.array() >= 0).all() && (at.array() <= size_.cast<double>().array()).all())) return -1;
-  return slot_[linear(cell_of(x))];
+  return occupied_.number(linear(cell_of(x)));
 }
 
 const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x) {

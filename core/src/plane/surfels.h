@@ -3,9 +3,10 @@
 #include <symsurf/method.h>
 
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <vector>
+
+#include "occupied_cells.h"
 
 namespace symsurf {
 
@@ -77,8 +78,8 @@ class Surfels {
   Vector3 low_;
   double cell_ = 1, cells_ = 1;  // edge of a cell, cells along a unit of length
   Cell size_;
-  std::vector<Surfel> surfels_;
-  std::vector<std::int32_t> slot_;  // of each cell in surfels_, -1: empty
+  OccupiedCells occupied_;
+  std::vector<Surfel> surfels_;  // one each
 };
 
 /// The flattest of the surfels whose cells hold x; of nearly equal ones the first.
