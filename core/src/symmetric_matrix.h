@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <symsurf/types.h>
 
 namespace symsurf {
 
@@ -21,6 +21,17 @@ SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric);
 /// The same of A v = lambda B v, v' B v = 1, for a positive definite B (Golub and Van Loan, 8.7).
 SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
                                         const Eigen::MatrixXd& definite);
+
+/// The least eigenvalue of a semidefinite matrix with its unit eigenvector, and the others.
+struct LeastEigen {
+  double value, next, greatest;
+  Vector3 vector;
+};
+
+/// In a quarter of the time of eigen_of: Newton's steps on the characteristic polynomial, from
+/// below, then inverse iterations with the adjugate in the inverse's place (Golub and Van Loan,
+/// 7.6.1). For entries that have a fourth power.
+LeastEigen least_eigen_of(const Matrix3& semidefinite);
 
 /// x of A x = b for a semidefinite A by L D L' with pivots (Golub and Van Loan, 4.2); 0 along what
 /// A leaves open. n is 3 to 6 or any (Eigen::Dynamic).

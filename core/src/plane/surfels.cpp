@@ -7,6 +7,7 @@
 
 #include "../gathered.h"
 #include "../point_tree.h"
+#include "../symmetric_matrix.h"
 
 namespace symsurf {
 
@@ -46,25 +47,15 @@ struct Thinnest {
   double flatness, thickness, width;
 };
 
-// The direct solver is quick but gives half the digits; one Rayleigh quotient iteration, with the
-// adjugate in place of the inverse, gives the rest.
 Thinnest thinnest_direction(const Matrix3& covariance) {
-  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-  eigen.computeDirect(covariance);
-  const Vector3 rough = eigen.eigenvectors().col(0), spread = eigen.eigenvalues();
-  if (!(spread[1] > line_thinness * spread[2])) return {rough, 0, 0, 0};
-
-  const Matrix3 shifted = covariance - rough.dot(covariance * rough) * Matrix3::Identity();
-  Matrix3 adjugate;
-  adjugate << shifted.col(1).cross(shifted.col(2)), shifted.col(2).cross(shifted.col(0)),
-      shifted.col(0).cross(shifted.col(1));
-  const Vector3 direction = (adjugate * rough).normalized();
+  const LeastEigen spread = least_eigen_of(covariance);
+  if (!(spread.next > line_thinness * spread.greatest)) return {spread.vector, 0, 0, 0};
   // A root at zero would make rounding a hundred million times as large as it is.
   constexpr double rounded_off = 1e-8;
-  const double least = std::max(0.0, direction.dot(covariance * direction)) / spread[1];
+  const double least = spread.value / spread.next;
   const double thickness = std::sqrt(least + rounded_off) - std::sqrt(rounded_off);
-  return {direction, std::max(0.0, 1 - thickness), std::sqrt(least * spread[1]),
-          std::sqrt(spread[1])};
+  return {spread.vector, std::max(0.0, 1 - thickness), std::sqrt(spread.value),
+          std::sqrt(spread.next)};
 }
 
 }  // namespace

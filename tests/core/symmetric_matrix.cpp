@@ -1,0 +1,50 @@
+#include "symmetric_matrix.h"
+
+#include <gtest/gtest.h>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+Matrix3 turned(const Vector3& values, const Matrix3& axes) {
+  const Matrix3 m = axes * values.asDiagonal() * axes.transpose();
+  return (m + m.transpose()) / 2;
+}
+
+TEST(LeastEigen, IsThatOfTheMatrixAtAnyScale) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Vector3& values : {Vector3(0, 0.6, 1), Vector3(1e-6, 0.5, 1), Vector3(0.02, 1, 1),
+                                  Vector3(0.3, 0.5, 1), Vector3(0.5, 0.6, 1), Vector3(0, 1e-3, 1)})
+      for (const double scale : {1e-20, 1.0, 1e20}) {
+        const Matrix3 axes = random.rotation();
+        const LeastEigen least = least_eigen_of(scale * turned(values, axes));
+        EXPECT_NEAR(least.value, scale * values[0], 1e-14 * scale) << seed << ' ' << values;
+        EXPECT_NEAR(least.next, scale * values[1], 1e-7 * scale) << seed << ' ' << values;
+        EXPECT_NEAR(least.greatest, scale * values[2], 1e-7 * scale) << seed << ' ' << values;
+        EXPECT_NEAR(least.vector.norm(), 1, 1e-14);
+        EXPECT_LT(least.vector.cross(axes.col(0)).norm(), 1e-11) << seed << ' ' << values;
+      }
+  }
+}
+
+// Where others are as small, any vector amid theirs will do.
+TEST(LeastEigen, IsOneOfSeveralAlike) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Vector3& values :
+         {Vector3(0.5, 0.5, 1), Vector3(0, 0, 1), Vector3(1, 1, 1), Vector3(0, 0, 0)}) {
+      const Matrix3 axes = random.rotation();
+      const LeastEigen least = least_eigen_of(turned(values, axes));
+      EXPECT_NEAR(least.value, values[0], 1e-7) << seed << ' ' << values;
+      EXPECT_NEAR(least.greatest, values[2], 1e-7) << seed << ' ' << values;
+      EXPECT_NEAR(least.vector.norm(), 1, 1e-14) << seed << ' ' << values;
+      if (!(values[0] < values[2])) continue;
+      EXPECT_LT(std::abs(least.vector.dot(axes.col(2))), 1e-4) << seed << ' ' << values;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
