@@ -114,7 +114,7 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
 }
 
 Index Refinement::stride_for(Index wanted) const {
-  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
+  return std::max<Index>(1, (static_cast<Index>(samples_.size()) + wanted / 2) / wanted);
 }
 
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
