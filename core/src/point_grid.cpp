@@ -39,7 +39,7 @@ std::optional<PointGrid> PointGrid::where_faster(PointsView points) {
 // Cells that hold a few points where they hold any. Sheets fill cells as the square of the cell's
 // length, so a guess and a correction are enough.
 void PointGrid::choose_cell(PointsView points) {
-  constexpr double wanted = 3, most_cells = 32;  // points in a cell; cells a point
+  constexpr double wanted = 4, most_cells = 32;  // points in a cell; cells a point
   const double longest = (high_ - low_).maxCoeff();
   const double count = static_cast<double>(points.size());
   if (!(longest > 0)) return;
@@ -84,6 +84,36 @@ PointGrid::Cell PointGrid::cell_of(const Vector3& x) const {
   return cell.max(0.0).min((size_ - 1).cast<double>()).cast<int>();
 }
 
+template <typename Body>
+void PointGrid::each_run(const Cell& from, const Cell& to, const Body& body) const {
+  for (int z = from.z(); z <= to.z(); ++z)
+    for (int y = from.y(); y <= to.y(); ++y) {
+      const Index row = linear({0, y, z});
+      body(start_[row + from.x()], start_[row + to.x() + 1]);
+    }
+}
+
+// Without a branch a point, which no processor foresees: false where two are as near, and which of
+// them is meant was not looked at.
+bool PointGrid::nearest_of_cells(const Cell& from, const Cell& to, const Vector3& query,
+                                 Neighbour& found) const {
+  // As far as found may be, and found again then, is no tie.
+  double least = std::nextafter(found.squared_distance, std::numeric_limits<double>::infinity());
+  std::int32_t place = -1;
+  bool tied = false;
+  each_run(from, to, [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t p = begin; p < end; ++p) {
+      const double squared = (points_[p] - query).squaredNorm();
+      tied |= squared == least;
+      place = squared < least ? p : place;
+      least = squared < least ? squared : least;
+    }
+  });
+  if (tied) return false;
+  if (place >= 0) found = {order_[place], least};
+  return true;
+}
+
 // Looks at all cells within a reach of the query, and again with a longer reach where it was too
 // short to be sure.
 template <std::size_t k>
@@ -99,13 +129,11 @@ std::array<Neighbour, k> PointGrid::best(const Vector3& query, double limit) con
     const double width = reach * cells_ + rounding;
     const Cell from = (at - width).max(0.0).min(last).cast<int>();
     const Cell to = (at + width).max(0.0).min(last).cast<int>();
-    for (int z = from.z(); z <= to.z(); ++z)
-      for (int y = from.y(); y <= to.y(); ++y) {
-        const Index row = linear({0, y, z});
-        const std::int32_t end = start_[row + to.x() + 1];
-        for (std::int32_t p = start_[row + from.x()]; p < end; ++p)
+    if (k > 1 || !nearest_of_cells(from, to, query, found[0]))
+      each_run(from, to, [&](std::int32_t begin, std::int32_t end) {
+        for (std::int32_t p = begin; p < end; ++p)
           keep(found, {order_[p], (points_[p] - query).squaredNorm()});
-      }
+      });
     if (found.back().index >= 0) {
       limit = found.back().squared_distance;
       const double distance = std::sqrt(limit);

@@ -36,6 +36,11 @@ class PointGrid {
     return (static_cast<Index>(c.z()) * size_.y() + c.y()) * size_.x() + c.x();
   }
 
+  // Calls body(begin, end) of the points of these cells, run by run.
+  template <typename Body>
+  void each_run(const Cell& from, const Cell& to, const Body& body) const;
+  bool nearest_of_cells(const Cell& from, const Cell& to, const Vector3& query,
+                        Neighbour& found) const;
   template <std::size_t k>
   std::array<Neighbour, k> best(const Vector3& query, double limit) const;
 
