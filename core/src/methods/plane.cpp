@@ -16,8 +16,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 20;         // candidates that are settled on the surfels
-constexpr Index settled_well = 14;    // of these, on all of them
+constexpr Index started = 20;         // candidates that are settled on the surfels, roughly
+constexpr Index settled_well = 14;    // of these, are settled closely
 constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr Index finalists = 6;        // of these, are fitted carefully
 constexpr double convincing = 0.05;   // below the best by this share of it: worth the last digits
@@ -60,7 +60,7 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
   drop_below_best(candidates, hopeless);
   keep_distinct(candidates, alike, settled_well);
   for (PlaneCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
   keep_distinct(candidates, alike, quickly_fitted);
   context.report(1);
   return candidates;
