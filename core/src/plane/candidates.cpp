@@ -21,7 +21,7 @@ constexpr double contradiction = 0.9;  // how much an image beside the cloud spe
 constexpr double least_explained = 0.1;
 // Pairs that are tried, looked at again, and once more: for so many surfels or more. Of fewer,
 // which lie further from their partners, fewer pairs come near a plane, and more are tried.
-constexpr double first_count = 3000, looked_at = 500, second_count = 80, many = 1000;
+constexpr double first_count = 3000, looked_at = 800, second_count = 150, many = 1000;
 constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a

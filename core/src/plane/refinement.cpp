@@ -13,7 +13,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index most_samples = 1000, few_samples = 250;
+// To fit to; telling planes apart asks for more.
+constexpr Index few_samples = 250, many_samples = 1000, telling_samples = 1300;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
 // Stricter than the score: where much is missing, it is misses that tell a false plane from the
@@ -123,8 +124,7 @@ PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  const Index most = stride_for(most_samples);
-  return rated(fitted(start.plane, 0.01, most, 2), most);
+  return rated(fitted(start.plane, 0.01, stride_for(many_samples), 2), stride_for(telling_samples));
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
@@ -133,12 +133,12 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_, 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
-  const Index most = stride_for(most_samples);
-  const UnitPlane rough = fitted(start.plane, wide, most, steps);
-  const std::vector<Match> around = matches(rough, reach, most);
-  const double roughly = explained(rough, around, most);
+  const Index many = stride_for(many_samples), telling = stride_for(telling_samples);
+  const UnitPlane rough = fitted(start.plane, wide, many, steps);
+  const std::vector<Match> around = matches(rough, reach, telling);
+  const double roughly = explained(rough, around, telling);
   if (roughly < least) return {rough, roughly};
-  const PlaneCandidate closely = rated(fitted(rough, narrow, most, steps, around), most);
+  const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
       fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
@@ -204,7 +204,7 @@ UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
   double typical = 0;
   for (int step = 0; step < steps; ++step) {
     // A first look at few is mostly the last.
-    const Index looked = stride_for(step == 0 ? few_samples : most_samples);
+    const Index looked = stride_for(step == 0 ? few_samples : many_samples);
     std::vector<Match> found = matches(plane, spacing_, looked);
     std::erase_if(found, [&](const Match& match) {
       return displaced(plane.distance(samples_[match.sample].point), spacing_) < 1;
