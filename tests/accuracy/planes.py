@@ -35,7 +35,10 @@ def _damaged(points: Points, truth: Plane, damages: str, rng: np.random.Generato
     return points
 
 
-def _case(name: str, damages: str, least_success: float) -> Case:
+def _case(name: str, damages: str, share: str, least: float) -> Case:
+    """`share`: of the trials in which the plane is "found", or in which it is the "right" one, no
+    other, at the least."""
+
     def run(subject: str, rng: np.random.Generator) -> Figures:
         vertices, faces, truth = mirrored_mesh(subject)
         points = _damaged(sampled(vertices, faces, COUNT, rng), truth, damages, rng)
@@ -44,19 +47,20 @@ def _case(name: str, damages: str, least_success: float) -> Case:
         result, seconds = timed_detect(points, "plane")
         angle, offset = difference(result.mirror, truth, points)
         found = float(angle <= 1 and offset <= 0.005)
-        return {"angle": angle, "offset": offset, "right": found, "score": result.score,
-                "seconds": seconds}  # fmt: skip
+        right = float(angle <= 5 and offset <= 0.03)
+        return {"angle": angle, "offset": offset, "found": found, "right": right,
+                "score": result.score, "seconds": seconds}  # fmt: skip
 
-    bars = {"angle": at_most(1), "offset": at_most(0.005), "right": at_least(least_success)}
+    bars = {"angle": at_most(1), "offset": at_most(0.005), share: at_least(least)}
     meshes = ("ant", "airplane") + (("cow", "face") if (FOLDER / "spot.obj").exists() else ())
     return Case(f"plane, {name}", meshes, run, bars)
 
 
 CASES = (
-    _case("as it is", "", 0.95),
-    _case("noise 1 %", "noise", 0.95),
-    _case("20 % missing", "missing", 0.95),
-    _case("4:1 density", "density", 0.95),
-    _case("all three", "noise missing density", 0.95),
-    _case("half, 30 % of the other half", "half", 0.9),
+    _case("as it is", "", "found", 0.95),
+    _case("noise 1 %", "noise", "found", 0.95),
+    _case("20 % missing", "missing", "found", 0.95),
+    _case("4:1 density", "density", "found", 0.95),
+    _case("all three", "noise missing density", "found", 0.95),
+    _case("half, 30 % of the other half", "half", "right", 0.9),
 )
