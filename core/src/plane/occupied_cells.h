@@ -23,8 +23,9 @@ class OccupiedCells {
     for (std::size_t w = 0; w < words.size(); ++w) words_[w] |= words[w];
   }
 
-  /// For `add`, and to be called after it.
   const Words& words() const { return words_; }
+
+  /// To be called when all are added, and before any is asked for.
   void number_them() {
     before_.clear();
     count_ = 0;
