@@ -22,7 +22,6 @@ constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
 constexpr Index finalists = 6;        // of these, are fitted carefully
 constexpr double convincing = 0.05;   // below the best by this share of it: worth the last digits
 constexpr double hopeless = 0.4;      // further below than that: not worth fitting
-constexpr double faint = 1;           // and, as found, not worth settling: it explains nothing
 constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
 constexpr double alike = 0.05;        // planes closer than this are one
 constexpr Index measured = 150;       // surfels that the measure is taken over
@@ -41,8 +40,8 @@ void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candida
 
 double below(double best, double share) { return best - share * std::max(best, meagre); }
 
-void drop_below_best(std::vector<PlaneCandidate>& candidates, double share) {
-  const double least = below(candidates.front().explained, share);
+void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
+  const double least = below(candidates.front().explained, hopeless);
   std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
 }
 
@@ -51,13 +50,12 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
-  drop_below_best(candidates, faint);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
   keep_distinct(candidates, alike, started);
   context.report(0.5);
   climb(surfels, map, candidates.front());
-  drop_below_best(candidates, hopeless);
+  drop_hopeless(candidates);
   keep_distinct(candidates, alike, settled_well);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
@@ -84,7 +82,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   };
   refine(0.4, 0.43, [&](const PlaneCandidate& c) { return refinement.quick(c); });
   keep_distinct(candidates, alike, finalists);
-  drop_below_best(candidates, hopeless);
+  drop_hopeless(candidates);
   refine(0.43, 0.46, [&](const PlaneCandidate& c) { return refinement.careful(c); });
   keep_distinct(candidates, alike, finalists);
   refine(0.46, 0.5, [&](const PlaneCandidate& c) {
