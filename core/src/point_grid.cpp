@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "occupied_cells.h"
+
 namespace symsurf {
 
 namespace {
@@ -50,14 +52,10 @@ void PointGrid::choose_cell(PointsView points) {
     size_ = ((high_ - low_) * cells_).array().floor().cast<int>() + 1;
   };
   set(2 * longest / std::sqrt(count));
-  std::vector<std::uint8_t> seen(static_cast<std::size_t>(size_.cast<Index>().prod()), 0);
-  Index occupied = 0;
-  for (Index i = 0; i < points.size(); ++i) {
-    std::uint8_t& cell = seen[linear(cell_of(points[i]))];
-    occupied += !cell;
-    cell = 1;
-  }
-  set(cell_ * std::sqrt(wanted * static_cast<double>(occupied) / count));
+  OccupiedCells occupied(size_.cast<Index>().prod());
+  for (Index i = 0; i < points.size(); ++i) occupied.add(linear(cell_of(points[i])));
+  occupied.number_them();
+  set(cell_ * std::sqrt(wanted * static_cast<double>(occupied.count()) / count));
 }
 
 void PointGrid::fill(PointsView points) {

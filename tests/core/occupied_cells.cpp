@@ -1,4 +1,4 @@
-#include "plane/occupied_cells.h"
+#include "occupied_cells.h"
 
 #include <gtest/gtest.h>
 

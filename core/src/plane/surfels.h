@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "occupied_cells.h"
+#include "../occupied_cells.h"
 
 namespace symsurf {
 
