@@ -3,6 +3,7 @@
 #include <symsurf/communicator.h>
 #include <symsurf/context.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -51,6 +52,31 @@ T summed(const Context& context, const T& own) {
   T sum = all.front();
   for (std::size_t i = 1; i < all.size(); ++i) sum += all[i];
   return sum;
+}
+
+/// Calls meet(other) for each other process, the processes paired off: whoever is mine, I am his.
+template <typename Meet>
+void meet_each(const Communicator& processes, const Meet& meet) {
+  const int size = processes.size(), rank = processes.rank();
+  for (int round = 0; round < size; ++round) {
+    const int other = (round - rank + size) % size;
+    if (other != rank) meet(other);
+  }
+}
+
+/// Gives item(k) for k of 0 up to `given` to another process, and calls take(k, item) for as many
+/// as `taken` that it gives: a chunk at a time, so that memory does not grow with them.
+template <typename T, typename Item, typename Take>
+void swap_items(const Communicator& processes, int other, Index given, Index taken,
+                const Item& item, const Take& take) {
+  constexpr Index chunk = 1 << 14;
+  for (Index at = 0; at < std::max(given, taken); at += chunk) {
+    std::vector<T> mine;
+    mine.reserve(std::clamp<Index>(given - at, 0, chunk));
+    for (Index k = at; k < std::min(at + chunk, given); ++k) mine.push_back(item(k));
+    const std::vector<T> theirs = items_of<T>(processes.swap(other, bytes_of(mine)));
+    for (std::size_t k = 0; k < theirs.size(); ++k) take(at + static_cast<Index>(k), theirs[k]);
+  }
 }
 
 /// How many points the processes before this one have, and how many all have.

@@ -9,33 +9,21 @@
 
 #include "parallel.h"
 #include "point_grid.h"
-#include "shared_matching.h"
 
 namespace symsurf {
-
-namespace {
-
-// Of each point; -1: none.
-struct Partners {
-  std::vector<std::int32_t> index;
-  Eigen::VectorXd distance;  // from the image
-
-  explicit Partners(Index size) : index(size), distance(size) {}
-
-  void set(Index i, const Neighbour& found) {
-    index[i] = static_cast<std::int32_t>(found.index);
-    distance[i] = std::sqrt(found.squared_distance);
-  }
-};
 
 Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
                        const Context& context) {
   constexpr Index grain = 1024;
-  Partners partners(points.size());
+  Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
+  const auto set = [&](Index i, const Neighbour& found) {
+    partners.index[i] = static_cast<std::int32_t>(found.index);
+    partners.squared[i] = found.squared_distance;
+  };
   if (const std::optional<PointGrid> grid = PointGrid::where_faster(points)) {
     parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i)
-        partners.set(i, grid->nearest(mirror.reflect(points[i]), limit * limit));
+        set(i, grid->nearest(mirror.reflect(points[i]), limit * limit));
     });
     return partners;
   }
@@ -48,21 +36,16 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
       for (Index i = 0; i < PointTree::block; ++i)
         images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
       const auto found = tree.nearest(images, limit * limit, near);
-      for (Index i = 0; i < PointTree::block && p + i < end; ++i)
-        partners.set(order[p + i], found[i]);
+      for (Index i = 0; i < PointTree::block && p + i < end; ++i) set(order[p + i], found[i]);
     }
   });
   return partners;
 }
 
-}  // namespace
-
 // Little is held beside the tree, and beside the result: at a million points that is what counts.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context) {
-  if (context.communicator())
-    return add_shared_pairs(result, points, std::move(tree), mirror, limit, context);
-  Partners partners(0);
+  Partners partners;
   {
     const PointTree consumed = std::move(tree);
     partners = find_partners(points, consumed, mirror, limit, context);
@@ -77,12 +60,13 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   interruptible_for(context, size, [&](Index i) {
     const Index partner = partners.index[i];
     if (partner < 0) return;
-    partners.distance[row] = partners.distance[i];
+    partners.squared[row] = partners.squared[i];
     pairs.row(row++) << i, partner;
   });
   partners.index = std::vector<std::int32_t>();
-  result.residuals = std::move(partners.distance);
+  result.residuals = std::move(partners.squared);
   result.residuals.conservativeResize(found);
+  result.residuals = result.residuals.cwiseSqrt();
   interruptible_for(context, found, [&](Index k) {
     result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
   });

@@ -4,17 +4,28 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "point_tree.h"
 
 namespace symsurf {
 
-/// Fills the result's pairs, residuals and surface points: for each point the nearest of the tree's
-/// points (the same cloud) to its image, where that is no farther than `limit` (input units). In
-/// the order of the points; equally near partners: the lowest index. Frees the tree as soon as
-/// partners are known: it and the pairs never need memory together. Where processes share out the
-/// cloud: for each own point, among the points of all.
+/// Of each point the index of its partner, -1 none, and the squared distance of that from its
+/// image.
+struct Partners {
+  std::vector<std::int32_t> index;
+  Eigen::VectorXd squared;
+};
+
+/// For each point the nearest of the tree's points (the same cloud) to its image, where that is no
+/// farther than `limit` (input units); of equally near ones that with the lowest index.
+Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                       const Context& context);
+
+/// Fills the result's pairs, residuals and surface points with what find_partners() finds, in the
+/// order of the points. Frees the tree as soon as partners are known: it and the pairs never need
+/// memory together.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
 

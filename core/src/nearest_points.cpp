@@ -15,12 +15,22 @@ const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN())
 
 }  // namespace
 
-NearestPoints::NearestPoints(const Cloud& cloud, const PointTree& own, const Context& context)
-    : cloud_(cloud), own_(own), grid_(PointGrid::where_faster(cloud.points)), context_(context) {}
+NearestPoints::NearestPoints(PointsView points, const PointTree& tree, const Context& context)
+    : own_(points), tree_(tree), grid_(PointGrid::where_faster(points)), context_(context) {}
+
+NearestPoints::NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context)
+    : NearestPoints(slabs.points(), tree, context) {
+  slabs_ = &slabs;
+}
 
 NearestPoints::Found NearestPoints::found(const Neighbour& neighbour) const {
   if (neighbour.index < 0) return {none, infinity};
-  return {cloud_.points[neighbour.index], neighbour.squared_distance};
+  return {own_[neighbour.index], neighbour.squared_distance};
+}
+
+bool NearestPoints::may_be_here(const Vector3& query, double reach) const {
+  const Communicator* processes = context_.communicator();
+  return !processes || slabs_->distance(query, processes->rank()) <= reach;
 }
 
 std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
@@ -30,7 +40,9 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   best.reserve(queries.size());
   for (const Vector3& query : queries) {
     if (best.size() % grain == 0) context_.check();
-    best.push_back(found(grid_ ? grid_->nearest(query, limit) : own_.nearest(query, limit)));
+    best.push_back(!may_be_here(query, reach) ? Found{none, infinity}
+                   : grid_                    ? found(grid_->nearest(query, limit))
+                                              : found(tree_.nearest(query, limit)));
   }
   if (context_.communicator()) {
     const auto all = gathered(context_, best);
@@ -53,7 +65,7 @@ std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& q
     if (grid_) {
       for (const Neighbour& neighbour : grid_->two_nearest(query)) own.push_back(found(neighbour));
     } else {
-      own_.nearest(query, 2, neighbours);
+      tree_.nearest(query, 2, neighbours);
       neighbours.resize(2);
       for (const Neighbour& neighbour : neighbours) own.push_back(found(neighbour));
     }

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
 
 #include <optional>
 #include <vector>
 
 #include "point_grid.h"
 #include "point_tree.h"
+#include "slabs.h"
 
 namespace symsurf {
 
@@ -14,8 +16,11 @@ namespace symsurf {
 /// same.
 class NearestPoints {
  public:
-  /// `own`: the tree of this process's points.
-  NearestPoints(const Cloud& cloud, const PointTree& own, const Context& context);
+  /// Of a process that has all points. The tree is that of the points.
+  NearestPoints(PointsView points, const PointTree& tree, const Context& context);
+
+  /// Of processes that each have a slab. The tree is that of this one's.
+  NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context);
 
   /// The nearest point to each query, NaN where none is within `reach`.
   std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;
@@ -30,10 +35,12 @@ class NearestPoints {
   };
 
   Found found(const Neighbour& neighbour) const;
+  bool may_be_here(const Vector3& query, double reach) const;
 
-  const Cloud& cloud_;
-  const PointTree& own_;
+  PointsView own_;
+  const PointTree& tree_;
   std::optional<PointGrid> grid_;  // of the same points, where it is faster
+  const Slabs* slabs_ = nullptr;
   const Context context_;
 };
 

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <symsurf/communicator.h>
-
 #include "matching.h"
+#include "slabs.h"
 
 namespace symsurf {
 
-/// add_pairs() of the own points with those of all processes, numbered through in the order of
-/// their ranks. Images go, a chunk at a time, to the processes that may hold a nearer point; memory
-/// does not grow with what the others have. Collective.
-void add_shared_pairs(Result& result, PointsView own, PointTree&& tree, const Mirror& mirror,
-                      double limit, const Context& context);
+/// add_pairs() of this process's part of the cloud with the points of all processes, numbered
+/// through. They are looked for in the slabs, of which the tree is of this process's: images in or
+/// near another are sent there, and memory does not grow with what others have. Collective; alone
+/// it is add_pairs().
+void add_shared_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
+                      const Mirror& mirror, double limit, const Context& context);
 
 }  // namespace symsurf

@@ -29,7 +29,7 @@ struct Scored {
   explicit Scored(const Points& points)
       : cloud(checked_cloud(points, {}, 4, {})),
         tree(points),
-        nearest(cloud, tree, {}),
+        nearest(points, tree, {}),
         score(cloud, nearest, {}) {}
   double operator()(const Mirror& mirror) const {
     return discounted(score.explained(mirror), mirror.kind());

@@ -74,7 +74,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   if (candidates.empty()) return best;
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const NearestPoints points(cloud, tree, context);
+  const NearestPoints points(cloud.points, tree, context);
   const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.7));
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
   keep_distinct(surfels, candidates, alike, finalists);

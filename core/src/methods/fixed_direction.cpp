@@ -37,7 +37,7 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   const HeightField field(found.direction, found.nodes);
   result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
   PointTree tree(cloud.points, context.stage(0.7, 0.75));
-  const NearestPoints points(cloud, tree, context);
+  const NearestPoints points(cloud.points, tree, context);
   MirrorScore(cloud, points, context.stage(0.75, 0.8)).fill(result);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 0.9));

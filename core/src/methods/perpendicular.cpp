@@ -27,7 +27,7 @@ Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
   const perpendicular::Sheet& best = search.sheets.front();
   result.mirror = in_input_units(search.cloud, best);
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
-  const NearestPoints points(cloud, tree, context);
+  const NearestPoints points(cloud.points, tree, context);
   const MirrorScore score(cloud, points, context.stage(0.75, 0.8));
   score.fill(result);
   result.statistics["typical_miss"] =

@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "../gathered.h"
-#include "../matching.h"
 #include "../mirror_score.h"
 #include "../nearest_points.h"
 #include "../plane/candidates.h"
 #include "../plane/maximise.h"
 #include "../plane/refinement.h"
 #include "../plane/symmetry_measure.h"
+#include "../shared_matching.h"
+#include "../slabs.h"
+#include "../symmetric_matrix.h"
 #include "methods.h"
 
 namespace symsurf {
@@ -64,14 +66,26 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
   return candidates;
 }
 
+// Where the mirror is longest: processes look for partners in slabs across it.
+Vector3 along_mirror(const Surfels& surfels, const PlaneCandidate& candidate,
+                     const PrincipalFrame& frame) {
+  const Vector3& normal = candidate.plane.normal;
+  const Points positions = surfels.positions(surfels.size());
+  const Points in_plane = positions - positions * normal * normal.transpose();
+  const Points centred = in_plane.rowwise() - in_plane.colwise().mean();
+  return frame.axes * eigen_of(Matrix3(centred.transpose() * centred)).vectors.col(2);
+}
+
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
   const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
-  PointTree tree(cloud.points, context.stage(0.25, 0.4));
-  const NearestPoints points(cloud, tree, context);
+  const Slabs slabs(cloud, along_mirror(coarse, candidates.front(), cloud.frame),
+                    context.stage(0.25, 0.3));
+  PointTree tree(slabs.points(), context.stage(0.3, 0.4));
+  const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
   const auto refine = [&](double from, double to, const auto& step) {
     const Context part = context.stage(from, to);
@@ -97,8 +111,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     mirrors.push_back(std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame)));
   // The refinement has looked closer than the score does: what it puts first stays there.
   Result best = MirrorScore(cloud, points, context.stage(0.5, 0.55)).ranked("plane", mirrors, 1);
-  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
+  add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
+                   values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
   const Index pairs = summed(context, best.pairs.rows());
   best.statistics["unpaired_points"] = cloud.total - pairs;
   best.statistics["mean_residual"] =

@@ -71,7 +71,7 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
-  const NearestPoints points(rest, tree, context);
+  const NearestPoints points(rest.points, tree, context);
   const ParametricRefinement refinement(rest, points, tree, surfels, context.stage(0.8, 1));
   const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found;
@@ -92,7 +92,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       promising_spheres(surfels, map, cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const NearestPoints points(cloud, tree, context);
+  const NearestPoints points(cloud.points, tree, context);
   const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.6, 0.7));
   const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
   for (SphereCandidate& candidate : candidates) {

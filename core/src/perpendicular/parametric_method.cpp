@@ -29,7 +29,7 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
   });
 
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
-  const NearestPoints points(cloud, tree, context);
+  const NearestPoints points(cloud.points, tree, context);
   const MirrorScore score(cloud, points, context.stage(0.75, 0.8));
   Result result;
   result.method = method;

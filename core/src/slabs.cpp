@@ -1,0 +1,84 @@
+#include "slabs.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "parallel.h"
+
+namespace symsurf {
+
+Slabs::Slabs(const Cloud& cloud, const Vector3& along, const Context& context)
+    : along_(along),
+      origin_(cloud.frame.centroid),
+      rounding_(1e-12 * cloud.diagonal),
+      points_(cloud.points) {
+  if (!context.communicator()) return;
+  cut(cloud, context);
+  hand_round(cloud, context);
+}
+
+double Slabs::distance(const Vector3& x, int process) const {
+  const double at = height(x);
+  const std::size_t slab = static_cast<std::size_t>(process);
+  const double below = slab > 0 ? cuts_[slab - 1] - at : 0;
+  const double above = slab < cuts_.size() ? at - cuts_[slab] : 0;
+  return std::max(0.0, std::max(below, above) - rounding_);
+}
+
+// By a sample of the points, as even over them as over the processes.
+void Slabs::cut(const Cloud& cloud, const Context& context) {
+  constexpr Index sample_size = 8192;
+  const Index step = std::max<Index>(1, cloud.total / sample_size);
+  std::vector<double> heights;
+  for (Index i = (step - cloud.first % step) % step; i < cloud.points.size(); i += step)
+    heights.push_back(height(cloud.points[i]));
+  const auto sampled = gathered(context, heights);
+  heights.clear();
+  for (const std::vector<double>& part : sampled)
+    heights.insert(heights.end(), part.begin(), part.end());
+  std::sort(heights.begin(), heights.end());
+  std::size_t before = 0;
+  for (std::size_t process = 0; process + 1 < sampled.size(); ++process) {
+    before += sampled[process].size();
+    cuts_.push_back(heights[std::min(before, heights.size() - 1)]);
+  }
+}
+
+void Slabs::hand_round(const Cloud& cloud, const Context& context) {
+  const Communicator& processes = *context.communicator();
+  const std::size_t rank = static_cast<std::size_t>(processes.rank());
+  given_.resize(processes.size());
+  interruptible_for(context, cloud.points.size(), [&](Index i) {
+    const auto slab = std::upper_bound(cuts_.begin(), cuts_.end(), height(cloud.points[i]));
+    given_[slab - cuts_.begin()].push_back(static_cast<std::int32_t>(i));
+  });
+
+  std::vector<Index> counts;
+  for (const auto& given : given_) counts.push_back(static_cast<Index>(given.size()));
+  taken_ = {0};
+  for (const std::vector<Index>& theirs : gathered(context, counts))
+    taken_.push_back(taken_.back() + theirs[rank]);
+  moved_.resize(taken_.back(), 3);
+  numbers_.resize(taken_.back());
+  points_ = PointsView(moved_);
+
+  const auto put = [&](std::size_t from, Index k, const Vector3& x, Index number) {
+    moved_.row(taken_[from] + k) = x.transpose();
+    numbers_[taken_[from] + k] = number;
+  };
+  for (std::size_t k = 0; k < given_[rank].size(); ++k)
+    put(rank, k, cloud.points[given_[rank][k]], cloud.first + given_[rank][k]);
+  struct Moved {
+    Vector3 point;
+    Index number;
+  };
+  meet_each(processes, [&](int other) {
+    const std::vector<std::int32_t>& given = given_[other];
+    swap_items<Moved>(
+        processes, other, static_cast<Index>(given.size()), taken_[other + 1] - taken_[other],
+        [&](Index k) { return Moved{cloud.points[given[k]], cloud.first + given[k]}; },
+        [&](Index k, const Moved& moved) { put(other, k, moved.point, moved.number); });
+  });
+}
+
+}  // namespace symsurf

@@ -1,0 +1,149 @@
+#include "slabs.h"
+
+#include <gtest/gtest.h>
+#include <symsurf/plane.h>
+
+#include <algorithm>
+#include <functional>
+#include <mutex>
+#include <numeric>
+
+#include "matching.h"
+#include "process_threads.h"
+#include "random_cloud.h"
+#include "shared_cloud.h"
+#include "shared_matching.h"
+
+namespace symsurf {
+namespace {
+
+constexpr Index size = 5000;
+
+// Points in the order in which processes have them, and where the part of each begins.
+struct Shared {
+  Points points;
+  std::vector<Index> begins;
+
+  // Uneven parts, one of them empty.
+  Shared(const Points& whole, int processes, RandomCloud& random) : points(whole), begins{0, 0} {
+    for (int k = 2; k < processes; ++k)
+      begins.push_back(static_cast<Index>(random.uniform(0, 1) * static_cast<double>(size)));
+    std::sort(begins.begin(), begins.end());
+    begins.push_back(points.rows());
+  }
+
+  void run(const std::function<void(const Cloud&, const Context&)>& body) const {
+    const int processes = static_cast<int>(begins.size()) - 1;
+    ProcessThreads(processes).run([&](const Communicator& communicator) {
+      const Index begin = begins[communicator.rank()], end = begins[communicator.rank() + 1];
+      const PointsView own(points.data() + 3 * begin, end - begin);
+      const Context context = Context({}, 1).sharing(&communicator);
+      body(checked_shared_cloud(own, 4, context), context);
+    });
+  }
+};
+
+class SharedSlabs : public testing::TestWithParam<int> {};
+
+TEST_P(SharedSlabs, ShareOutThePoints) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Shared shared(random.box(size), GetParam(), random);
+    const Vector3 along = random.direction();
+    std::vector<int> owners(size);
+    std::mutex mutex;
+    shared.run([&](const Cloud& cloud, const Context& context) {
+      const Slabs slabs(cloud, along, context);
+      const Index now = slabs.points().size();
+      EXPECT_NEAR(static_cast<double>(now), static_cast<double>(cloud.points.size()), 0.02 * size);
+      const std::scoped_lock lock(mutex);
+      for (Index k = 0; k < now; ++k) {
+        ++owners[slabs.number(k)];
+        EXPECT_EQ(slabs.points()[k], PointsView(shared.points)[slabs.number(k)]);
+        if (k == 0) continue;
+        EXPECT_LT(slabs.number(k - 1), slabs.number(k));
+      }
+    });
+    EXPECT_EQ(std::count(owners.begin(), owners.end(), 1), size);
+  }
+}
+
+TEST_P(SharedSlabs, AreNoNearerThanTheySay) {
+  RandomCloud random(1);
+  const Shared shared(random.box(size), GetParam(), random);
+  const Vector3 along = random.direction();
+  const Points places = 2 * random.box(50);
+  shared.run([&](const Cloud& cloud, const Context& context) {
+    const Slabs slabs(cloud, along, context);
+    const int here = context.communicator()->rank();
+    for (Index k = 0; k < slabs.points().size(); ++k) {
+      EXPECT_EQ(slabs.distance(slabs.points()[k], here), 0);
+      for (Index q = 0; q < places.rows(); ++q) {
+        const Vector3 place = places.row(q);
+        ASSERT_LE(slabs.distance(place, here), (slabs.points()[k] - place).norm());
+      }
+    }
+  });
+}
+
+TEST_P(SharedSlabs, HandBackToWhoHadThePoint) {
+  RandomCloud random(2);
+  const Shared shared(random.box(size), GetParam(), random);
+  const Vector3 along = random.direction();
+  shared.run([&](const Cloud& cloud, const Context& context) {
+    const Slabs slabs(cloud, along, context);
+    std::vector<Index> numbers(cloud.points.size(), -1);
+    slabs.hand_back<Index>(
+        *context.communicator(), [&](Index k) { return slabs.number(k); },
+        [&](Index i, Index number) { numbers[i] = number; });
+    for (Index i = 0; i < cloud.points.size(); ++i) EXPECT_EQ(numbers[i], cloud.first + i);
+  });
+}
+
+// Whether partners are in the same slab, as the method has it, or all in another.
+TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Plane mirror(Vector3(1, 2, 2) / 3, -1);
+    for (const Points& points : {random.box(size), random.lattice(size, 9)}) {
+      const Shared shared(points, GetParam(), random);
+      const double limit = random.uniform(0.02, 0.1);
+      Result whole;
+      add_pairs(whole, points, PointTree(points), mirror, limit, {});
+      for (const Vector3& along : {Vector3(mirror.normal()), mirror.normal().unitOrthogonal()}) {
+        Index row = 0;
+        std::vector<Result> results(GetParam());
+        shared.run([&](const Cloud& cloud, const Context& context) {
+          const Slabs slabs(cloud, along, context);
+          add_shared_pairs(results[context.communicator()->rank()], cloud, slabs,
+                           PointTree(slabs.points()), mirror, limit, context);
+        });
+        for (const Result& result : results) {
+          const Index rows = result.pairs.rows();
+          ASSERT_LE(row + rows, whole.pairs.rows());
+          EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, rows));
+          // To rounding: trees measure from their own points' middle.
+          EXPECT_LT((result.residuals - whole.residuals.segment(row, rows)).norm(), 1e-12);
+          EXPECT_EQ(result.surface_points, whole.surface_points.middleRows(row, rows));
+          row += rows;
+        }
+        EXPECT_EQ(row, whole.pairs.rows());
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Processes, SharedSlabs, testing::Values(2, 3, 5));
+
+TEST(Slabs, LeaveTheCloudOfOneWhereItLies) {
+  RandomCloud random(3);
+  const Points points = random.box(size);
+  Cloud cloud;
+  cloud.points = points;
+  const Slabs slabs(cloud, Vector3::UnitX(), {});
+  EXPECT_EQ(slabs.points().data(), points.data());
+  EXPECT_EQ(slabs.number(7), 7);
+}
+
+}  // namespace
+}  // namespace symsurf
