@@ -140,30 +140,40 @@ class SharedMatching {
   std::vector<Partner> others_;  // in other slabs
 };
 
+// All points that this process had get a row; -1 for the partner of one that has none.
+void hand_back(Result& result, const Cloud& cloud, const Slabs& slabs,
+               const SharedMatching& matching, const Communicator& processes) {
+  const Index size = cloud.points.size();
+  // The largest first, into the space that the tree left.
+  result.surface_points.resize(size, 3);
+  result.pairs.resize(size, 2);
+  result.residuals.resize(size);
+  slabs.hand_back<Partner>(
+      processes, [&](Index k) { return matching[k]; },
+      [&](Index i, const Partner& partner) {
+        result.surface_points.row(i) = (cloud.points[i] + partner.point).transpose() / 2;
+        result.pairs.row(i) << cloud.first + i, partner.neighbour.index;
+        result.residuals[i] = std::sqrt(partner.neighbour.squared_distance);
+      });
+}
+
+void drop_unpaired(Result& result) {
+  if ((result.pairs.col(1).array() >= 0).all()) return;
+  std::vector<Index> found;
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    if (result.pairs(row, 1) >= 0) found.push_back(row);
+  keep_pairs(result, found);
+}
+
 }  // namespace
 
 void add_shared_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
                       const Mirror& mirror, double limit, const Context& context) {
   if (!context.communicator())
     return add_pairs(result, cloud.points, std::move(tree), mirror, limit, context);
-  const Index size = cloud.points.size();
-  result.pairs.resize(size, 2);
-  result.residuals.resize(size);
-  result.surface_points.resize(size, 3);
-  {
-    const SharedMatching matching(slabs, std::move(tree), mirror, limit, context);
-    slabs.hand_back<Partner>(
-        *context.communicator(), [&](Index k) { return matching[k]; },
-        [&](Index i, const Partner& partner) {
-          result.pairs.row(i) << cloud.first + i, partner.neighbour.index;
-          result.residuals[i] = std::sqrt(partner.neighbour.squared_distance);
-          result.surface_points.row(i) = (cloud.points[i] + partner.point).transpose() / 2;
-        });
-  }
-  std::vector<Index> found;
-  for (Index i = 0; i < size; ++i)
-    if (result.pairs(i, 1) >= 0) found.push_back(i);
-  if (static_cast<Index>(found.size()) < size) keep_pairs(result, found);
+  hand_back(result, cloud, slabs, SharedMatching(slabs, std::move(tree), mirror, limit, context),
+            *context.communicator());
+  drop_unpaired(result);
 }
 
 }  // namespace symsurf
