@@ -25,7 +25,8 @@ double Slabs::distance(const Vector3& x, int process) const {
   return std::max(0.0, std::max(below, above) - rounding_);
 }
 
-// By a sample of the points, as even over them as over the processes.
+// By a sample of the points, as even over them as over the processes. Upwards as the ranks, or
+// downwards where so fewer points change hands.
 void Slabs::cut(const Cloud& cloud, const Context& context) {
   constexpr Index sample_size = 8192;
   const Index step = std::max<Index>(1, cloud.total / sample_size);
@@ -34,8 +35,16 @@ void Slabs::cut(const Cloud& cloud, const Context& context) {
     heights.push_back(height(cloud.points[i]));
   const auto sampled = gathered(context, heights);
   heights.clear();
-  for (const std::vector<double>& part : sampled)
+  double rising = 0;
+  for (std::size_t process = 0; process < sampled.size(); ++process) {
+    const std::vector<double>& part = sampled[process];
+    rising += static_cast<double>(process) * std::accumulate(part.begin(), part.end(), 0.0);
     heights.insert(heights.end(), part.begin(), part.end());
+  }
+  if (rising < 0) {
+    along_ = -along_;
+    for (double& height : heights) height = -height;
+  }
   std::sort(heights.begin(), heights.end());
   std::size_t before = 0;
   for (std::size_t process = 0; process + 1 < sampled.size(); ++process) {

@@ -15,7 +15,7 @@ namespace symsurf {
 /// their own slab. A process that is alone has all points in one slab, where they lie.
 class Slabs {
  public:
-  /// One after another in the direction `along`, a unit vector. Collective.
+  /// One after another along a unit vector, or against it. Collective.
   Slabs(const Cloud& cloud, const Vector3& along, const Context& context);
 
   Slabs(const Slabs&) = delete;

@@ -133,6 +133,27 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
   }
 }
 
+// Whichever way they were.
+TEST_P(SharedSlabs, StayWhereTheyAreSlabsAlready) {
+  RandomCloud random(4);
+  Points points = random.box(size);
+  const Vector3 along = random.direction();
+  std::vector<Index> order(size);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return points.row(a).dot(along) < points.row(b).dot(along); });
+  const Shared shared(points(order, Eigen::indexing::all), GetParam(), random);
+  for (const double sign : {-1, 1})
+    shared.run([&](const Cloud& cloud, const Context& context) {
+      const Slabs slabs(cloud, sign * along, context);
+      Index others = 0;
+      for (Index k = 0; k < slabs.points().size(); ++k)
+        others +=
+            slabs.number(k) < cloud.first || slabs.number(k) >= cloud.first + cloud.points.size();
+      EXPECT_LT(static_cast<double>(others), 0.02 * size);
+    });
+}
+
 INSTANTIATE_TEST_SUITE_P(Processes, SharedSlabs, testing::Values(2, 3, 5));
 
 TEST(Slabs, LeaveTheCloudOfOneWhereItLies) {
