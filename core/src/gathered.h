@@ -79,6 +79,20 @@ void swap_items(const Communicator& processes, int other, Index given, Index tak
   }
 }
 
+/// Gives every process item(process, k) for k of 0 up to given(process), and calls take(process, k,
+/// item) for as many as taken(process) that it gives. This one is among them.
+template <typename T, typename Given, typename Taken, typename Item, typename Take>
+void exchange(const Communicator& processes, const Given& given, const Taken& taken,
+              const Item& item, const Take& take) {
+  const int rank = processes.rank();
+  for (Index k = 0; k < given(rank); ++k) take(rank, k, item(rank, k));
+  meet_each(processes, [&](int other) {
+    swap_items<T>(
+        processes, other, given(other), taken(other), [&](Index k) { return item(other, k); },
+        [&](Index k, const T& theirs) { take(other, k, theirs); });
+  });
+}
+
 /// How many points the processes before this one have, and how many all have.
 struct Share {
   Index first = 0, total = 0;
@@ -91,5 +105,8 @@ inline Share share_of(const Context& context, Index own) {
   return {std::accumulate(counts.begin(), mine, Index{0}),
           std::accumulate(counts.begin(), counts.end(), Index{0})};
 }
+
+/// The first of a process's points to take where every `step`-th of all is taken.
+inline Index first_of_every(Index step, Index before) { return (step - before % step) % step; }
 
 }  // namespace symsurf

@@ -50,7 +50,7 @@ Points outline(PointsView own, const Context& context) {
   const Share share = share_of(context, own.size());
   const Index step = std::max<Index>(1, share.total / enough);
   std::vector<Vector3> chosen;
-  for (Index i = (step - share.first % step) % step; i < own.size(); i += step)
+  for (Index i = first_of_every(step, share.first); i < own.size(); i += step)
     chosen.push_back(own[i]);
   chosen = concatenated(context, chosen);
   const std::vector<Vector3> extremes = extreme_points(own, context);

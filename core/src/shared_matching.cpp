@@ -119,15 +119,11 @@ class SharedMatching {
   void keep_nearer(Places places, const std::vector<Partner>& partners) {
     for (std::size_t k = 0; k < places.size(); ++k) {
       const std::int32_t i = places[k];
-      if (partners[k].neighbour.index < 0 || !nearer(partners[k].neighbour, i)) continue;
+      if (!(partners[k].neighbour < (*this)[i].neighbour)) continue;
       found_.index[i] = static_cast<std::int32_t>(slabs_.points().size() + others_.size());
       found_.squared[i] = partners[k].neighbour.squared_distance;
       others_.push_back(partners[k]);
     }
-  }
-
-  bool nearer(const Neighbour& neighbour, Index i) const {
-    return found_.index[i] < 0 || neighbour < (*this)[i].neighbour;
   }
 
   const Slabs& slabs_;

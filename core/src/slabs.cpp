@@ -31,7 +31,7 @@ void Slabs::cut(const Cloud& cloud, const Context& context) {
   constexpr Index sample_size = 8192;
   const Index step = std::max<Index>(1, cloud.total / sample_size);
   std::vector<double> heights;
-  for (Index i = (step - cloud.first % step) % step; i < cloud.points.size(); i += step)
+  for (Index i = first_of_every(step, cloud.first); i < cloud.points.size(); i += step)
     heights.push_back(height(cloud.points[i]));
   const auto sampled = gathered(context, heights);
   heights.clear();
@@ -55,7 +55,6 @@ void Slabs::cut(const Cloud& cloud, const Context& context) {
 
 void Slabs::hand_round(const Cloud& cloud, const Context& context) {
   const Communicator& processes = *context.communicator();
-  const std::size_t rank = static_cast<std::size_t>(processes.rank());
   given_.resize(processes.size());
   interruptible_for(context, cloud.points.size(), [&](Index i) {
     const auto slab = std::upper_bound(cuts_.begin(), cuts_.end(), height(cloud.points[i]));
@@ -63,31 +62,29 @@ void Slabs::hand_round(const Cloud& cloud, const Context& context) {
   });
 
   std::vector<Index> counts;
-  for (const auto& given : given_) counts.push_back(static_cast<Index>(given.size()));
+  for (int process = 0; process < processes.size(); ++process) counts.push_back(given(process));
   taken_ = {0};
   for (const std::vector<Index>& theirs : gathered(context, counts))
-    taken_.push_back(taken_.back() + theirs[rank]);
+    taken_.push_back(taken_.back() + theirs[processes.rank()]);
   moved_.resize(taken_.back(), 3);
   numbers_.resize(taken_.back());
   points_ = PointsView(moved_);
 
-  const auto put = [&](std::size_t from, Index k, const Vector3& x, Index number) {
-    moved_.row(taken_[from] + k) = x.transpose();
-    numbers_[taken_[from] + k] = number;
-  };
-  for (std::size_t k = 0; k < given_[rank].size(); ++k)
-    put(rank, k, cloud.points[given_[rank][k]], cloud.first + given_[rank][k]);
   struct Moved {
     Vector3 point;
     Index number;
   };
-  meet_each(processes, [&](int other) {
-    const std::vector<std::int32_t>& given = given_[other];
-    swap_items<Moved>(
-        processes, other, static_cast<Index>(given.size()), taken_[other + 1] - taken_[other],
-        [&](Index k) { return Moved{cloud.points[given[k]], cloud.first + given[k]}; },
-        [&](Index k, const Moved& moved) { put(other, k, moved.point, moved.number); });
-  });
+  exchange<Moved>(
+      processes, [&](int process) { return given(process); },
+      [&](int process) { return taken(process); },
+      [&](int process, Index k) {
+        const std::int32_t i = given_[process][k];
+        return Moved{cloud.points[i], cloud.first + i};
+      },
+      [&](int process, Index k, const Moved& moved) {
+        moved_.row(taken_[process] + k) = moved.point.transpose();
+        numbers_[taken_[process] + k] = moved.number;
+      });
 }
 
 }  // namespace symsurf

@@ -37,6 +37,8 @@ class Slabs {
 
  private:
   double height(const Vector3& x) const { return along_.dot(x - origin_); }
+  Index given(int process) const { return static_cast<Index>(given_[process].size()); }
+  Index taken(int process) const { return taken_[process + 1] - taken_[process]; }
   void cut(const Cloud& cloud, const Context& context);
   void hand_round(const Cloud& cloud, const Context& context);
 
@@ -52,16 +54,11 @@ class Slabs {
 
 template <typename T, typename Item, typename Take>
 void Slabs::hand_back(const Communicator& processes, const Item& item, const Take& take) const {
-  const int rank = processes.rank();
-  for (std::size_t k = 0; k < given_[rank].size(); ++k)
-    take(given_[rank][k], item(taken_[rank] + static_cast<Index>(k)));
-  meet_each(processes, [&](int other) {
-    const std::vector<std::int32_t>& given = given_[other];
-    swap_items<T>(
-        processes, other, taken_[other + 1] - taken_[other], static_cast<Index>(given.size()),
-        [&](Index k) { return item(taken_[other] + k); },
-        [&](Index k, const T& theirs) { take(given[k], theirs); });
-  });
+  exchange<T>(
+      processes, [&](int process) { return taken(process); },
+      [&](int process) { return given(process); },
+      [&](int process, Index k) { return item(taken_[process] + k); },
+      [&](int process, Index k, const T& theirs) { take(given_[process][k], theirs); });
 }
 
 }  // namespace symsurf

@@ -66,14 +66,10 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Conte
   return candidates;
 }
 
-// Where the mirror is longest: processes look for partners in slabs across it.
-Vector3 along_mirror(const Surfels& surfels, const PlaneCandidate& candidate,
-                     const PrincipalFrame& frame) {
-  const Vector3& normal = candidate.plane.normal;
-  const Points positions = surfels.positions(surfels.size());
-  const Points in_plane = positions - positions * normal * normal.transpose();
-  const Points centred = in_plane.rowwise() - in_plane.colwise().mean();
-  return frame.axes * eigen_of(Matrix3(centred.transpose() * centred)).vectors.col(2);
+// Where the cloud extends most along the mirror: processes look for partners in slabs across it.
+Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
+  const Matrix3 onto = Matrix3::Identity() - plane.normal * plane.normal.transpose();
+  return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
 }
 
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
@@ -82,7 +78,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
   std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
 
-  const Slabs slabs(cloud, along_mirror(coarse, candidates.front(), cloud.frame),
+  const Slabs slabs(cloud, along_mirror(candidates.front().plane, cloud.frame),
                     context.stage(0.25, 0.3));
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);
