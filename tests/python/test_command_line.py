@@ -106,6 +106,20 @@ def test_files_that_would_overwrite_each_other_are_refused(clouds, tmp_path):
     assert not (tmp_path / "results").exists()
 
 
+def test_files_to_read_are_not_written(clouds, tmp_path):
+    mesh = tmp_path / "mesh.ply"
+    symsurf.detect(clouds[next(iter(clouds))], "plane").save(mesh)
+    before = mesh.read_bytes()
+    linked = tmp_path / "linked"
+    linked.symlink_to(tmp_path)
+    names = os.listdir(tmp_path)
+    for folder in tmp_path, linked:
+        done = run("detect", *clouds, "mesh.ply", "--output", folder, cwd=tmp_path)
+        assert done.returncode == 2 and done.stdout == ""
+        assert "mesh.ply would overwrite an input" in done.stderr
+        assert os.listdir(tmp_path) == names and mesh.read_bytes() == before
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [

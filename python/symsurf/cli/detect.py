@@ -125,11 +125,16 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
             raise InvalidParameter(
                 f"{stems[path.stem]} and {path} would both be written as {path.stem}{suffixes[0]}"
             )
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    return {
+    outputs = {
         path: [arguments.output / f"{path.stem}{suffix}" for suffix in suffixes]
         for path in arguments.files
     }
+    inputs = {path.resolve() for path in arguments.files}
+    for output in sum(outputs.values(), []):
+        if output.resolve() in inputs:
+            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    return outputs
 
 
 def _record(path: Path, result: Result) -> dict[str, Any]:
