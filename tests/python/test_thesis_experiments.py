@@ -219,12 +219,29 @@ def refused(line: str, says: str, folder) -> int:
         ("damage thinning points.xyz --ratio 0.5", "ratio is 0.5"),
         ("damage thinning points.xyz --direction 0,0,0", "direction is"),
         ("damage rotation points.xyz --roll nan", "roll is nan"),
+        ("damage noise points.xyz --seed -1", "seed is -1"),
+        ("damage noise points.xyz --seed 1.5", "seed is 1.5"),
+        ("damage noise points.xyz --seed 18446744073709551616", "seed is 18446744073709551616"),
     ],
 )
 def test_bad_input_is_one_clear_line_and_no_file(tmp_path, line, says):
     assert refused(f"{line} --output made.xyz", says, tmp_path) == 2
     assert not (tmp_path / "made.xyz").exists()
     assert not (tmp_path / "made.truth.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("generate fixed --output nowhere/made.xyz", "'nowhere/made.xyz'"),
+        ("generate fixed --output points.xyz/made.xyz", "'points.xyz/made.xyz'"),
+        ("damage noise points.xyz --output nowhere/made.xyz", "'nowhere/made."),
+        ("detect points.xyz --output points.xyz", "'points.xyz'"),
+        ("demo --output points.xyz", "'points.xyz'"),
+    ],
+)
+def test_what_cannot_be_written_is_one_clear_line(tmp_path, line, says):
+    assert refused(line, says, tmp_path) == 2
 
 
 @pytest.mark.parametrize(

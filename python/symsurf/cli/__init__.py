@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader, such as head, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
-    except (InvalidInput, InvalidParameter) as error:
+    except (InvalidInput, InvalidParameter, OSError) as error:
         print(f"symsurf: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

@@ -14,6 +14,7 @@ from ..shape import read
 from ..synthetic import rotation_matrix
 from ..truth import read_truth, truth_path, write_truth
 from .described_options import add_kinds, given_values
+from .values import seed_from
 
 SUMMARY = "Damage points; the truth beside them, where there is one, follows"
 
@@ -25,14 +26,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _add_files(parser: argparse.ArgumentParser, kind: Damage) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the points")
     parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
-    parser.add_argument("--seed", type=int, default=0, metavar="N")
+    parser.add_argument("--seed", default="0", metavar="N")
 
 
 def run(arguments: argparse.Namespace) -> int:
     require_points_suffix(arguments.output)
     points = read(arguments.file).points
     values = given_values(arguments)
-    damaged, kept = _core.damage(arguments.kind.name, points, values, arguments.seed)
+    seed = seed_from(arguments.seed)
+    damaged, kept = _core.damage(arguments.kind.name, points, values, seed)
     if truth_path(arguments.file).exists():
         truth = read_truth(truth_path(arguments.file))
         truth = truth.kept(np.array(kept, dtype=np.int64), len(points))

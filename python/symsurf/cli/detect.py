@@ -20,7 +20,7 @@ from ..saving.json_format import plain, summary
 from ..shape import read
 from .method_options import add_method_options, given_parameters
 from .progress_bar import ProgressBar
-from .values import shown
+from .values import seed_from, shown
 
 SUMMARY = "Find the mirror of each file"
 
@@ -86,7 +86,7 @@ def _detect(path: Path, arguments: argparse.Namespace) -> Result:
             points,
             arguments.method,
             normals=normals,
-            seed=_whole(arguments.seed),
+            seed=seed_from(arguments.seed),
             threads=_whole(arguments.threads),
             progress=bar,
             **given_parameters(arguments),

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import Parameter
+from .._core import InvalidParameter, Parameter
 
 _NUMBER = re.compile(r"-\.?\d")
 
@@ -19,6 +19,17 @@ def value_from(text: str, parameter: Parameter) -> Any:
         return _CONVERSIONS[parameter.type](text)
     except (ValueError, KeyError):
         return text
+
+
+def seed_from(text: str) -> int:
+    """The seed; raises InvalidParameter for a text that is none."""
+    try:
+        seed = int(text)
+    except ValueError:
+        seed = -1
+    if not 0 <= seed < 2**64:
+        raise InvalidParameter(f"seed is {text}; allowed is a whole number in [0, {2**64 - 1}]")
+    return seed
 
 
 def shown(value: Any) -> str:
