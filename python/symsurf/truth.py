@@ -32,8 +32,8 @@ class Truth(NamedTuple):
 
 
 def truth_path(points: Path) -> Path:
-    """Where the truth of a file of points is kept: "a.xyz" has "a.truth.json"."""
-    return points.with_suffix(".truth.json")
+    """Where the truth of a file of points is kept: "a.xyz" has "a.xyz.truth.json"."""
+    return points.with_name(f"{points.name}.truth.json")
 
 
 def write_truth(path: Path, truth: Truth) -> None:

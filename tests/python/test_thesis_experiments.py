@@ -152,6 +152,17 @@ def test_evaluate_reads_the_thesis_s_file_back(cloud):
     assert printed["distance"] == metrics.surface_distance(found, truth, points)
 
 
+def test_files_that_differ_in_their_suffix_have_truths_of_their_own(tmp_path):
+    shell("generate fixed --resolution 6 --output points.xyz", tmp_path)
+    shell("damage removal points.xyz --probability 0.5 --output points.csv", tmp_path)
+    for suffix in ".xyz", ".csv":
+        path = tmp_path / f"points{suffix}"
+        points, truth = symsurf.read(path).points, read_truth(truth_path(path))
+        images = truth.mirror.reflect(points[truth.pairs[:, 0]])
+        np.testing.assert_allclose(points[truth.pairs[:, 1]], images, atol=1e-12)
+    assert len(truth.pairs) < 36
+
+
 def test_evaluate_a_sphere(tmp_path):
     shell("generate spherical --cloud f1 --centre 1,1,2 --output points.xyz", tmp_path)
     detected(tmp_path, "sphere_thesis", "--sample-size 40", "--radii 3")
@@ -227,7 +238,7 @@ def refused(line: str, says: str, folder) -> int:
 def test_bad_input_is_one_clear_line_and_no_file(tmp_path, line, says):
     assert refused(f"{line} --output made.xyz", says, tmp_path) == 2
     assert not (tmp_path / "made.xyz").exists()
-    assert not (tmp_path / "made.truth.json").exists()
+    assert not (tmp_path / "made.xyz.truth.json").exists()
 
 
 @pytest.mark.parametrize(
