@@ -1,4 +1,4 @@
-"""Pictures of the demonstration: one for each case, and all of them side by side."""
+"""Pictures of the demonstration, one for each case."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from .demonstration import Finding
-from .plotting import INK, draw as draw_result, new_plotter
 
 
 def draw(findings: list[Finding], folder: Path) -> Iterator[Path]:

@@ -2,7 +2,6 @@
 
 import sys
 
-import numpy as np
 from paraview import simple
 from session import answer, lopsided
 from vtkmodules.util.numpy_support import vtk_to_numpy
