@@ -35,7 +35,8 @@ def detect(
         **parameters: the method's own, by name: ``methods()[method].parameters``.
 
     Raises:
-        InvalidInput: too few points, not (n, 3), NaN or infinity, all on one point or line.
+        InvalidInput: too few points, not (n, 3), NaN or infinity, all on one point or line, an
+            extent beyond what is allowed; normals that are not one a point, not finite or zero.
         InvalidParameter: an unknown method or parameter, or a value out of its range.
         Cancelled: the progress callback returned False.
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._core import Mirror, Sphere, SurfaceMirror
+from ._core import InvalidParameter, Mirror, Sphere, SurfaceMirror
 from .synthetic import Surface
 
 
@@ -64,7 +64,12 @@ def coverage(
 ) -> float:
     """Which share of the object's footprint on the true mirror the surface points cover.
 
-    Of the feet of the object's points, those with a surface point nearer than ``tolerance`` times
-    the diagonal; by default three times the spacing of the feet.
+    Of the feet of the object's points, those with a surface point nearer than ``tolerance``, above
+    0, times the diagonal; by default three times the spacing of the feet. Raises InvalidParameter
+    for another tolerance, InvalidInput for an object without feet.
     """
-    return _core.coverage(surface_points, truth, points, tolerance or 0.0)
+    if tolerance is None:
+        tolerance = 0.0  # the core's word for it
+    elif not tolerance > 0:
+        raise InvalidParameter(f"tolerance is {tolerance}; allowed is (0, inf)")
+    return _core.coverage(surface_points, truth, points, tolerance)

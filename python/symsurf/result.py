@@ -52,9 +52,10 @@ class Result:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the result, in the format of the suffix.
 
-        ``.json``: everything. ``.vtp``: mirror, surface points and residuals for VTK and ParaView.
-        ``.ply``: surface points with residuals as quality. ``.txt``: comment lines starting with
-        ``#``, then the surface points, x,y,z a line; a sphere as its centre, then its radius.
+        ``.json``: everything but ``points``; of a candidate its method, mirror and score. ``.vtp``:
+        mirror, surface points, pairs and residuals for VTK and ParaView. ``.ply``: surface points
+        with residuals as quality. ``.txt``: comment lines starting with ``#``, then the surface
+        points, x,y,z a line; a sphere as its centre, then its radius.
 
         Raises InvalidParameter for another suffix, OSError where nothing can be written. A file is
         written whole or not at all.

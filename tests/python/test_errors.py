@@ -141,6 +141,13 @@ def test_sampling():
         symsurf.estimate_normals(GOOD[:5], neighbours=10)
 
 
+@pytest.mark.parametrize("tolerance", [0, -0.1, np.nan])
+def test_coverage(tolerance):
+    plane = symsurf.Plane((0, 0, 1), 0)
+    with pytest.raises(symsurf.InvalidParameter, match=rf"tolerance is {tolerance}.*\(0, inf\)"):
+        symsurf.metrics.coverage(GOOD, plane, GOOD, tolerance)
+
+
 def test_the_errors_are_value_errors():
     assert issubclass(symsurf.InvalidInput, ValueError)
     assert issubclass(symsurf.InvalidParameter, ValueError)
