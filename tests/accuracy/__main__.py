@@ -8,6 +8,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from . import curved, kinds, planes
 from .case import Figures
+from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 CASES = {case.name: case for case in curved.CASES + kinds.CASES + planes.CASES}
@@ -34,13 +35,18 @@ def main() -> None:
     chosen = [c for c in CASES.values() if any(text in c.name for text in options.cases)]
     if options.list:
         for case in chosen:
-            print(f"{case.name}: {', '.join(case.subjects) or 'shapes are not there'}")
+            print(f"{case.name}: {', '.join(case.subjects)}")
         return
+    left_out = {s: lacking(s) for case in chosen for s in case.subjects if lacking(s)}
+    if left_out:
+        names, files = ", ".join(left_out), ", ".join(sum(left_out.values(), []))
+        print(f"left out {names}: the folder SYMSURF_SHAPES, {FOLDER}, has no {files}")
     print(line(COLUMNS), flush=True)
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     with ProcessPoolExecutor(options.jobs) as pool:
         for case in chosen:
-            subjects = [s for s in case.subjects if any(text in s for text in options.subjects)]
+            subjects = [s for s in case.subjects if s not in left_out]
+            subjects = [s for s in subjects if any(text in s for text in options.subjects)]
             tasks = [(case.name, subject, seed) for subject in subjects for seed in seeds]
             trials = list(pool.map(_trial, tasks))
             if options.by_subject:

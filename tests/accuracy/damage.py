@@ -29,11 +29,15 @@ def falling_density(points: Points, ratio: float, rng: np.random.Generator) -> R
     return np.flatnonzero(rng.random(len(points)) < 1 - (1 - 1 / ratio) * along)
 
 
-def half(points: Points, signed: NDArray[np.float64], rng: np.random.Generator) -> Rows:
-    """One side of a mirror, and a compact piece, 30 %, of the points on the other."""
+def half(
+    points: Points, signed: NDArray[np.float64], rng: np.random.Generator, slab: bool = False
+) -> Rows:
+    """One side of a mirror, and 30 % of the points on the other: a compact piece, or those next to
+    the cut."""
     signed = signed * rng.choice([-1, 1])
     other = np.flatnonzero(signed < 0)
     centre = points[rng.choice(other)]
-    nearest_first = np.argsort(np.linalg.norm(points[other] - centre, axis=1), kind="stable")
+    distances = -signed[other] if slab else np.linalg.norm(points[other] - centre, axis=1)
+    nearest_first = np.argsort(distances, kind="stable")
     piece = other[nearest_first[: round(0.3 * len(other))]]
     return np.sort(np.concatenate([np.flatnonzero(signed >= 0), piece]))

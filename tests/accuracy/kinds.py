@@ -10,10 +10,10 @@ from symsurf import Cylinder, Mirror
 from .case import Case, Figures, at_least, at_most, timed_detect
 from .damage import noise
 from .poses import Points, diagonal, random_rotation, turned
-from .solids import FOLDER, asymmetric, bent, mirrored_mesh, sampled
+from .solids import ASYMMETRIC, FILES, FOLDER, MESHES, asymmetric, bent, mirrored_mesh, sampled
 
 COUNT = 4096
-BENT_FILES = {"bent cow": ("bent_spot.ply", 2.5769), "bent capsule": ("bent_capsule.ply", 2.5)}
+BENT_FILES = {"bent cow": 2.5769, "bent capsule": 2.5}
 
 
 def _choice(points: Points, truth: Mirror, rng: np.random.Generator) -> Figures:
@@ -35,8 +35,8 @@ def _choice(points: Points, truth: Mirror, rng: np.random.Generator) -> Figures:
 
 
 def _bent_file(subject: str, rng: np.random.Generator) -> Figures:
-    name, radius = BENT_FILES[subject]
-    shape = symsurf.read(FOLDER / name)
+    radius = BENT_FILES[subject]
+    shape = symsurf.read(FOLDER / FILES[subject][0])
     return _choice(shape.points, Cylinder((-radius, 0, 0), (0, 1, 0), radius), rng)
 
 
@@ -63,14 +63,11 @@ def _blob(subject: str, rng: np.random.Generator) -> Figures:
 
 
 _KIND = {"distance": at_most(0.005), "right kind": at_least(1)}
-_FILES = tuple(BENT_FILES) if (FOLDER / "bent_spot.ply").exists() else ()
-_MESHES = ("ant", "airplane") + (("cow", "face") if (FOLDER / "spot.obj").exists() else ())
 
 CASES = (
-    Case("auto, bent files", _FILES, _bent_file, _KIND),
-    Case("auto, bent meshes", _MESHES, _bent_mesh, _KIND),
-    Case("auto, straight meshes", _MESHES, _straight_mesh(0), _KIND),
-    Case("auto, straight meshes, noise 1 %", _MESHES, _straight_mesh(0.01), _KIND),
-    Case("auto, blobs", ("bumpy", "lumps", "facets", "sheet"), _blob,
-         {"verdict none": at_least(0.96)}),
-)  # fmt: skip
+    Case("auto, bent files", tuple(BENT_FILES), _bent_file, _KIND),
+    Case("auto, bent meshes", MESHES, _bent_mesh, _KIND),
+    Case("auto, straight meshes", MESHES, _straight_mesh(0), _KIND),
+    Case("auto, straight meshes, noise 1 %", MESHES, _straight_mesh(0.01), _KIND),
+    Case("auto, blobs", ASYMMETRIC, _blob, {"verdict none": at_least(0.96)}),
+)

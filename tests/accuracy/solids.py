@@ -17,6 +17,21 @@ from .poses import Points
 FOLDER = Path(
     os.environ.get("SYMSURF_SHAPES", Path(__file__).parents[3] / "shared" / "data")
 )
+MESHES = ("ant", "airplane", "cow", "face")
+ASYMMETRIC = ("bumpy", "lumps", "facets", "sheet")
+FILES = {
+    "cow": ("spot.obj",),
+    "face": ("face.obj", "face_pairs.txt"),
+    "fox": ("fox.ply",),
+    "bent cow": ("bent_spot.ply",),
+    "bent capsule": ("bent_capsule.ply",),
+}
+"""Of the subjects that are neither made here nor come with PyVista."""
+
+
+def lacking(subject: str) -> list[str]:
+    """Which of its files are not in the folder."""
+    return [file for file in FILES.get(subject, ()) if not (FOLDER / file).exists()]
 
 
 def sampled(points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator) -> Points:
@@ -42,7 +57,7 @@ def mirrored_mesh(name: str) -> tuple[Points, NDArray[np.int64], Plane]:
         mesh = mesh.triangulate().clean()
         points, faces = np.asarray(mesh.points, dtype=float), mesh.faces.reshape(-1, 4)[:, 1:]
         return points, faces, Plane((1, 0, 0), 0.0 if name == "ant" else -896.9943)
-    shape = symsurf.read(FOLDER / {"cow": "spot.obj", "face": "face.obj"}[name])
+    shape = symsurf.read(FOLDER / FILES[name][0])
     plane = _face_plane(shape.points) if name == "face" else Plane((1, 0, 0), 0.0)
     return shape.points, shape.faces, plane
 
