@@ -58,7 +58,14 @@ void parallel_for(const Context& context, Index count, Index grain,
   };
 
   std::vector<std::thread> helpers;
-  for (Index i = 1; i < threads; ++i) helpers.emplace_back(help);
+  helpers.reserve(threads);
+  try {
+    while (static_cast<Index>(helpers.size()) + 1 < threads) helpers.emplace_back(help);
+  } catch (const std::exception&) {
+    // The system gives no more: those that there are share the work.
+    const std::scoped_lock lock(mutex);
+    at_work -= threads - 1 - static_cast<Index>(helpers.size());
+  }
   or_failure([&] {
     work(true);
     wait();

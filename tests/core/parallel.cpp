@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <symsurf/errors.h>
+#include <sys/resource.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -46,6 +48,19 @@ TEST(Parallel, HandsOnWhatTheBodyThrows) {
                                 if (begin == 500) throw std::length_error("too long");
                               }),
                  std::length_error);
+}
+
+// In a process of its own, which has no room for their stacks.
+TEST(Parallel, DoesWithFewerThreadsWhereTheSystemGivesNoMore) {
+  const auto work = [] {
+    const rlimit room{1 << 28, 1 << 28};
+    setrlimit(RLIMIT_AS, &room);
+    constexpr Index count = 10000;
+    std::atomic<Index> visited{0};
+    parallel_for(Context({}, 5000), count, 1, [&](Index, Index) { ++visited; });
+    std::_Exit(visited == count ? 0 : 1);
+  };
+  EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
