@@ -172,5 +172,24 @@ TEST(Bend, StraightensOverAnyMirror) {
   EXPECT_NEAR((bend(straight, sphere, Bend::Restore) - box).rowwise().norm().maxCoeff(), 0, 1e-6);
 }
 
+TEST(Bend, IsTheSameWhereverTheObjectLiesAndInAnyUnit) {
+  const Sphere sphere({0, 0, -2}, 2.5);
+  const Points box = 0.5 * RandomCloud(3).box(200), straight = bend(box, sphere);
+  for (const double unit : {1e-12, 1.0, 1e12})
+    for (const double away : {0.0, 1e3, 5e6}) {
+      const Vector3 shift = unit * away * Vector3(1, -1, 0.5);
+      const auto moved = [&](const Points& points) -> Points {
+        return (unit * points).rowwise() + shift.transpose();
+      };
+      const std::unique_ptr<Mirror> there = sphere.transformed(unit, Matrix3::Identity(), shift);
+      there->set_footprint(std::make_shared<Points>(moved(box)));
+      const double rounding = 1e-8 * unit + 1e-14 * shift.norm();
+      const Points bent = bend(moved(box), *there);
+      EXPECT_LE((bent - moved(straight)).rowwise().norm().maxCoeff(), rounding) << away;
+      const Points back = bend(bent, *there, Bend::Restore);
+      EXPECT_LE((back - moved(box)).rowwise().norm().maxCoeff(), 1e-6 * unit + rounding) << away;
+    }
+}
+
 }  // namespace
 }  // namespace symsurf

@@ -21,6 +21,30 @@ struct Layout {
   Vector3 middle = Vector3::Zero(), normal = Vector3::Zero();
 };
 
+// The mirror's normal at the foot of x, towards where signed_distance is positive; false without.
+bool foot_and_normal(const Mirror& mirror, const Vector3& x, Vector3& foot, Vector3& normal) {
+  constexpr double least = 1e-7, off = 1e-5;
+  foot = mirror.foot(x);
+  double distance = mirror.signed_distance(x);
+  if (!foot.allFinite()) return false;
+  // On the mirror itself the normal shows only from a little way off.
+  if (std::abs(distance) > least) {
+    normal = (x - foot) / distance;
+    return true;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 beside = x + off * Vector3::Unit(axis);
+    distance = mirror.signed_distance(beside);
+    if (!(std::abs(distance) > 0.5 * off)) continue;
+    normal = (beside - mirror.foot(beside)) / distance;
+    // That is the normal a little aside; straight above x it is x's own.
+    const Vector3 above = x + off * normal;
+    normal = (above - mirror.foot(above)) / mirror.signed_distance(above);
+    return normal.allFinite();
+  }
+  return false;
+}
+
 Layout layout(const Mirror& mirror, PointsView object) {
   Layout l;
   for (Index i = 0; i < object.size(); ++i) {
@@ -137,7 +161,7 @@ class Spread final : public Chart {
       if (!(steep > 0.05)) return false;
       const double move = normal.dot(foot - x) / steep;
       height += move;
-      if (std::abs(move) <= 1e-13 * ((foot - origin_).norm() + std::abs(height))) {
+      if (std::abs(move) <= 1e-13 * (1 + std::abs(height))) {
         foot = base + height * axes_.col(2);
         return true;
       }
@@ -153,7 +177,7 @@ class Spread final : public Chart {
       low = std::min(low, at);
       high = std::max(high, at);
     }
-    const double step = std::max((high - low) / samples, 1e-12);
+    const double step = std::max((high - low) / samples, 1e-12);  // also where nothing extends
     std::vector<std::pair<double, double>> back{{0, 0}}, ahead{{0, 0}};
     for (auto* side : {&back, &ahead}) {
       const double sign = side == &ahead ? 1 : -1, end = side == &ahead ? high : -low;
@@ -179,32 +203,8 @@ class Spread final : public Chart {
 
 }  // namespace
 
-bool foot_and_normal(const Mirror& mirror, const Vector3& x, Vector3& foot, Vector3& normal) {
-  foot = mirror.foot(x);
-  double distance = mirror.signed_distance(x);
-  if (!foot.allFinite()) return false;
-  // On the mirror itself the normal shows only from a little way off.
-  const double least = 1e-7 * (1e-300 + foot.norm());
-  if (std::abs(distance) > least) {
-    normal = (x - foot) / distance;
-    return true;
-  }
-  const double off = std::max(1e-5 * foot.norm(), 1e-9);
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 beside = x + off * Vector3::Unit(axis);
-    distance = mirror.signed_distance(beside);
-    if (!(std::abs(distance) > 0.5 * off)) continue;
-    normal = (beside - mirror.foot(beside)) / distance;
-    // That is the normal a little aside; straight above x it is x's own.
-    const Vector3 above = x + off * normal;
-    normal = (above - mirror.foot(above)) / mirror.signed_distance(above);
-    return normal.allFinite();
-  }
-  return false;
-}
-
 std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object) {
-  const Layout l = layout(mirror, mirror.footprint().empty() ? object : mirror.footprint());
+  const Layout l = layout(mirror, object);
   if (const auto* cylinder = dynamic_cast<const Cylinder*>(&mirror))
     return std::make_unique<Unrolled>(*cylinder, l);
   return std::make_unique<Spread>(mirror, l);

@@ -25,11 +25,8 @@ class Chart {
   Matrix3 axes_;
 };
 
-/// Laid out over the mirror's footprint or, without one, over the object.
-/// Throws InvalidInput when nothing of that has a foot.
+/// Laid out over an object, about the origin and 1 long, which the mirror and the chart outlive.
+/// Throws InvalidInput when nothing of it has a foot.
 std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object);
-
-/// The mirror's normal at the foot of x, towards where signed_distance is positive; false without.
-bool foot_and_normal(const Mirror& mirror, const Vector3& x, Vector3& foot, Vector3& normal);
 
 }  // namespace symsurf
