@@ -99,6 +99,15 @@ TEST(FixedDirection, PairsNeighboursWherePartnersAreLost) {
   }
 }
 
+// A grid as fine as the sheets over all that lies between would take all memory.
+TEST(FixedDirection, StandsAPointFarFromAllOthers) {
+  for (const double away : {1e2, 1e4, 1e6}) {
+    Points points = RandomCloud(1).box(300);
+    points.row(0) *= away;
+    EXPECT_NO_THROW(found(points)) << away;
+  }
+}
+
 TEST(FixedDirection, PairsAClosedShapeNested) {
   // A torus and its image overlap: lines along z meet up to eight sheets.
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {

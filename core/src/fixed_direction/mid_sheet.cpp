@@ -16,6 +16,7 @@ constexpr double least_gap = 1.5;  // spacings between two sheets
 constexpr double steepest = 3;     // slope of a sheet that is still trusted
 constexpr double window = 1.0;     // spacings, of heights that agree
 constexpr double rough = 1.5;      // spacings
+constexpr double most_cells_a_point = 512;
 
 // Floats as integers of the same order, side by side: sorting them compares but once.
 std::uint64_t packed(float height, float weight) {
@@ -47,7 +48,7 @@ MidSheet::MidSheet(const WorkingCloud& cloud, const Context& context, double rea
     : cloud_(cloud),
       context_(context),
       reach_(reach * cloud.spacing),
-      cell_(std::max(1.5, reach) * cloud.spacing),
+      least_cell_(std::max(1.5, reach) * cloud.spacing),
       flat_(cloud.size(), 3),
       sheet_(cloud.size(), 3),
       cell_of_(cloud.size()),
@@ -104,8 +105,12 @@ void MidSheet::project(const Vector3& direction) {
 void MidSheet::sort_into_cells() {
   low_ = flat_.leftCols<2>().colwise().minCoeff().transpose();
   const Eigen::Vector2d high = flat_.leftCols<2>().colwise().maxCoeff().transpose();
-  columns_ = static_cast<Index>((high.x() - low_.x()) / cell_) + 1;
-  rows_ = static_cast<Index>((high.y() - low_.y()) / cell_) + 1;
+  const Eigen::Vector2d extent = high - low_;
+  // A point far from all others makes cells larger, not more.
+  const double most_cells = most_cells_a_point * static_cast<double>(cloud_.size());
+  cell_ = std::max(least_cell_, std::sqrt(extent.cwiseMax(least_cell_).prod() / most_cells));
+  columns_ = static_cast<Index>(extent.x() / cell_) + 1;
+  rows_ = static_cast<Index>(extent.y() / cell_) + 1;
   start_.assign(columns_ * rows_ + 1, 0);
   for (Index i = 0; i < cloud_.size(); ++i) {
     const Index c = static_cast<Index>((flat_(i, 0) - low_.x()) / cell_);

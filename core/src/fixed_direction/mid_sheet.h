@@ -64,8 +64,8 @@ class MidSheet {
   const Context context_;
   Eigen::Matrix<double, 3, 2> across_;
   double reach_;
-  double cell_;          // edge
-  Eigen::Vector2d low_;  // of the grid
+  double least_cell_, cell_;  // edges
+  Eigen::Vector2d low_;       // of the grid
   Index columns_ = 0, rows_ = 0;
   Points flat_;                                    // u, v, height
   Eigen::Array<double, Eigen::Dynamic, 3> sheet_;  // slope in u, in v, |normal . direction|
