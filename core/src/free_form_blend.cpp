@@ -126,6 +126,7 @@ bool FreeForm::Blend::descend(const Vector3& x, double precision, Vector3& y,
 bool FreeForm::Blend::closest(const Vector3& x, double precision, Vector3& foot,
                               Vector3& normal) const {
   const Neighbour start = tree_.nearest(x);
+  if (start.index < 0) return false;  // at infinity
   foot = patches_[start.index].centre;
   return descend(x, precision, foot, normal);
 }

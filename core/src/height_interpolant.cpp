@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "symmetric_matrix.h"
 
@@ -76,6 +77,7 @@ double HeightInterpolant::operator()(const Eigen::Vector2d& at) const {
   std::vector<Neighbour> near;
   near.reserve(blended_nodes + 2);
   tree_.nearest({at.x(), at.y(), 0}, blended_nodes + 1, near);
+  if (near.empty()) return std::numeric_limits<double>::quiet_NaN();  // at infinity
   const double nearest = std::sqrt(near.front().squared_distance);
   double radius = std::sqrt(near.back().squared_distance);
   if (static_cast<Index>(near.size()) <= blended_nodes) radius *= 2;

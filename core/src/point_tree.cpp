@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "binary_unit.h"
 #include "k_best.h"
 #include "nearest_first.h"
 #include "parallel.h"
@@ -102,8 +103,8 @@ std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& querie
     for (int axis = 0; axis < 3; ++axis) {
       lanes[axis * block + i] = asked ? q[axis] : 0;
       if (!asked) continue;
-      low[axis] = std::min(low[axis], static_cast<float>(q[axis]));
-      high[axis] = std::max(high[axis], static_cast<float>(q[axis]));
+      low[axis] = std::min(low[axis], in_boxes(q[axis]));
+      high[axis] = std::max(high[axis], in_boxes(q[axis]));
     }
     squared[i] = asked ? std::min(limit, std::numeric_limits<double>::max()) : -1;
     lanes[4 * block + i] = none;
@@ -165,8 +166,8 @@ void PointTree::nearest(const Queries& queries, Index k, Index near, double& rea
     const auto begin = asked.coordinates.begin() + axis * block;
     for (int i = 0; i < block; ++i) begin[i] = queries(axis, i) - origin_[axis];
     const auto [least, most] = std::minmax_element(begin, begin + block);
-    asked.low[axis] = static_cast<float>(*least);
-    asked.high[axis] = static_cast<float>(*most);
+    asked.low[axis] = in_boxes(*least);
+    asked.high[axis] = in_boxes(*most);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (reach == infinity || !nearest_within(asked, k, reach, found))
@@ -213,7 +214,9 @@ PointTree::PointTree(PointsView points, const Context& context) {
   const auto matrix = points.matrix();
   const Vector3 low = matrix.colwise().minCoeff(), high = matrix.colwise().maxCoeff();
   origin_ = (low + high) / 2;
-  reach_ = static_cast<float>((high - low).maxCoeff());
+  const double extent = (high - low).maxCoeff();
+  to_boxes_ = to_binary_unit(extent);
+  reach_ = static_cast<float>(extent * to_boxes_);
   sort(points, context);
   context.report(0.5);
 
@@ -226,7 +229,7 @@ PointTree::PointTree(PointsView points, const Context& context) {
 
 void PointTree::sort(PointsView points, const Context& context) {
   const double cells = static_cast<double>(1 << bits_per_axis) - 1;
-  const double scale = reach_ > 0 ? cells / static_cast<double>(reach_) : 0;
+  const double scale = reach_ > 0 ? cells / static_cast<double>(reach_) * to_boxes_ : 0;
   const Vector3 to_cells = Vector3::Constant(cells / 2);
   std::vector<std::uint64_t> keys(points.size());
   interruptible_for(context, points.size(), [&](Index i) {
@@ -256,7 +259,7 @@ void PointTree::stack_boxes(const Context& context) {
     const Index box = p / fan;
     Boxes& group = levels_[0][box / fan];
     for (int axis = 0; axis < 3; ++axis) {
-      const float x = static_cast<float>(coordinates_[3 * p + axis]);
+      const float x = in_boxes(coordinates_[3 * p + axis]);
       float& low = group.low[axis][box % fan];
       float& high = group.high[axis][box % fan];
       low = std::min(low, x);

@@ -71,10 +71,18 @@ class PointTree {
  private:
   static constexpr Index fan = 8;
 
-  // Eight sibling boxes side by side, so that one pass over an array tests them all.
+  // Eight sibling boxes side by side, so that one pass over an array tests them all; in a unit of
+  // their own.
   struct Boxes {
     std::array<std::array<float, fan>, 3> low, high;
   };
+
+  // A coordinate from origin_ in the boxes' unit. What is farther off than squares can hold is
+  // moved nearer, which prunes less.
+  float in_boxes(double coordinate) const {
+    constexpr double farthest = 1e18;
+    return static_cast<float>(std::clamp(coordinate * to_boxes_, -farthest, farthest));
+  }
 
   // Squared distances of the boxes from low..high, each side less by slack.
   static void measure_boxes(const Boxes* boxes, const float* low, const float* high, float slack,
@@ -107,7 +115,8 @@ class PointTree {
   void search(const Vector3& query, double& limit, const Visit& visit) const;
 
   Vector3 origin_ = Vector3::Zero();
-  float reach_ = 0;  // the largest coordinate, from origin_
+  double to_boxes_ = 1;  // from the cloud's unit
+  float reach_ = 0;      // the largest extent, in the boxes' unit
   std::vector<std::int32_t> order_;
   std::vector<double> coordinates_;         // from origin_, along the curve
   std::vector<std::vector<Boxes>> levels_;  // leaves first; the last has one entry
@@ -125,13 +134,17 @@ void PointTree::descend(const std::array<float, 3>& low, const std::array<float,
   for (int axis = 0; axis < 3; ++axis) slack += std::max(std::abs(low[axis]), std::abs(high[axis]));
   slack *= 4e-7f;
 
-  limit = std::min(limit, std::numeric_limits<double>::max());  // padding boxes are at infinity
+  const auto bound = [&] {
+    constexpr double padding = std::numeric_limits<float>::max();  // lies farther, at infinity
+    return std::min(limit * to_boxes_ * to_boxes_, padding);
+  };
   std::array<Node, 8 * 16> stack;
   int top = 0;
   stack[top++] = {static_cast<std::int32_t>(levels_.size()) - 1, 0, 0.0f};
   while (top > 0) {
     const Node node = stack[--top];
-    if (node.squared > limit) continue;
+    const double farthest = bound();
+    if (node.squared > farthest) continue;
     if (node.level < 0) {
       leaf(node.index);
       continue;
@@ -141,7 +154,7 @@ void PointTree::descend(const std::array<float, 3>& low, const std::array<float,
     measure_boxes(&boxes, low.data(), high.data(), slack, squared.data());
     const int first = top;
     for (int i = 0; i < fan; ++i) {
-      if (squared[i] > limit) continue;
+      if (squared[i] > farthest) continue;
       const Node child{node.level - 1, static_cast<std::int32_t>(node.index * fan + i), squared[i]};
       int at = top++;
       for (; at > first && stack[at - 1].squared < child.squared; --at) stack[at] = stack[at - 1];
@@ -153,8 +166,7 @@ void PointTree::descend(const std::array<float, 3>& low, const std::array<float,
 template <typename Visit>
 void PointTree::search(const Vector3& query, double& limit, const Visit& visit) const {
   const Vector3 q = query - origin_;
-  const std::array<float, 3> at{static_cast<float>(q.x()), static_cast<float>(q.y()),
-                                static_cast<float>(q.z())};
+  const std::array<float, 3> at{in_boxes(q.x()), in_boxes(q.y()), in_boxes(q.z())};
   descend(at, at, limit, [&](Index leaf) {
     const Index end = std::min((leaf + 1) * fan, size());
     for (Index p = leaf * fan; p < end; ++p) {

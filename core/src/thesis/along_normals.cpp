@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../binary_unit.h"
 #include "../box_tree.h"
 #include "../parallel.h"
 #include "line_queries.h"
@@ -28,10 +29,12 @@ class LineSearch {
     const Vector3 low = points.matrix().colwise().minCoeff(),
                   high = points.matrix().colwise().maxCoeff();
     centre_ = (low + high) / 2;
+    const double extent = (high - low).maxCoeff();
+    to_boxes_ = to_binary_unit(extent);
     // Single precision rounds a coordinate to 6e-8 of it, a distance takes ten of these.
-    rounding_ = 4e-6f * static_cast<float>((high - low).maxCoeff() / 2);
+    rounding_ = 4e-6f * static_cast<float>(to_boxes_ * extent / 2);
     interruptible_for(context, points.size(), [&](Index p) {
-      const Eigen::Vector3f place = (points[order_[p]] - centre_).cast<float>();
+      const Eigen::Vector3f place = in_boxes(points[order_[p]]).cast<float>();
       tree_.add(place.x(), place.y(), place.z(), order_[p]);
     });
     tree_.build(context);
@@ -48,11 +51,11 @@ class LineSearch {
     LineQueries::Limits limits;
     for (int q = 0; q < block; ++q) {
       index[q] = order_[std::min<Index>(position + q, points_.size() - 1)];
-      queries.set(q, points_[index[q]] - centre_, normals[index[q]], index[q]);
+      queries.set(q, in_boxes(points_[index[q]]), normals[index[q]], index[q]);
       Partner& partner = partners[q];
       partner.squared = partner.index == index[q] ? std::numeric_limits<double>::infinity()
                                                   : squared(index[q], normals, partner.index);
-      const float reach = static_cast<float>(std::sqrt(partner.squared)) + rounding_;
+      const float reach = static_cast<float>(to_boxes_ * std::sqrt(partner.squared)) + rounding_;
       limits[q] = reach * reach;
     }
     queries.begin(limits);
@@ -73,6 +76,8 @@ class LineSearch {
   }
 
  private:
+  Vector3 in_boxes(const Vector3& x) const { return to_boxes_ * (x - centre_); }
+
   // Of the point j from the line through the point i.
   double squared(std::int32_t i, PointsView normals, std::int32_t j) const {
     const Vector3 w = points_[j] - points_[i], u = normals[i];
@@ -83,6 +88,7 @@ class LineSearch {
 
   PointsView points_;
   Vector3 centre_;
+  double to_boxes_;
   float rounding_;
   const std::vector<std::int32_t>& order_;
   BoxTree tree_;
