@@ -17,34 +17,72 @@ namespace symsurf {
 
 namespace {
 
-template <typename T>
-const T& number(const Values& numbers, const char* name) {
+const Value& given(const Values& numbers, const char* name) {
   const auto it = numbers.find(name);
-  const T* value = it == numbers.end() ? nullptr : std::get_if<T>(&it->second);
-  if (!value)
-    throw InvalidInput(std::string("the mirror's ") + name + " is " +
-                       (it == numbers.end() ? "missing" : "'" + to_string(it->second) + "'"));
-  return *value;
+  if (it == numbers.end()) throw InvalidInput(std::string("the mirror's ") + name + " is missing");
+  return it->second;
 }
 
-const Eigen::MatrixXd& table(const Values& numbers, const char* name, Index rows, Index columns) {
-  const auto& values = number<Eigen::MatrixXd>(numbers, name);
-  if (values.rows() != rows || values.cols() != columns)
-    throw InvalidInput(std::string("the mirror's ") + name + " are " +
-                       std::to_string(values.rows()) + " x " + std::to_string(values.cols()) +
-                       " numbers; " + std::to_string(rows) + " x " + std::to_string(columns) +
-                       " are needed");
+[[noreturn]] void refuse(const char* name, const Value& value, const std::string& needed) {
+  throw InvalidInput(std::string("the mirror's ") + name + " is " + to_string(value) + "; " +
+                     needed);
+}
+
+// Files and hosts hold whole numbers where there is no fraction.
+double scalar(const Values& numbers, const char* name) {
+  const Value& value = given(numbers, name);
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* whole = std::get_if<Index>(&value)) return static_cast<double>(*whole);
+  refuse(name, value, "a number is needed");
+}
+
+Vector3 vector(const Values& numbers, const char* name) {
+  const Value& value = given(numbers, name);
+  if (const auto* three = std::get_if<Vector3>(&value)) return *three;
+  refuse(name, value, "3 numbers are needed");
+}
+
+const std::string& word(const Values& numbers, const char* name) {
+  const Value& value = given(numbers, name);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  refuse(name, value, "a word is needed");
+}
+
+constexpr Index any = -1;
+
+// They hold a table of one row, or of one number, as a vector or as a number.
+Eigen::MatrixXd table(const Values& numbers, const char* name, Index rows, Index columns) {
+  const Value& value = given(numbers, name);
+  const auto* matrix = std::get_if<Eigen::MatrixXd>(&value);
+  const auto* row = std::get_if<Vector3>(&value);
+  Eigen::MatrixXd values;
+  if (matrix)
+    values = *matrix;
+  else if (row)
+    values = row->transpose();
+  else
+    values = Eigen::MatrixXd::Constant(1, 1, scalar(numbers, name));
+  if ((rows != any && values.rows() != rows) || values.cols() != columns)
+    refuse(name, values,
+           (rows == any ? "rows of " : std::to_string(rows) + " x ") + std::to_string(columns) +
+               " are needed");
   return values;
 }
 
+Mapping mapping(const Values& numbers) {
+  const std::string& name = word(numbers, "mapping");
+  if (name == "fixed") return Mapping::Fixed;
+  if (name == "perpendicular") return Mapping::Perpendicular;
+  refuse("mapping", name, "allowed is fixed | perpendicular");
+}
+
 std::shared_ptr<Mirror> free_form(const Values& numbers) {
-  const auto& centres = number<Eigen::MatrixXd>(numbers, "centres");
+  const Eigen::MatrixXd centres = table(numbers, "centres", any, 3);
   const Index count = centres.rows();
-  table(numbers, "centres", count, 3);
-  const auto& tangents = table(numbers, "tangents", count, 3);
-  const auto& normals = table(numbers, "normals", count, 3);
-  const auto& heights = table(numbers, "heights", count, 6);
-  const auto& radii = table(numbers, "radii", count, 1);
+  const Eigen::MatrixXd tangents = table(numbers, "tangents", count, 3);
+  const Eigen::MatrixXd normals = table(numbers, "normals", count, 3);
+  const Eigen::MatrixXd heights = table(numbers, "heights", count, 6);
+  const Eigen::MatrixXd radii = table(numbers, "radii", count, 1);
   std::vector<Patch> patches(count);
   for (Index i = 0; i < count; ++i) {
     const Vector3 tangent = tangents.row(i), normal = normals.row(i);
@@ -66,39 +104,33 @@ struct Kind {
 const std::array kinds{
     Kind{"plane",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Plane>(number<Vector3>(v, "normal"),
-                                          number<double>(v, "offset"));
+           return std::make_shared<Plane>(vector(v, "normal"), scalar(v, "offset"));
          }},
     Kind{"sphere",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Sphere>(number<Vector3>(v, "centre"),
-                                           number<double>(v, "radius"));
+           return std::make_shared<Sphere>(vector(v, "centre"), scalar(v, "radius"));
          }},
     Kind{"cylinder",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Cylinder>(number<Vector3>(v, "point"),
-                                             number<Vector3>(v, "axis"),
-                                             number<double>(v, "radius"));
+           return std::make_shared<Cylinder>(vector(v, "point"), vector(v, "axis"),
+                                             scalar(v, "radius"));
          }},
     Kind{"quadric",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Quadric>(table(v, "matrix", 3, 3), number<Vector3>(v, "linear"),
-                                            number<double>(v, "constant"));
+           return std::make_shared<Quadric>(table(v, "matrix", 3, 3), vector(v, "linear"),
+                                            scalar(v, "constant"));
          }},
     Kind{"free-form", free_form},
     Kind{"height field",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<HeightField>(number<Vector3>(v, "direction"),
-                                                Points(number<Eigen::MatrixXd>(v, "nodes")));
+           return std::make_shared<HeightField>(vector(v, "direction"),
+                                                Points(table(v, "nodes", any, 3)));
          }},
     Kind{"surface",
          [](const Values& v) -> std::shared_ptr<Mirror> {
-           const auto mapping = number<std::string>(v, "mapping") == "fixed"
-                                    ? Mapping::Fixed
-                                    : Mapping::Perpendicular;
            return std::make_shared<SurfaceMirror>(
-               surface(number<std::string>(v, "surface")), mapping, number<double>(v, "scale"),
-               Matrix3(table(v, "rotation", 3, 3)), number<Vector3>(v, "translation"));
+               surface(word(v, "surface")), mapping(v), scalar(v, "scale"),
+               Matrix3(table(v, "rotation", 3, 3)), vector(v, "translation"));
          }},
 };
 

@@ -25,8 +25,8 @@ class Chart {
   Matrix3 axes_;
 };
 
-/// Laid out over an object, about the origin and 1 long, which the mirror and the chart outlive.
-/// Throws InvalidInput when nothing of it has a foot.
+/// Laid out over an object that lies about the origin and is 1 long. The mirror must outlive it.
+/// Throws InvalidInput when nothing of the object has a foot.
 std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object);
 
 }  // namespace symsurf
