@@ -1,6 +1,7 @@
 #include "vtkMirrorDetection.h"
 
 #include <symsurf/detect.h>
+#include <symsurf/errors.h>
 
 #include <algorithm>
 #include <cstring>
@@ -46,6 +47,16 @@ symsurf::Index points_before(const ControllerCommunicator& processes, symsurf::I
     before += count;
   }
   return before;
+}
+
+// Of all processes together: one that threw alone would keep the others waiting.
+void require_normals(const ControllerCommunicator& processes, bool missing) {
+  if (processes.size() > 1)
+    for (const auto& theirs : processes.gather(std::as_bytes(std::span(&missing, 1))))
+      missing = missing || theirs.front() != std::byte{0};
+  if (missing)
+    throw symsurf::InvalidInput(
+        "UseNormals is on, but the input has no point normals; compute them first, or do without");
 }
 
 void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
@@ -118,6 +129,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     const PointArray points = points_of(input);
     const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
     const ControllerCommunicator processes(this->Controller);
+    if (this->UseNormals) require_normals(processes, normals.view().size() < points.view().size());
     const symsurf::Index before = points_before(processes, points.view().size());
 
     symsurf::Options options;

@@ -22,6 +22,13 @@ void require_count(Index given, Index needed) {
                        " are needed");
 }
 
+void require_numerable(Index own) {
+  constexpr Index most = Index{1} << 30;  // they, and twice as many, are counted in 32 bits
+  if (own > most)
+    throw InvalidInput(std::to_string(own) + " points given; at most " + std::to_string(most) +
+                       " in one process are allowed");
+}
+
 void require_area(PointsView points, Index total) {
   const std::string all = "all " + std::to_string(total) + " points ";
   const Vector3 low = points.matrix().colwise().minCoeff();
@@ -58,6 +65,7 @@ void require_finite(PointsView rows, const char* what, Index first) {
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {
   require_count(points.size(), minimum_points);
+  require_numerable(points.size());
   require_finite(points, "point");
   require_area(points, points.size());
 

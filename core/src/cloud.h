@@ -4,8 +4,9 @@
 
 namespace symsurf {
 
-/// Checks what every method relies on: at least minimum_points points, all finite, not all on one
-/// line; normals, where given, one a point, finite and not zero. Throws InvalidInput.
+/// Checks what every method relies on: at least minimum_points points and no more than can be
+/// numbered, all finite, not all on one line; normals, where given, one a point, finite and not
+/// zero. Throws InvalidInput.
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
 
@@ -16,6 +17,9 @@ void require_finite(PointsView rows, const char* what, Index first = 0);
 
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);
+
+/// Throws InvalidInput for more points than one process numbers.
+void require_numerable(Index own);
 
 /// Throws InvalidInput where all points are equal, lie on one line, or extend less than 1e-50 or
 /// more than 1e50; `total`: how many they stand for.

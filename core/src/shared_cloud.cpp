@@ -49,7 +49,10 @@ std::vector<Vector3> farthest_from_line(PointsView own, const Vector3& start, co
 Cloud checked_shared_cloud(PointsView own, Index minimum_points, const Context& context) {
   const Share share = share_of(context, own.size());
   require_count(share.total, minimum_points);
-  check_together(context, [&] { require_finite(own, "point", share.first); });
+  check_together(context, [&] {
+    require_numerable(own.size());
+    require_finite(own, "point", share.first);
+  });
 
   std::vector<Vector3> few = extreme_points(own, context);
   const Vector3 low(few[0].x(), few[2].y(), few[4].z());

@@ -89,6 +89,11 @@ class MirrorDetection(VTKPythonAlgorithmBase):
     def _detected(self, source: vtkPolyData) -> Result:
         method = methods().get(self._options["Method"])
         normals = source.GetPointData().GetNormals() if self._options["UseNormals"] else None
+        if self._options["UseNormals"] and not normals and source.GetNumberOfPoints():
+            raise InvalidInput(
+                "UseNormals is on, but the input has no point normals; compute them first, or do "
+                "without"
+            )
         return detect(
             _rows(source.GetPoints() and source.GetPoints().GetData()),
             self._options["Method"],

@@ -62,6 +62,17 @@ TEST(BadInput, AllOnOneLine) {
   }
 }
 
+// A view of more points than there are: nobody may read them.
+TEST(BadInput, TooManyPoints) {
+  const Points few = RandomCloud(0).box(50);
+  const PointsView many(few.data(), (Index{1} << 30) + 1);
+  const std::string error =
+      "1073741825 points given; at most 1073741824 in one process are allowed";
+  for (const Method& method : methods())
+    expect_error<InvalidInput>(error, [&] { detect(many, {.method = method.name}); });
+  expect_error<InvalidInput>(error, [&] { match(many, Plane({1, 0, 0}, 0)); });
+}
+
 TEST(BadInput, BeyondWhatNumbersHold) {
   for (const double size : {1e-200, 1e-60, 1e60, 1e200})
     expect_refused("allowed is 1e-50 to 1e+50", size * RandomCloud(0).box(50));
@@ -83,9 +94,8 @@ TEST(BadInput, UnknownMethodOrParameter) {
                                  [&] { detect(points, {.method = "plan"}); });
   for (const Method& method : methods()) {
     const std::string error = "method '" + method.name + "' has no parameter 'colour'; it has";
-    expect_error<InvalidParameter>(error, [&] {
-      detect(points, {.method = method.name, .parameters = {{"colour", 1.0}}});
-    });
+    expect_error<InvalidParameter>(
+        error, [&] { detect(points, {.method = method.name, .parameters = {{"colour", 1.0}}}); });
   }
 }
 
@@ -108,12 +118,10 @@ TEST(BadInput, ParametersOutOfRange) {
           detect(points, {.method = method.name, .parameters = {{parameter.name, value}}});
         });
     }
-  expect_error<InvalidParameter>("pair_distance is -1; allowed is [0, inf)", [&] {
-    match(points, Plane({1, 0, 0}, 0), -1);
-  });
-  expect_error<InvalidParameter>("pair_distance is nan", [&] {
-    match(points, Plane({1, 0, 0}, 0), nan);
-  });
+  expect_error<InvalidParameter>("pair_distance is -1; allowed is [0, inf)",
+                                 [&] { match(points, Plane({1, 0, 0}, 0), -1); });
+  expect_error<InvalidParameter>("pair_distance is nan",
+                                 [&] { match(points, Plane({1, 0, 0}, 0), nan); });
 }
 
 TEST(BadInput, NormalsThatAreNone) {

@@ -147,6 +147,15 @@ def test_bad_parameters_are_errors() -> None:
     assert "pair_distance is -1" in error_of(found)
 
 
+def test_normals_that_are_asked_for_must_be_there() -> None:
+    found = detection(mirrored_shape())
+    found.SetUseNormals(True)
+    assert "the input has no point normals" in error_of(found)
+    assert found.GetOutput(0).GetNumberOfPoints() == 0
+    found.SetUseNormals(False)
+    assert error_of(found) == ""
+
+
 def test_abort_empties_the_outputs() -> None:
     found = detection(mirrored_shape(20000))
     found.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))

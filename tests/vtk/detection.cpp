@@ -145,4 +145,18 @@ TEST(MirrorDetection, NormalsAreUsedWhenAskedFor) {
   EXPECT_EQ(filter->GetOutput(0)->GetNumberOfPoints(), 0);
 }
 
+TEST(MirrorDetection, NormalsThatAreAskedForMustBeThere) {
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetInputData(polydata_of(mirrored_shape(truth, 100)));
+  filter->SetMethod("plane");
+  filter->UseNormalsOn();
+  const ErrorListener listener(filter);
+  filter->Update();
+  EXPECT_NE(listener.message().find("the input has no point normals"), std::string::npos);
+  EXPECT_EQ(filter->GetOutput(0)->GetNumberOfPoints(), 0);
+  filter->UseNormalsOff();
+  filter->Update();
+  EXPECT_GT(filter->GetOutput(0)->GetNumberOfPoints(), 0);
+}
+
 }  // namespace
