@@ -2,7 +2,6 @@
 #include <symsurf/detect.h>
 #include <symsurf/match.h>
 
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -30,7 +29,7 @@ py::dict detect_fields(const PointsArgument& points, const py::object& method_na
   options.method = py::str(method_name);
   options.parameters = values_from(parameters, method(options.method).parameters);
   if (normals) options.normals = *normals;
-  options.seed = whole_number(seed, "seed", std::numeric_limits<std::uint64_t>::max());
+  options.seed = seed_from(seed);
   const Context context = context_from(progress, threads);
   return with_points(without_gil([&] { return detect(points, options, context); }), points);
 }

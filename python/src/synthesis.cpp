@@ -79,8 +79,7 @@ void bind_generators(py::module_& module) {
   bind_description<Generator>(module, "Generator", "The description of a generator of samples.")
       .def_readonly("mirrors_points", &Generator::mirrors_points,
                     "Whether it mirrors given points.");
-  module.def(
-      "generators", [] { return by_name(generators()); }, "All generators by name.");
+  module.def("generators", [] { return by_name(generators()); }, "All generators by name.");
   module.def(
       "generate",
       [](const std::string& name, const py::dict& parameters,
@@ -110,24 +109,23 @@ void bind_generators(py::module_& module) {
 
 void bind_damages(py::module_& module) {
   bind_description<Damage>(module, "Damage", "The description of a kind of damage.");
-  module.def(
-      "damages", [] { return by_name(damages()); }, "All kinds of damage by name.");
+  module.def("damages", [] { return by_name(damages()); }, "All kinds of damage by name.");
   module.def(
       "damage",
       [](const std::string& name, const PointsArgument& points, const py::dict& parameters,
-         std::uint64_t seed) {
+         const py::object& seed) {
         const Values values = values_from(parameters, kind_of_damage(name).parameters);
-        Damaged damaged = damage(name, points, values, seed);
+        Damaged damaged = damage(name, points, values, seed_from(seed));
         return py::make_tuple(owned_array(std::move(damaged.points)), damaged.kept);
       },
       py::arg("name"), py::arg("points"), py::arg("parameters"), py::arg("seed"));
   module.def("add_noise", [](const PointsArgument& points, double low, double high,
-                             const BoxArgument& box, std::uint64_t seed) {
-    return owned_array(add_noise(points, low, high, box_from(box), seed));
+                             const BoxArgument& box, const py::object& seed) {
+    return owned_array(add_noise(points, low, high, box_from(box), seed_from(seed)));
   });
   module.def("remove_points", [](const PointsArgument& points, double probability,
-                                 const BoxArgument& box, std::uint64_t seed) {
-    return owned_array(remove_points(points, probability, box_from(box), seed).points);
+                                 const BoxArgument& box, const py::object& seed) {
+    return owned_array(remove_points(points, probability, box_from(box), seed_from(seed)).points);
   });
   module.def("rotate", [](const PointsArgument& points, double roll, double pitch, double yaw) {
     return owned_array(rotate(points, roll, pitch, yaw));
@@ -137,8 +135,8 @@ void bind_damages(py::module_& module) {
         Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(rotation_matrix(roll, pitch, yaw)));
   });
   module.def("thin", [](const PointsArgument& points, double ratio, const VectorArgument& direction,
-                        std::uint64_t seed) {
-    return owned_array(thin(points, ratio, direction.vector, seed).points);
+                        const py::object& seed) {
+    return owned_array(thin(points, ratio, direction.vector, seed_from(seed)).points);
   });
 }
 

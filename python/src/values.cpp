@@ -5,6 +5,7 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "arrays.h"
@@ -105,6 +106,10 @@ std::uint64_t whole_number(py::handle object, const char* name, std::uint64_t ma
   }
   throw InvalidParameter(std::string(name) + " is " + shown(object) +
                          "; allowed is a whole number in [0, " + std::to_string(maximum) + "]");
+}
+
+std::uint64_t seed_from(py::handle object) {
+  return whole_number(object, "seed", std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace symsurf::python

@@ -22,5 +22,6 @@ Values values_from(const py::dict& arguments, const std::vector<Parameter>& desc
 
 /// Throws InvalidParameter unless it is a whole number in [0, maximum].
 std::uint64_t whole_number(py::handle object, const char* name, std::uint64_t maximum);
+std::uint64_t seed_from(py::handle object);
 
 }  // namespace symsurf::python

@@ -130,7 +130,7 @@ def test_files_to_read_are_not_written(clouds, tmp_path):
         (["--method", "plane", "--sample-size", "1.5"], "sample_size is 1.5"),
         (["--method", "auto", "--pair-distance", "0.1"], "no parameter 'pair_distance'"),
         (["--threads", "-1"], "threads is -1"),
-        (["--seed", "x"], "seed is x"),
+        (["--seed", "x"], "seed is 'x'"),
         (["--formats", "docx", "--output", "."], "docx"),
         (["--magic", "1"], "--magic"),
     ],

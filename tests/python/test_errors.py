@@ -141,6 +141,17 @@ def test_sampling():
         symsurf.estimate_normals(GOOD[:5], neighbours=10)
 
 
+@pytest.mark.parametrize("seed", [-1, 1.5, "a", 2**64])
+def test_seeds_of_damage(seed):
+    for damage in (
+        lambda: symsurf.synthetic.add_noise(GOOD, 0, 1, seed=seed),
+        lambda: symsurf.synthetic.remove_points(GOOD, 0.5, seed=seed),
+        lambda: symsurf.synthetic.thin(GOOD, seed=seed),
+    ):
+        with pytest.raises(symsurf.InvalidParameter, match=rf"seed is '?{seed}'?; allowed is"):
+            damage()
+
+
 @pytest.mark.parametrize("tolerance", [0, -0.1, np.nan])
 def test_coverage(tolerance):
     plane = symsurf.Plane((0, 0, 1), 0)

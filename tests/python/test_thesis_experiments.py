@@ -231,7 +231,7 @@ def refused(line: str, says: str, folder) -> int:
         ("damage thinning points.xyz --direction 0,0,0", "direction is"),
         ("damage rotation points.xyz --roll nan", "roll is nan"),
         ("damage noise points.xyz --seed -1", "seed is -1"),
-        ("damage noise points.xyz --seed 1.5", "seed is 1.5"),
+        ("damage noise points.xyz --seed 1.5", "seed is '1.5'"),
         ("damage noise points.xyz --seed 18446744073709551616", "seed is 18446744073709551616"),
     ],
 )

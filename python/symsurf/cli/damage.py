@@ -14,7 +14,7 @@ from ..shape import read
 from ..synthetic import rotation_matrix
 from ..truth import read_truth, truth_path, write_truth
 from .described_options import add_kinds, given_values
-from .values import seed_from
+from .values import whole
 
 SUMMARY = "Damage points; the truth beside them, where there is one, follows"
 
@@ -33,8 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     require_points_suffix(arguments.output)
     points = read(arguments.file).points
     values = given_values(arguments)
-    seed = seed_from(arguments.seed)
-    damaged, kept = _core.damage(arguments.kind.name, points, values, seed)
+    damaged, kept = _core.damage(arguments.kind.name, points, values, whole(arguments.seed))
     if truth_path(arguments.file).exists():
         truth = read_truth(truth_path(arguments.file))
         truth = truth.kept(np.array(kept, dtype=np.int64), len(points))

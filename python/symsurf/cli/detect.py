@@ -20,7 +20,7 @@ from ..saving.json_format import plain, summary
 from ..shape import read
 from .method_options import add_method_options, given_parameters
 from .progress_bar import ProgressBar
-from .values import seed_from, shown
+from .values import shown, whole
 
 SUMMARY = "Find the mirror of each file"
 
@@ -86,8 +86,8 @@ def _detect(path: Path, arguments: argparse.Namespace) -> Result:
             points,
             arguments.method,
             normals=normals,
-            seed=seed_from(arguments.seed),
-            threads=_whole(arguments.threads),
+            seed=whole(arguments.seed),
+            threads=whole(arguments.threads),
             progress=bar,
             **given_parameters(arguments),
         )
@@ -101,13 +101,6 @@ def _divisor(text: str) -> float:
     if not 1 <= divisor < math.inf:
         raise InvalidParameter(f"downsample is {text}; allowed is [1, inf)")
     return divisor
-
-
-def _whole(text: str) -> int | str:
-    try:
-        return int(text)
-    except ValueError:
-        return text  # for the core to refuse
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import InvalidParameter, Parameter
+from .._core import Parameter
 
 _NUMBER = re.compile(r"-\.?\d")
 
@@ -21,15 +21,12 @@ def value_from(text: str, parameter: Parameter) -> Any:
         return text
 
 
-def seed_from(text: str) -> int:
-    """The seed; raises InvalidParameter for a text that is none."""
+def whole(text: str) -> Any:
+    """The whole number; a text that is none is left for the core to refuse."""
     try:
-        seed = int(text)
+        return int(text)
     except ValueError:
-        seed = -1
-    if not 0 <= seed < 2**64:
-        raise InvalidParameter(f"seed is {text}; allowed is a whole number in [0, {2**64 - 1}]")
-    return seed
+        return text
 
 
 def shown(value: Any) -> str:
