@@ -1,7 +1,8 @@
 #include "nearest_points.h"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "gathered.h"
 
@@ -21,6 +22,12 @@ NearestPoints::NearestPoints(PointsView points, const PointTree& tree, const Con
 NearestPoints::NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context)
     : NearestPoints(slabs.points(), tree, context) {
   slabs_ = &slabs;
+}
+
+NearestPoints::Two NearestPoints::nearer_two(Two a, Two b) {
+  if (b[0].squared < a[0].squared) std::swap(a, b);
+  if (b[0].squared < a[1].squared) a[1] = b[0];
+  return a;
 }
 
 NearestPoints::Found NearestPoints::found(const Neighbour& neighbour) const {
@@ -57,31 +64,38 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   return points;
 }
 
+NearestPoints::Two NearestPoints::two_nearest(const Vector3& query) const {
+  if (grid_) {
+    const auto two = grid_->two_nearest(query);
+    return {found(two[0]), found(two[1])};
+  }
+  std::vector<Neighbour> two;
+  tree_.nearest(query, 2, two);
+  two.resize(2);
+  return {found(two[0]), found(two[1])};
+}
+
 std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& queries) const {
-  std::vector<Found> own;
-  std::vector<Neighbour> neighbours;
-  for (const Vector3& query : queries) {
-    if (own.size() % (2 * grain) == 0) context_.check();
-    if (grid_) {
-      for (const Neighbour& neighbour : grid_->two_nearest(query)) own.push_back(found(neighbour));
-    } else {
-      tree_.nearest(query, 2, neighbours);
-      neighbours.resize(2);
-      for (const Neighbour& neighbour : neighbours) own.push_back(found(neighbour));
+  const Two nothing{Found{none, infinity}, Found{none, infinity}};
+  std::vector<Two> best(queries.size(), nothing);
+  // A query's own slab mostly holds both, and tells how far off others may have nearer ones.
+  for (const bool home : {true, false}) {
+    if (!home && !context_.communicator()) break;
+    std::vector<Two> own(queries.size(), nothing);
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+      if (q % (2 * grain) == 0) context_.check();
+      const bool asked = home ? may_be_here(queries[q], 0)
+                              : !may_be_here(queries[q], 0) &&
+                                    may_be_here(queries[q], std::sqrt(best[q][1].squared));
+      if (asked) own[q] = two_nearest(queries[q]);
     }
+    for (const std::vector<Two>& part : gathered(context_, own))
+      for (std::size_t q = 0; q < queries.size(); ++q) best[q] = nearer_two(best[q], part[q]);
   }
-  const auto all = gathered(context_, own);
   std::vector<Vector3> points;
-  std::vector<Found> candidates;
-  for (std::size_t q = 0; q < queries.size(); ++q) {
-    candidates.clear();
-    for (const std::vector<Found>& part : all)
-      for (std::size_t k = 0; k < 2; ++k)
-        if (part[2 * q + k].squared < infinity) candidates.push_back(part[2 * q + k]);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Found& a, const Found& b) { return a.squared < b.squared; });
-    points.push_back(candidates[std::min<std::size_t>(1, candidates.size() - 1)].point);
-  }
+  points.reserve(queries.size());
+  for (const auto& [first, second] : best)
+    points.push_back(second.squared < infinity ? second.point : first.point);
   return points;
 }
 

@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -33,8 +34,11 @@ class NearestPoints {
     Vector3 point;
     double squared;
   };
+  using Two = std::array<Found, 2>;  // the nearest first
 
+  static Two nearer_two(Two a, Two b);
   Found found(const Neighbour& neighbour) const;
+  Two two_nearest(const Vector3& query) const;
   bool may_be_here(const Vector3& query, double reach) const;
 
   PointsView own_;

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "matching.h"
+#include "nearest_points.h"
 #include "process_threads.h"
 #include "random_cloud.h"
 #include "shared_cloud.h"
@@ -130,6 +131,26 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
         EXPECT_EQ(row, whole.pairs.rows());
       }
     }
+  }
+}
+
+TEST_P(SharedSlabs, HaveTheNearestPointsOfTheWhole) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Shared shared(random.box(size), GetParam(), random);
+    const Vector3 along = random.direction();
+    const PointTree tree(shared.points);
+    const NearestPoints whole(shared.points, tree, {});
+    std::vector<Vector3> places;  // points, and what lies beside the cloud as well
+    for (Index i = 0; i < size; i += 10) places.emplace_back(shared.points.row(i));
+    for (int k = 0; k < 100; ++k) places.push_back(1.5 * random.in_box());
+    shared.run([&](const Cloud& cloud, const Context& context) {
+      const Slabs slabs(cloud, along, context);
+      const PointTree own(slabs.points());
+      const NearestPoints points(slabs, own, context);
+      EXPECT_EQ(points.second_nearest(places), whole.second_nearest(places));
+      EXPECT_EQ(points.nearest(places, 3), whole.nearest(places, 3));
+    });
   }
 }
 
