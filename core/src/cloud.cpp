@@ -19,7 +19,7 @@ constexpr double least_extent = 1e-50, greatest_extent = 1e50;
 void require_count(Index given, Index needed) {
   if (given < needed)
     throw InvalidInput(std::to_string(given) + " points given; at least " + std::to_string(needed) +
-                       " are needed");
+                       (needed == 1 ? " is needed" : " are needed"));
 }
 
 void require_numerable(Index own) {
@@ -60,6 +60,11 @@ void require_finite(PointsView rows, const char* what, Index first) {
     if (!rows[i].allFinite())
       throw InvalidInput(std::string(what) + " " + std::to_string(first + i) + " is " +
                          to_string(Value(rows[i])) + "; coordinates must be finite");
+}
+
+void require_points(PointsView points) {
+  require_count(points.size(), 1);
+  require_finite(points, "point");
 }
 
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,

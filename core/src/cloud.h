@@ -15,6 +15,9 @@ Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
 /// `first`: the number of the first row.
 void require_finite(PointsView rows, const char* what, Index first = 0);
 
+/// Throws InvalidInput for no points, or naming the first that is not finite.
+void require_points(PointsView points);
+
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);
 

@@ -73,11 +73,7 @@ Mesh Cylinder::mesh_over(PointsView object, int resolution) const {
     high = std::max(high, y.dot(axis_));
   }
   const double arc = radius_ * (last - first), height = high - low;
-  const double cell = std::max(arc, height) / resolution;
-  const auto cells = [&](double length) {
-    return cell > 0 ? std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9))) : 1;
-  };
-  return grid_mesh(cells(arc), cells(height), [&](double s, double t) -> Vector3 {
+  return grid_mesh(grid_cells(arc, height, resolution), [&](double s, double t) -> Vector3 {
     const double angle = first + s * (last - first);
     return point_ + (low + t * height) * axis_ +
            radius_ * (std::cos(angle) * e1 + std::sin(angle) * e2);

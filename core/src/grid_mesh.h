@@ -2,11 +2,28 @@
 
 #include <symsurf/mirror.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace symsurf {
 
-/// Triangulates surface(s, t) over the unit square, columns x rows cells.
+struct GridCells {
+  int columns, rows;
+};
+
+/// About square, `resolution` of them along the longer side.
+inline GridCells grid_cells(double width, double height, int resolution) {
+  const double cell = std::max(width, height) / resolution;
+  const auto along = [&](double length) {
+    return cell > 0 ? std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9))) : 1;
+  };
+  return {along(width), along(height)};
+}
+
+/// Triangulates surface(s, t) over the unit square.
 template <typename Surface>
-Mesh grid_mesh(int columns, int rows, const Surface& surface) {
+Mesh grid_mesh(const GridCells& cells, const Surface& surface) {
+  const auto [columns, rows] = cells;
   Mesh mesh;
   mesh.vertices.resize(static_cast<Index>(columns + 1) * (rows + 1), 3);
   mesh.triangles.resize(static_cast<Index>(columns) * rows * 2, 3);

@@ -2,11 +2,15 @@
 #include <symsurf/height_field.h>
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "grid_mesh.h"
 #include "height_interpolant.h"
 #include "orthogonal_to.h"
+#include "rows_of.h"
 #include "symmetric_matrix.h"
 
 namespace symsurf {
@@ -62,11 +66,7 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
   const Eigen::Matrix2d principal = eigen_of(Eigen::Matrix2d(flat.transpose() * flat)).vectors;
   flat = flat * principal;
   const Eigen::RowVector2d low = flat.colwise().minCoeff(), high = flat.colwise().maxCoeff();
-  const double cell = (high - low).maxCoeff() / resolution;
-  const auto cells = [&](double span) {
-    return cell > 0 ? std::max(1, static_cast<int>(std::ceil(span / cell - 1e-9))) : 1;
-  };
-  const int columns = cells(high.x() - low.x()), rows = cells(high.y() - low.y());
+  const auto [columns, rows] = grid_cells(high.x() - low.x(), high.y() - low.y(), resolution);
   const Eigen::RowVector2d size = (high - low).array() / Eigen::Array<double, 1, 2>(columns, rows);
 
   std::vector<char> kept(static_cast<std::size_t>(columns) * rows, 0);
@@ -103,14 +103,7 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
       triangles.push_back({a, b, e});
       triangles.push_back({a, e, d});
     }
-  Mesh mesh;
-  mesh.vertices.resize(static_cast<Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    mesh.vertices.row(static_cast<Index>(i)) = vertices[i].transpose();
-  mesh.triangles.resize(static_cast<Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    mesh.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1], triangles[i][2];
-  return mesh;
+  return {rows_of(vertices), rows_of(triangles)};
 }
 
 }  // namespace symsurf

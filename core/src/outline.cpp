@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "gathered.h"
+#include "rows_of.h"
 
 namespace symsurf {
 
@@ -22,12 +23,6 @@ std::vector<Vector3> extreme_points(PointsView points) {
 }
 
 }  // namespace
-
-Points rows_of(const std::vector<Vector3>& points) {
-  Points rows(static_cast<Index>(points.size()), 3);
-  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = points[i].transpose();
-  return rows;
-}
 
 std::vector<Vector3> extreme_points(PointsView own, const Context& context) {
   std::vector<Vector3> extremes;

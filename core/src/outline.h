@@ -17,8 +17,6 @@ std::vector<Vector3> extreme_points(PointsView own, const Context& context);
 /// sticks out.
 Points outline(PointsView own, const Context& context);
 
-Points rows_of(const std::vector<Vector3>& points);
-
 /// Draws the result's mirrors over the object.
 void set_footprint(Result& result, Points outline);
 

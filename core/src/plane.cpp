@@ -44,11 +44,7 @@ Mesh Plane::mesh_over(PointsView object, int resolution) const {
   const Eigen::VectorXd along_u = centred * u, along_v = centred * v;
   const double u0 = along_u.minCoeff(), v0 = along_v.minCoeff();
   const double width = along_u.maxCoeff() - u0, height = along_v.maxCoeff() - v0;
-  const double cell = std::max(width, height) / resolution;
-  const auto cells = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9)));
-  };
-  return grid_mesh(cells(width), cells(height), [&](double s, double t) -> Vector3 {
+  return grid_mesh(grid_cells(width, height, resolution), [&](double s, double t) -> Vector3 {
     return centre.transpose() + (u0 + s * width) * u + (v0 + t * height) * v;
   });
 }

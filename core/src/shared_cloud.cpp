@@ -8,6 +8,7 @@
 #include "cloud.h"
 #include "gathered.h"
 #include "outline.h"
+#include "rows_of.h"
 
 namespace symsurf {
 

@@ -87,7 +87,7 @@ Mesh Sphere::mesh_over(PointsView object, int resolution) const {
   if (opening > 0.9 * pi) opening = pi;
 
   const Vector3 e1 = pole.unitOrthogonal(), e2 = pole.cross(e1);
-  Mesh mesh = grid_mesh(resolution, resolution, [&](double s, double t) -> Vector3 {
+  Mesh mesh = grid_mesh({resolution, resolution}, [&](double s, double t) -> Vector3 {
     const auto [rho, angle] = disc_from_square(s, t);
     const double polar = opening * rho;
     return centre_ + radius_ * (std::cos(polar) * pole +

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "rows_of.h"
 #include "symmetric_matrix.h"
 
 namespace symsurf {
@@ -113,14 +114,7 @@ Mesh surface_net(const Points& on_surface, int resolution,
     }
   }
 
-  Mesh mesh;
-  mesh.vertices.resize(static_cast<Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    mesh.vertices.row(static_cast<Index>(i)) = vertices[i].transpose();
-  mesh.triangles.resize(static_cast<Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    mesh.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1], triangles[i][2];
-  return mesh;
+  return {rows_of(vertices), rows_of(triangles)};
 }
 
 }  // namespace symsurf

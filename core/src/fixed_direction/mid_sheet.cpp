@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../rows_of.h"
 #include "../vectorised.h"
 
 namespace symsurf {
@@ -248,10 +249,7 @@ Points MidSheet::cells() const {
       found.emplace_back(low_.x() + (static_cast<double>(cell % columns_) + 0.5) * cell_,
                          low_.y() + (static_cast<double>(cell / columns_) + 0.5) * cell_,
                          height_[cell]);
-  Points points(static_cast<Index>(found.size()), 3);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    points.row(static_cast<Index>(i)) = found[i].transpose();
-  return points;
+  return rows_of(found);
 }
 
 }  // namespace symsurf

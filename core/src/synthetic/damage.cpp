@@ -5,16 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "../cloud.h"
 #include "../random.h"
 
 namespace symsurf {
 
 namespace {
-
-void require_points(PointsView points) {
-  if (points.empty()) throw InvalidInput("0 points given; at least 1 is needed");
-  if (!points.matrix().allFinite()) throw InvalidInput("coordinates must be finite");
-}
 
 void require_box(const Box& box) {
   if (!(box.low.array() <= box.high.array()).all())

@@ -6,14 +6,11 @@
 #include <cmath>
 #include <functional>
 
+#include "../cloud.h"
+
 namespace symsurf {
 
 namespace {
-
-void require_points(PointsView points) {
-  if (points.empty()) throw InvalidInput("0 points given; at least 1 is needed");
-  if (!points.matrix().allFinite()) throw InvalidInput("coordinates must be finite");
-}
 
 // P, then P', of the points that have an image.
 Sample joined(const std::vector<Vector3>& points, const std::vector<Vector3>& images,

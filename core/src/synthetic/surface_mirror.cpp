@@ -101,11 +101,8 @@ Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
     throw InvalidInput("surface " + surface_.name + " is undefined at all " +
                        std::to_string(object.size()) + " points");
   const Eigen::Array2d size = high - low;
-  const double cell = size.maxCoeff() / resolution;
-  const auto cells = [&](double length) {
-    return cell > 0 ? std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9))) : 1;
-  };
-  const Mesh grid = grid_mesh(cells(size.x()), cells(size.y()), [&](double s, double t) -> Vector3 {
+  const GridCells cells = grid_cells(size.x(), size.y(), resolution);
+  const Mesh grid = grid_mesh(cells, [&](double s, double t) -> Vector3 {
     const double x = low.x() + s * size.x(), y = low.y() + t * size.y();
     return place({x, y, surface_(x, y)});
   });
