@@ -7,18 +7,9 @@
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
+#include "vtk_names.h"
 
 namespace {
-
-std::string array_name(const std::string& name) {
-  std::string text;
-  bool up = true;
-  for (const char c : name) {
-    if (c != '_') text += up ? static_cast<char>(std::toupper(c)) : c;
-    up = c == '_';
-  }
-  return text;
-}
 
 std::string core_name(const std::string& name) {
   std::string text;
@@ -83,7 +74,7 @@ symsurf::Value value_of(vtkAbstractArray* array) {
 void add_field_values(vtkFieldData* field, const symsurf::Values& values) {
   for (const auto& [name, value] : values) {
     const Array array = array_of(value);
-    array->SetName(array_name(name).c_str());
+    array->SetName(vtk_name(name).c_str());
     field->AddArray(array);
   }
 }

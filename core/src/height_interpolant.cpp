@@ -1,7 +1,6 @@
 #include "height_interpolant.h"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

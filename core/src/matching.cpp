@@ -1,7 +1,6 @@
 #include "matching.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>

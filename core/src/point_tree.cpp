@@ -1,6 +1,5 @@
 #include "point_tree.h"
 
-#include <cmath>
 #include <numeric>
 
 #include "binary_unit.h"

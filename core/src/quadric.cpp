@@ -2,7 +2,6 @@
 #include <symsurf/quadric.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,7 +2,6 @@
 
 #include <symsurf/errors.h>
 
-#include <algorithm>
 #include <string>
 
 #include "cloud.h"

@@ -3,7 +3,6 @@
 #include <symsurf/match.h>
 
 #include <optional>
-#include <string>
 
 #include "arrays.h"
 #include "bindings.h"

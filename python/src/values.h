@@ -5,7 +5,6 @@
 #include <symsurf/value.h>
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace symsurf::python {

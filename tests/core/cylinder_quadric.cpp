@@ -6,7 +6,6 @@
 #include <symsurf/sphere.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "expect_error.h"
 #include "random_cloud.h"

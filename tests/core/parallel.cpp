@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "random_cloud.h"

@@ -4,22 +4,13 @@
 #include <symsurf/method.h>
 #include <symsurf/synthetic.h>
 
-#include <cctype>
 #include <stdexcept>
+
+#include "../vtk_names.h"
 
 namespace symsurf::front_ends {
 
 namespace {
-
-std::string camel_case(const std::string& name) {
-  std::string text;
-  bool up = true;
-  for (const char c : name) {
-    if (c != '_') text += up ? static_cast<char>(std::toupper(c)) : c;
-    up = c == '_';
-  }
-  return text;
-}
 
 // Methods, generators and kinds of damage are described alike.
 template <typename Descriptions>
@@ -50,7 +41,7 @@ Described described(const std::string& vtk_class) {
 }
 
 std::string property_name(const Choice& choice, const Parameter& parameter) {
-  return camel_case(choice.name) + camel_case(parameter.name);
+  return vtk_name(choice.name) + vtk_name(parameter.name);
 }
 
 std::string components(const Parameter& parameter, const char* separator) {

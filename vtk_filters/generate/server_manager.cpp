@@ -1,5 +1,4 @@
 #include <cmath>
-#include <sstream>
 
 #include "described.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace symsurf {
 
@@ -13,7 +14,7 @@ constexpr Index tried = 180;  // directions on the half sphere, 12 degrees apart
 constexpr Index screened_size = 1000;
 constexpr double apart = 0.12;  // radians between candidates
 constexpr double first_step = 0.09, last_step = 0.04;
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 bool better(const DirectionCandidate& a, const DirectionCandidate& b) {
   return a.explained > b.explained;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::array<double, 4> scatters{0.6, 0.4, 0.25, 0.12};  // spacings
 constexpr int shifts = 4;                                        // at each
-constexpr double pi = 3.14159265358979323846;
 constexpr int sectors = 4;
 constexpr double inner = 1.5, ring_inner = 1.8, ring_outer = 2.7;
 

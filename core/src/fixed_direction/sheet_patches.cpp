@@ -1,7 +1,6 @@
 #include "sheet_patches.h"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

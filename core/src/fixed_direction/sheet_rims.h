@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "working_cloud.h"
 
 namespace symsurf {

@@ -1,7 +1,5 @@
 #include <symsurf/height_field.h>
 
-#include <algorithm>
-
 #include "../fixed_direction/credible_pairs.h"
 #include "../fixed_direction/field_search.h"
 #include "../matching.h"

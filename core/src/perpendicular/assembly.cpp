@@ -1,7 +1,6 @@
 #include "assembly.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace symsurf::perpendicular {
 

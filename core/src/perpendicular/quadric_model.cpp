@@ -1,7 +1,6 @@
 #include <symsurf/quadric.h>
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "../symmetric_matrix.h"
 #include "parametric.h"

@@ -1,6 +1,5 @@
 #include "search.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "assembly.h"

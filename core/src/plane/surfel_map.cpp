@@ -1,6 +1,5 @@
 #include "surfel_map.h"
 
-#include <cmath>
 #include <limits>
 
 namespace symsurf {

@@ -1,6 +1,5 @@
 #include "symmetry_measure.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,6 +1,5 @@
 #include "large_spheres.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 

@@ -2,7 +2,6 @@
 #include <symsurf/surface_mirror.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -11,8 +11,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <limits>
-#include <memory>
-#include <string>
 
 #include "../bumpy_object.h"
 #include "../memory.h"
