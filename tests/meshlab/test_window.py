@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,6 @@ from conftest import BUILD, plugin_file
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
 
 PROGRAM = BUILD.parent / "meshlab-gui" / "src" / "distrib" / "meshlab"
-SCREEN = ":93"
 PATIENCE = 60
 
 pytestmark = pytest.mark.skipif(
@@ -39,13 +39,11 @@ class Window:
         self.pictures.mkdir(exist_ok=True)
         self.log = folder / "log"
         self.environment = os.environ | {
-            "DISPLAY": SCREEN,
             "HOME": str(folder),
             "XDG_RUNTIME_DIR": str(folder),
             "LIBGL_ALWAYS_SOFTWARE": "1",
         }
-        self.processes = [self._start("Xvfb", SCREEN, "-noreset", "-screen", "0", "1280x800x24")]
-        self._wait(lambda: self._xdotool("getdisplaygeometry").returncode == 0)
+        self.processes = [self._start_screen()]
         self.processes.append(self._start("openbox"))
         self.processes.append(self._start(PROGRAM, mesh_file, log=self.log))
         self._wait(lambda: self.has("Send Anonymous Statistics"))
@@ -82,10 +80,26 @@ class Window:
         raw = subprocess.run(["convert", file, "rgb:-"], check=True, capture_output=True).stdout
         return np.frombuffer(raw, np.uint8).reshape(800, 1280, 3).astype(int)
 
-    def _start(self, *command: object, log: Path | None = None) -> subprocess.Popen:
+    def _start_screen(self) -> subprocess.Popen:
+        """An X server on a display that nobody has."""
+        read, write = os.pipe()
+        server = self._start(
+            *("Xvfb", "-noreset", "-displayfd", write, "-screen", "0", "1280x800x24"),
+            pass_fds=[write],
+        )
+        os.close(write)
+        with os.fdopen(read) as display:
+            self.environment["DISPLAY"] = f":{display.readline().strip()}"
+        return server
+
+    def _start(
+        self, *command: object, log: Path | None = None, pass_fds: Sequence[int] = ()
+    ) -> subprocess.Popen:
         sink = subprocess.DEVNULL if log is None else log.open("w")
         words = [str(word) for word in command]
-        return subprocess.Popen(words, env=self.environment, stdout=sink, stderr=sink)
+        return subprocess.Popen(
+            words, env=self.environment, stdout=sink, stderr=sink, pass_fds=pass_fds
+        )
 
     def _xdotool(self, *words: object) -> subprocess.CompletedProcess:
         command = ["xdotool", *map(str, words)]

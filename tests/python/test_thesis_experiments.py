@@ -163,6 +163,13 @@ def test_files_that_differ_in_their_suffix_have_truths_of_their_own(tmp_path):
     assert len(truth.pairs) < 36
 
 
+def test_damaged_points_without_truth_take_over_none(tmp_path):
+    shell("generate fixed --resolution 6 --output damaged.xyz", tmp_path)
+    (tmp_path / "bare.xyz").write_bytes((tmp_path / "damaged.xyz").read_bytes())
+    shell("damage thinning bare.xyz --ratio 2 --output damaged.xyz", tmp_path)
+    assert not truth_path(tmp_path / "damaged.xyz").exists()
+
+
 def test_evaluate_a_sphere(tmp_path):
     shell("generate spherical --cloud f1 --centre 1,1,2 --output points.xyz", tmp_path)
     detected(tmp_path, "sphere_thesis", "--sample-size 40", "--radii 3")

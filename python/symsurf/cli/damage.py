@@ -34,6 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     points = read(arguments.file).points
     values = given_values(arguments)
     damaged, kept = _core.damage(arguments.kind.name, points, values, whole(arguments.seed))
+    truth = None
     if truth_path(arguments.file).exists():
         truth = read_truth(truth_path(arguments.file))
         truth = truth.kept(np.array(kept, dtype=np.int64), len(points))
@@ -42,5 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
             truth = truth.moved(rotation_matrix(*angles))
         write_truth(truth_path(arguments.output), truth)
     write_points(arguments.output, damaged)
+    if truth is None:
+        # What stands there belongs to other points.
+        truth_path(arguments.output).unlink(missing_ok=True)
     print(f"{arguments.output}: {len(damaged)} of {len(points)} points")
     return 0
