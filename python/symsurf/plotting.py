@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import InvalidInput
+from .mirror_mesh import mirror_mesh
 from .result import Result
 from .shape import Shape
 
@@ -76,8 +77,7 @@ def draw(
     plotter.enable_anti_aliasing("ssaa")
     plotter.enable_lightkit()
     _draw_object(plotter, object_, _percent(result, object_.n_points, diagonal), residual_range)
-    if result.mirror is not None:
-        _draw_mirror(plotter, result, object_)
+    _draw_mirror(plotter, result, object_)
     _look(plotter, result, object_)
 
 
@@ -163,7 +163,10 @@ def _point_size(object_: pyvista.PolyData) -> float:
 
 
 def _draw_mirror(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -> None:
-    surface = _pyvista().PolyData.from_regular_faces(*result.mirror.mesh(object_.points))
+    vertices, triangles = mirror_mesh(result, object_.points)
+    if not len(triangles):
+        return
+    surface = _pyvista().PolyData.from_regular_faces(vertices, triangles)
     plotter.add_mesh(surface, color=MIRROR, opacity=0.22, lighting=False)
     edges = surface.extract_feature_edges(
         boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
@@ -192,9 +195,13 @@ def _view(
     """Where to look from, and what is up: from three quarters above the higher end of the object's
     longest direction within the mirror, upright along the coordinate axis nearest to that."""
     points = np.asarray(object_.points, dtype=float)
-    points = points[:: max(1, len(points) // 5000)] - points.mean(axis=0)
+    centre = points.mean(axis=0)
+    points = points[:: max(1, len(points) // 5000)]
+    chords = _chords(result, points)
+    points = points - centre
     axes = np.linalg.svd(points, full_matrices=False)[2]
-    across = axes[2] if result.mirror is None else _across(result, object_)
+    # The direction the mirror maps along, on the whole.
+    across = np.linalg.svd(chords, full_matrices=False)[2][0] if len(chords) else axes[2]
     along, other = (axes[i] - across * (axes[i] @ across) for i in (0, 1))
     if np.linalg.norm(along) < np.linalg.norm(other) / 2:
         along = other
@@ -206,10 +213,9 @@ def _view(
     return towards / np.linalg.norm(towards), up
 
 
-def _across(result: Result, object_: pyvista.PolyData) -> NDArray[np.float64]:
-    """The direction the mirror maps along, on the whole."""
-    points = np.asarray(object_.points, dtype=float)
-    points = points[:: max(1, len(points) // 5000)]
+def _chords(result: Result, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """From the feet to the points that have one."""
+    if result.mirror is None:
+        return np.empty((0, 3))
     chords = points - result.mirror.project(points)
-    chords = chords[np.isfinite(chords).all(axis=1)]
-    return np.linalg.svd(chords, full_matrices=False)[2][0]
+    return chords[np.isfinite(chords).all(axis=1)]

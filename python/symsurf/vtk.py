@@ -74,12 +74,12 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         source = vtkPolyData.GetData(inputs[0])
         try:
             result = self._detected(source)
+            _set_mirror(vtkPolyData.GetData(outputs, self.MIRROR), result)
         except Cancelled:
             return 1
         except (InvalidInput, InvalidParameter) as error:
             self._report(str(error))
             return 0
-        _set_mirror(vtkPolyData.GetData(outputs, self.MIRROR), result)
         _set_surface_points(vtkPolyData.GetData(outputs, self.SURFACE_POINTS), result)
         mapping = vtkPolyData.GetData(outputs, self.MAPPING)
         mapping.ShallowCopy(source)

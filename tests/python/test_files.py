@@ -119,6 +119,14 @@ def test_every_method_in_every_format(method, suffix, blob, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
 
 
+@pytest.mark.parametrize("suffix", [".vtp", ".ply"])
+def test_mirror_that_maps_no_point_is_saved_without_triangles(suffix, blob, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    symsurf.match(blob, symsurf.Sphere((50, 0, 0), 1)).save(tmp_path / f"result{suffix}")
+    saved = pyvista.read(tmp_path / f"result{suffix}")
+    assert saved.n_points == saved.n_cells == 0
+
+
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_without_any_pair(suffix, blob, tmp_path):
     far = symsurf.match(blob, symsurf.Plane((1, 0, 0), 1000))

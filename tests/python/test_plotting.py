@@ -24,13 +24,17 @@ def pixels(path):
     return np.asarray(pyvista.read(path).point_data.active_scalars)[:, :3].astype(int)
 
 
+def bluish(picture):
+    """The share of the mirror, as it is drawn."""
+    return (picture[:, 2] > picture[:, 0] + 20).mean()
+
+
 def test_picture_shows_object_and_mirror(result, tmp_path):
     result.plot(tmp_path / "both.png")
     both = pixels(tmp_path / "both.png")
     drawn = (both != BACKGROUND).any(axis=1)
     assert 0.1 < drawn.mean() < 0.9
-    bluish = (both[:, 2] > both[:, 0] + 20).mean()
-    assert bluish > 0.02
+    assert bluish(both) > 0.02
 
 
 def test_picture_of_a_mesh(tmp_path):
@@ -44,6 +48,17 @@ def test_picture_of_a_mesh(tmp_path):
     result.plot(tmp_path / "points.png", points=points)
     difference = pixels(tmp_path / "mesh.png") != pixels(tmp_path / "points.png")
     assert difference.any(axis=1).mean() > 0.02
+
+
+def test_picture_without_the_mirror_where_it_maps_no_point(result, tmp_path):
+    """A sphere has no mesh there, a free form an empty one; both leave the bare object."""
+    points = result.points
+    free_form = symsurf.detect(points, "perpendicular").mirror
+    for mirror, moved in (symsurf.Sphere((500, 0, 0), 1), 0), (free_form, 500):
+        symsurf.match(points + moved, mirror).plot(tmp_path / "bare.png")
+        bare = pixels(tmp_path / "bare.png")
+        grey = (abs(bare - UNPAIRED) < 10).all(axis=1).mean()
+        assert grey > 0.002 and bluish(bare) == 0
 
 
 def test_points_that_do_not_belong(result):

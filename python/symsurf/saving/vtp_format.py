@@ -12,13 +12,14 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mirror_mesh import mirror_mesh
 from ..result import Result
 
 _TYPES = {"f": "Float64", "i": "Int64"}
 
 
 def vtp_bytes(result: Result) -> bytes:
-    vertices, triangles = _mirror_mesh(result)
+    vertices, triangles = mirror_mesh(result, result.points)
     count, extra = len(result.surface_points), len(vertices)
     none = np.full(extra, -1)
     points = np.concatenate([result.surface_points, vertices])
@@ -46,12 +47,6 @@ def vtp_bytes(result: Result) -> bytes:
         "</VTKFile>",
     ]
     return ("\n".join(lines) + "\n").encode()
-
-
-def _mirror_mesh(result: Result) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    if result.mirror is None:
-        return np.empty((0, 3)), np.empty((0, 3), np.int64)
-    return result.mirror.mesh(result.points)
 
 
 def _field_data(result: Result) -> list[str]:
