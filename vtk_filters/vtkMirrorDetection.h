@@ -8,8 +8,9 @@
  *   that found it), Kind, Score (0: no symmetry, 1: exact), the mirror's numbers (Normal and Offset
  *   of a plane, in input units) and the method's statistics. No triangles where the method gives
  *   surface points only.
- * - 1 "Surface Points": a vertex in the middle of each pair. Point data: Residual, the distance
- *   from a point's image to its partner.
+ * - 1 "Surface Points": a vertex in the middle of each pair, at most half its residual off the
+ *   mirror; perpendicular, quadric and fixed_direction project it onto that. Point data: Residual,
+ *   the distance from a point's image to its partner.
  * - 2 "Mapping": the input. Point data: MirrorPartner (index of the partner, -1 for none),
  *   MirrorResidual (NaN for none) and MirrorSide (the sign of the point's distance from the
  * mirror).

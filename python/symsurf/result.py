@@ -26,7 +26,8 @@ class Result:
     mirror: Mirror | None
     """None for methods that find surface points only."""
     surface_points: NDArray[np.float64] = field(repr=False)
-    """(m, 3) midpoints of the pairs, which lie on the mirror; input units."""
+    """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
+    ``quadric`` and ``fixed_direction`` project them onto it. Input units."""
     pairs: NDArray[np.int64] = field(repr=False)
     """(m, 2) indices into the input: a point, and the point its image falls on."""
     residuals: NDArray[np.float64] = field(repr=False)
@@ -34,7 +35,8 @@ class Result:
     score: float
     """0: no symmetry, 1: exact."""
     candidates: list[Result] = field(repr=False)
-    """Other mirrors, best first, without pairs; ``match`` gives them theirs."""
+    """Other mirrors, best first as the method sees it, which looks closer than the score: one may
+    score more than the result. Without pairs; ``match`` gives them theirs."""
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any] = field(repr=False)

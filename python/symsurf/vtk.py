@@ -36,8 +36,9 @@ class MirrorDetection(VTKPythonAlgorithmBase):
 
     Output 0 "Mirror": triangles over the footprint; field data Method, Kind, Score, the mirror's
     numbers and the method's statistics. Output 1 "Surface Points": a vertex in the middle of each
-    pair; point data Residual. Output 2 "Mapping": the input; point data MirrorPartner (index, -1
-    for none), MirrorResidual (NaN for none) and MirrorSide.
+    pair, at most half its residual off the mirror (``perpendicular``, ``quadric`` and
+    ``fixed_direction`` project it onto that); point data Residual. Output 2 "Mapping": the input;
+    point data MirrorPartner (index, -1 for none), MirrorResidual (NaN for none) and MirrorSide.
 
     Every parameter of every method has its setter and getter: ``SetPlanePairDistance`` for
     ``pair_distance`` of ``plane``. Points are read in place when they are doubles. Bad input and

@@ -13,13 +13,17 @@ namespace symsurf {
 struct Result {
   std::string method;
   std::shared_ptr<Mirror> mirror;  ///< null for methods that find surface points only
-  Points surface_points;           ///< midpoints of the pairs, in input units
-  Pairs pairs;                     ///< (point, partner), indices into the input
-  Eigen::VectorXd residuals;       ///< distance from the image to the partner, input units
-  double score = 0;                ///< 0: no symmetry, 1: exact
-  std::vector<Result> candidates;  ///< other mirrors, best first; without pairs
-  Values parameters;               ///< as used
-  Values statistics;               ///< whatever the method reports
+  /// Midpoints of the pairs, at most half a residual off the mirror; perpendicular, quadric and
+  /// fixed_direction project them onto it. Input units.
+  Points surface_points;
+  Pairs pairs;                ///< (point, partner), indices into the input
+  Eigen::VectorXd residuals;  ///< distance from the image to the partner, input units
+  double score = 0;           ///< 0: no symmetry, 1: exact
+  /// Other mirrors, without pairs; best first as the method sees it, which looks closer than the
+  /// score: one may score more than the result.
+  std::vector<Result> candidates;
+  Values parameters;  ///< as used
+  Values statistics;  ///< whatever the method reports
   double seconds = 0;
 };
 
