@@ -7,23 +7,33 @@ namespace symsurf {
 
 namespace {
 
-Points centres_of(const std::vector<Patch>& patches) {
+Vector3 mean_centre(const std::vector<Patch>& patches) {
+  Vector3 sum = Vector3::Zero();
+  for (const Patch& patch : patches) sum += patch.centre / static_cast<double>(patches.size());
+  return sum;
+}
+
+Points centres_from(const Vector3& origin, const std::vector<Patch>& patches) {
   Points centres(static_cast<Index>(patches.size()), 3);
-  for (Index i = 0; i < centres.rows(); ++i) centres.row(i) = patches[i].centre.transpose();
+  for (Index i = 0; i < centres.rows(); ++i)
+    centres.row(i) = (patches[i].centre - origin).transpose();
   return centres;
 }
 
 }  // namespace
 
 FreeForm::Blend::Blend(std::vector<Patch> patches)
-    : patches_(std::move(patches)), centres_(centres_of(patches_)), tree_(centres_) {
+    : patches_(std::move(patches)),
+      origin_(mean_centre(patches_)),
+      centres_(centres_from(origin_, patches_)),
+      tree_(centres_) {
   for (const Patch& p : patches_) {
     reach_ = std::max(reach_, p.radius);
     Matrix3 bend = Matrix3::Zero();
     bend(0, 0) = 2 * p.height[3];
     bend(0, 1) = bend(1, 0) = p.height[4];
     bend(1, 1) = 2 * p.height[5];
-    pieces_.push_back({p.centre, 1 / (p.radius * p.radius), p.height[0],
+    pieces_.push_back({p.centre - origin_, 1 / (p.radius * p.radius), p.height[0],
                        p.frame.transpose() * Vector3(-p.height[1], -p.height[2], 1),
                        -p.frame.transpose() * bend * p.frame});
   }
@@ -76,9 +86,10 @@ bool FreeForm::Blend::jet(const Vector3& x, const std::vector<std::int32_t>& pat
 
 bool FreeForm::Blend::value(const Vector3& x, double& value, Vector3& gradient) const {
   std::vector<std::int32_t> patches;
-  around(x, 0, patches);
+  const Vector3 from_origin = x - origin_;
+  around(from_origin, 0, patches);
   Jet here;
-  if (!jet(x, patches, here)) return false;
+  if (!jet(from_origin, patches, here)) return false;
   value = here.value;
   gradient = here.gradient;
   return true;
@@ -125,10 +136,13 @@ bool FreeForm::Blend::descend(const Vector3& x, double precision, Vector3& y,
 
 bool FreeForm::Blend::closest(const Vector3& x, double precision, Vector3& foot,
                               Vector3& normal) const {
-  const Neighbour start = tree_.nearest(x);
+  const Vector3 from_origin = x - origin_;
+  const Neighbour start = tree_.nearest(from_origin);
   if (start.index < 0) return false;  // at infinity
-  foot = patches_[start.index].centre;
-  return descend(x, precision, foot, normal);
+  foot = pieces_[start.index].centre;
+  const bool found = descend(from_origin, precision, foot, normal);
+  foot += origin_;
+  return found;
 }
 
 }  // namespace symsurf

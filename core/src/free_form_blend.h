@@ -28,6 +28,7 @@ struct FreeForm::Blend {
     Vector3 gradient;
     Matrix3 hessian;
   };
+  // These take and give coordinates from origin_.
   // The patches that have a say somewhere within `slack` of x.
   void around(const Vector3& x, double slack, std::vector<std::int32_t>& patches) const;
   bool jet(const Vector3& x, const std::vector<std::int32_t>& patches, Jet& jet) const;
@@ -45,6 +46,7 @@ struct FreeForm::Blend {
   std::vector<Patch> patches_;
   std::vector<Piece> pieces_;
   double reach_ = 0;  // the largest radius
+  Vector3 origin_;    // all is reckoned from here: as exact wherever the mirror lies
   Points centres_;
   PointTree tree_;
 };

@@ -20,6 +20,21 @@ Points flattened(const Points& nodes) {
   return flat;
 }
 
+// Of nodes over each other, to rounding, the first.
+Points one_a_place(const Points& nodes) {
+  constexpr double rounding = 1e-9;  // of their extent, which map coordinates may leave
+  const Points flat = flattened(nodes);
+  const PointTree tree(flat);
+  const double near = rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
+  std::vector<Index> kept;
+  for (Index i = 0; i < flat.rows(); ++i) {
+    bool first = true;
+    tree.within(flat.row(i), near, [&](Index other, double) { first = first && other >= i; });
+    if (first) kept.push_back(i);
+  }
+  return nodes(kept, Eigen::indexing::all);
+}
+
 }  // namespace
 
 double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d) const {
@@ -33,7 +48,7 @@ double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d) const 
 }
 
 HeightInterpolant::HeightInterpolant(const Points& nodes)
-    : nodes_(nodes), tree_(flattened(nodes)), quadratics_(nodes.rows()) {
+    : nodes_(one_a_place(nodes)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
   std::vector<Neighbour> around;
   for (const std::int32_t i : tree_.order()) {
     tree_.nearest({nodes_(i, 0), nodes_(i, 1), 0}, fitted_nodes + 1, around);

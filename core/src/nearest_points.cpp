@@ -1,5 +1,6 @@
 #include "nearest_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,6 +17,8 @@ const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN())
 
 }  // namespace
 
+const NearestPoints::Found NearestPoints::nothing{none, infinity};
+
 NearestPoints::NearestPoints(PointsView points, const PointTree& tree, const Context& context)
     : own_(points), tree_(tree), grid_(PointGrid::where_faster(points)), context_(context) {}
 
@@ -26,12 +29,13 @@ NearestPoints::NearestPoints(const Slabs& slabs, const PointTree& tree, const Co
 
 NearestPoints::Two NearestPoints::nearer_two(Two a, Two b) {
   if (b[0].squared < a[0].squared) std::swap(a, b);
-  if (b[0].squared < a[1].squared) a[1] = b[0];
+  const Found& other = b[0].point == a[0].point ? b[1] : b[0];
+  if (other.squared < a[1].squared) a[1] = other;
   return a;
 }
 
 NearestPoints::Found NearestPoints::found(const Neighbour& neighbour) const {
-  if (neighbour.index < 0) return {none, infinity};
+  if (neighbour.index < 0) return nothing;
   return {own_[neighbour.index], neighbour.squared_distance};
 }
 
@@ -47,7 +51,7 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   best.reserve(queries.size());
   for (const Vector3& query : queries) {
     if (best.size() % grain == 0) context_.check();
-    best.push_back(!may_be_here(query, reach) ? Found{none, infinity}
+    best.push_back(!may_be_here(query, reach) ? nothing
                    : grid_                    ? found(grid_->nearest(query, limit))
                                               : found(tree_.nearest(query, limit)));
   }
@@ -64,24 +68,33 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   return points;
 }
 
+// Copies of a point stand in one place. The grid and the tree know them as points: it takes more
+// of these then.
 NearestPoints::Two NearestPoints::two_nearest(const Vector3& query) const {
+  constexpr Index most = 64;
   if (grid_) {
-    const auto two = grid_->two_nearest(query);
-    return {found(two[0]), found(two[1])};
+    const auto [first, second] = grid_->two_nearest(query);
+    const Two two{found(first), found(second)};
+    if (two[0].point != two[1].point) return two;
   }
-  std::vector<Neighbour> two;
-  tree_.nearest(query, 2, two);
-  two.resize(2);
-  return {found(two[0]), found(two[1])};
+  std::vector<Neighbour> near;
+  for (Index k = 2;; k *= 4) {
+    tree_.nearest(query, k, near);
+    const auto other = std::find_if(near.begin(), near.end(), [&](const Neighbour& neighbour) {
+      return own_[neighbour.index] != own_[near.front().index];
+    });
+    if (other != near.end()) return {found(near.front()), found(*other)};
+    if (k >= most || static_cast<Index>(near.size()) < k)
+      return {near.empty() ? nothing : found(near.front()), nothing};
+  }
 }
 
 std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& queries) const {
-  const Two nothing{Found{none, infinity}, Found{none, infinity}};
-  std::vector<Two> best(queries.size(), nothing);
+  std::vector<Two> best(queries.size(), {nothing, nothing});
   // A query's own slab mostly holds both, and tells how far off others may have nearer ones.
   for (const bool home : {true, false}) {
     if (!home && !context_.communicator()) break;
-    std::vector<Two> own(queries.size(), nothing);
+    std::vector<Two> own(queries.size(), {nothing, nothing});
     for (std::size_t q = 0; q < queries.size(); ++q) {
       if (q % (2 * grain) == 0) context_.check();
       const bool asked = home ? may_be_here(queries[q], 0)

@@ -191,7 +191,7 @@ void MidSheet::count_votes() {
   voted_.assign(columns_ * rows_, 0);
   const float width = static_cast<float>(window * cloud_.spacing);
   for (Index cell = 0; cell < columns_ * rows_; ++cell) {
-    context_.check();
+    if (cell % columns_ == 0) context_.check();
     const auto begin = by_cell_.begin() + vote_start_[cell];
     const auto end = by_cell_.begin() + vote_start_[cell + 1];
     std::sort(begin, end);
