@@ -29,7 +29,7 @@ Quadric::Quadric(const Matrix3& matrix, const Vector3& linear, double constant)
 Vector3 Quadric::foot(const Vector3& x) const {
   // In the eigenvectors' frame: y_i = (x_i - l b_i) / (1 + 2 l a_i). Between the poles f(y(l))
   // falls monotonically, so its zero there, if any, is one, and the closest point.
-  const Vector3 p = axes_.transpose() * x, b = axes_.transpose() * linear_;
+  const Vector3 p = axes_.transpose() * (x - origin_), b = axes_.transpose() * linear_;
   const auto at = [&](double l) -> Vector3 {
     return (p - l * b).array() / (1 + 2 * l * curves_.array());
   };
@@ -61,7 +61,8 @@ Vector3 Quadric::foot(const Vector3& x) const {
   const Vector3 y = at(l);
   const Vector3 g = 2 * curves_.cwiseProduct(y) + b;
   const double size = g.norm() * (y.norm() + (p - y).norm()) + std::abs(constant_);
-  return y.allFinite() && std::abs(value) <= 1e-9 * size ? Vector3(axes_ * y) : no_point();
+  return y.allFinite() && std::abs(value) <= 1e-9 * size ? Vector3(origin_ + axes_ * y)
+                                                         : no_point();
 }
 
 double Quadric::signed_distance(const Vector3& x) const {
@@ -70,17 +71,16 @@ double Quadric::signed_distance(const Vector3& x) const {
 }
 
 Values Quadric::numbers() const {
-  return {{"matrix", Eigen::MatrixXd(matrix_)}, {"linear", linear_}, {"constant", constant_}};
+  return {{"matrix", Eigen::MatrixXd(matrix_)}, {"linear", linear()}, {"constant", constant()}};
 }
 
 std::unique_ptr<Mirror> Quadric::transformed(double scale, const Matrix3& rotation,
                                              const Vector3& translation) const {
   // f((R'(x - t)) / s), times s^2.
-  const Matrix3 a = rotation * matrix_ * rotation.transpose();
-  const Vector3 b = scale * (rotation * linear_);
-  return std::make_unique<Quadric>(
-      a, b - 2 * (a * translation),
-      scale * scale * constant_ + translation.dot(a * translation) - b.dot(translation));
+  auto moved = std::make_unique<Quadric>(rotation * matrix_ * rotation.transpose(),
+                                         scale * (rotation * linear_), scale * scale * constant_);
+  moved->origin_ = scale * (rotation * origin_) + translation;
+  return moved;
 }
 
 Mesh Quadric::mesh_over(PointsView object, int resolution) const {

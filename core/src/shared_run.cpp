@@ -9,6 +9,7 @@
 #include "gathered.h"
 #include "matching.h"
 #include "outline.h"
+#include "run_alone.h"
 #include "shared_cloud.h"
 
 namespace symsurf {
@@ -83,10 +84,7 @@ Result run_on_whole(PointsView own, const Options& options, const Method& method
                     const ParameterValues& values, const Context& shared, const Context& alone) {
   const Share share = share_of(shared, own.size());
   const Points points = whole(own, shared), normals = whole(options.normals, shared);
-  Cloud cloud = checked_cloud(points, normals, method.minimum_points, alone.stage(0, 0));
-  cloud.seed = options.seed;
-  Result result = method.run(cloud, values, alone);
-  set_footprint(result, outline(points, alone));
+  Result result = run_alone(points, normals, options.seed, method, values, alone);
   keep_pairs_of(result, share.first, own.size());
   return result;
 }

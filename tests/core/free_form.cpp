@@ -75,6 +75,16 @@ TEST(FreeForm, MovesWithItsPointsAndComesBackFromItsNumbers) {
   }
 }
 
+TEST(FreeForm, IsAsExactFarFromTheOrigin) {
+  const FreeForm cap(unit_cap(0.6, 0.06));
+  RandomCloud random(1);
+  for (const double away : {1e4, 1e6, 1e8}) {
+    const Vector3 shift = away * random.direction(), x(0.1, 0.15, 1.2);
+    const auto moved = cap.transformed(1, Matrix3::Identity(), shift);
+    EXPECT_LE((moved->reflect(x + shift) - (cap.reflect(x) + shift)).norm(), 1e-14 * away);
+  }
+}
+
 TEST(FreeForm, MeshLiesOnTheMirrorAndCoversTheObject) {
   const FreeForm cap(unit_cap(0.6, 0.05));
   Points object(400, 3);

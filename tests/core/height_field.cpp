@@ -56,6 +56,21 @@ TEST(HeightField, IsCloseToTheFunctionBetweenItsNodes) {
   }
 }
 
+TEST(HeightField, TakesTheFirstOfNodesOverEachOther) {
+  RandomCloud random(2);
+  Points nodes = random.box(100), doubled(120, 3);
+  const Vector3 direction = random.direction();
+  doubled << nodes, nodes.topRows(20);
+  for (Index i = 100; i < 120; ++i) doubled.row(i) += random.uniform(1, 2) * direction.transpose();
+  const HeightField field(direction, nodes), same(direction, doubled);
+  for (int k = 0; k < 100; ++k) {
+    const Vector3 x = k < 20 ? Vector3(nodes.row(k)) : random.in_box();
+    for (const double aside : {0.0, 1e-9, 1e-3})
+      EXPECT_NEAR(same.signed_distance(Vector3(x + aside * direction.unitOrthogonal())),
+                  field.signed_distance(Vector3(x + aside * direction.unitOrthogonal())), 1e-9);
+  }
+}
+
 TEST(HeightField, ContinuesAPlaneExactlyBeyondItsNodes) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);

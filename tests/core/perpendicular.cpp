@@ -71,7 +71,10 @@ TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
       s.points.row(i) += noise * random.in_box().transpose();
     const Result result = detect(s.points, {.method = "perpendicular"});
     EXPECT_EQ(result.surface_points.rows(), result.pairs.rows()) << seed;
-    EXPECT_TRUE(result.surface_points.allFinite()) << seed;
+    ASSERT_TRUE(result.mirror) << seed;
+    EXPECT_LE(result.mirror->signed_distance(result.surface_points).cwiseAbs().maxCoeff(),
+              1e-9 * diagonal(s.points))
+        << seed;
   }
 }
 

@@ -110,7 +110,8 @@ TEST(SphereMethod, MakesNoSphereOfAPlane) {
   for (const Points& points : {grid, sheets}) {
     const Result result = detect(points, options);
     if (!result.mirror) continue;
-    EXPECT_LT(dynamic_cast<const Sphere&>(*result.mirror).radius(), 1e5);
+    const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    EXPECT_LT(dynamic_cast<const Sphere&>(*result.mirror).radius(), 100 * diagonal);
   }
 }
 

@@ -34,6 +34,7 @@ struct Method {
   Index minimum_points = 4;
   bool automatic = false;     ///< one of those that "auto" tries
   bool takes_shares = false;  ///< run can do with a share of the points; else each gets all
+  bool sees_copies = false;   ///< run gets points that are copies of others; else their places
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };
 

@@ -12,11 +12,14 @@ class Quadric final : public Mirror {
   Quadric(const Matrix3& matrix, const Vector3& linear, double constant);
 
   const Matrix3& matrix() const { return matrix_; }
-  const Vector3& linear() const { return linear_; }
-  double constant() const { return constant_; }
+  Vector3 linear() const { return linear_ - 2 * (matrix_ * origin_); }
+  double constant() const { return value(Vector3::Zero()); }
 
-  double value(const Vector3& x) const { return x.dot(matrix_ * x) + linear_.dot(x) + constant_; }
-  Vector3 gradient(const Vector3& x) const { return 2 * (matrix_ * x) + linear_; }
+  double value(const Vector3& x) const {
+    const Vector3 d = x - origin_;
+    return d.dot(matrix_ * d) + linear_.dot(d) + constant_;
+  }
+  Vector3 gradient(const Vector3& x) const { return 2 * (matrix_ * (x - origin_)) + linear_; }
 
   std::string_view kind() const override { return "quadric"; }
   /// The closest point: y = (I + 2 l A)^-1 (x - l b) for the one l with f(y) = 0 between the poles
@@ -33,6 +36,8 @@ class Quadric final : public Mirror {
  private:
   Mesh mesh_over(PointsView object, int resolution) const override;
 
+  // About a point that moves along: far from the coordinates' own origin the terms cancel.
+  Vector3 origin_ = Vector3::Zero();
   Matrix3 matrix_;
   Vector3 linear_;
   double constant_;

@@ -28,6 +28,7 @@ Method normals_only_method() {
       "Pairs each point with the point nearest to the line along its normal: for two sheets at a "
       "constant distance.";
   method.parameters = normal_parameters();
+  method.sees_copies = true;
   method.run = run_normals_only;
   return method;
 }

@@ -30,6 +30,7 @@ Method separation_method() {
       "Divides the cloud by planes through its centroid and maps one side onto the other along the "
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
+  method.sees_copies = true;
   method.run = run_separation;
   return method;
 }

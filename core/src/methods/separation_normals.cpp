@@ -32,6 +32,7 @@ Method separation_normals_method() {
       "similar normal; the score depends on the unit of the input.";
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());
+  method.sees_copies = true;
   method.run = run_separation_normals;
   return method;
 }

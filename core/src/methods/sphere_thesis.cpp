@@ -190,6 +190,7 @@ Method sphere_thesis_method() {
                       "partner."),
   };
   method.minimum_points = 5;
+  method.sees_copies = true;
   method.run = run_sphere_thesis;
   return method;
 }

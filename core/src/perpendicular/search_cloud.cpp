@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 #include <unordered_map>
 
 #include "../quantile.h"
@@ -80,37 +79,14 @@ std::vector<Index> spread_out(PointsView points, const Vector3& centre, double r
   return taken;
 }
 
-// The first point in every place: copies are nobody's neighbours.
-std::vector<Index> places(PointsView points) {
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  const auto coordinates = [&](Index i) {
-    const double* x = points.data() + 3 * i;
-    return std::tuple(x[0], x[1], x[2]);
-  };
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return std::tuple(coordinates(a), a) < std::tuple(coordinates(b), b);
-  });
-  const auto copies = std::unique(order.begin(), order.end(), [&](Index a, Index b) {
-    return coordinates(a) == coordinates(b);
-  });
-  order.erase(copies, order.end());
-  std::sort(order.begin(), order.end());
-  return order;
-}
-
 std::vector<Index> chosen(PointsView points, const Vector3& centre, Index most,
                           const Context& context) {
-  if (points.size() <= most) return places(points);
-  double spacing = sampled_spacing(points, context), count = static_cast<double>(points.size());
-  if (!(spacing > 0)) {
-    const std::vector<Index> all = places(points);
-    if (static_cast<Index>(all.size()) <= most) return all;
-    spacing = sampled_spacing(Points(points.matrix()(all, Eigen::indexing::all)), context);
-    count = static_cast<double>(all.size());
-  }
+  std::vector<Index> all(points.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  if (points.size() <= most) return all;
   // Points at random are 0.75 of a lattice's spacing apart when thinned to the same number.
-  double radius = 0.75 * spacing * std::sqrt(count / static_cast<double>(most));
+  double radius = 0.75 * sampled_spacing(points, context) *
+                  std::sqrt(static_cast<double>(points.size()) / static_cast<double>(most));
   std::vector<Index> taken = spread_out(points, centre, radius, context);
   while (static_cast<Index>(taken.size()) > most + most / 4) {
     radius *= std::sqrt(static_cast<double>(taken.size()) / static_cast<double>(most));

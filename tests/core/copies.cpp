@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+#include <symsurf/damage.h>
+#include <symsurf/detect.h>
+
+#include <cmath>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+// Two noisy sheets about a saddle: where the points of one lie, the other has none.
+Points sheets(std::uint64_t seed, Index count) {
+  RandomCloud random(seed);
+  Points points = random.box(count);
+  for (Index i = 0; i < count; ++i) {
+    const double x = points(i, 0), y = points(i, 1), d = 0.35 + 0.1 * std::sin(3 * x + 1) * y;
+    points.row(i) += (Vector3(0, 0, 0.2 * (x * x - y * y) + (i % 2 ? d : -d)).transpose() -
+                      points(i, 2) * Vector3::UnitZ().transpose());
+  }
+  return add_noise(points, 0, 0.01, {}, seed);
+}
+
+Points repeated(const Points& points, Index times) { return points.replicate(times, 1); }
+
+// As in the corners of triangles that nobody merged.
+TEST(Copies, HaveWhatTheirPlaceHas) {
+  const Points points = sheets(1, 1000);
+  const Index n = points.rows(), times = 3;
+  for (const Method& method : methods()) {
+    if (method.sees_copies) continue;
+    const Result one = detect(points, {.method = method.name});
+    const Result many = detect(repeated(points, times), {.method = method.name});
+    EXPECT_EQ(many.score, one.score) << method.name;
+    ASSERT_EQ(many.pairs.rows(), times * one.pairs.rows()) << method.name;
+    for (Index row = 0; row < many.pairs.rows(); ++row) {
+      const Index of_one = row % one.pairs.rows();
+      EXPECT_EQ(many.pairs(row, 0) % n, one.pairs(of_one, 0));
+      EXPECT_EQ(many.pairs(row, 1), one.pairs(of_one, 1));
+      EXPECT_EQ(many.residuals[row], one.residuals[of_one]);
+      EXPECT_EQ(many.surface_points.row(row), one.surface_points.row(of_one));
+    }
+  }
+}
+
+TEST(Copies, OfFewPlacesAreStillPoints) {
+  const Points corners = RandomCloud(0).box(3);
+  EXPECT_NO_THROW(detect(repeated(corners, 4), {.method = "plane"}));
+}
+
+// Where few points are copies, the method has them.
+TEST(Copies, OfSomePointsHardlyChangeTheScore) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    const Points points = sheets(seed, 1000);
+    Points some(1040, 3);
+    some << points, points.topRows(40);
+    for (const char* method : {"plane", "quadric", "fixed_direction", "perpendicular"})
+      EXPECT_NEAR(detect(some, {.method = method}).score, detect(points, {.method = method}).score,
+                  0.1)
+          << method << ' ' << seed;
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
