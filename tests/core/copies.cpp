@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <symsurf/damage.h>
 #include <symsurf/detect.h>
+#include <symsurf/plane.h>
 
 #include <cmath>
 
@@ -45,7 +46,24 @@ TEST(Copies, HaveWhatTheirPlaceHas) {
 
 TEST(Copies, OfFewPlacesAreStillPoints) {
   const Points corners = RandomCloud(0).box(3);
-  EXPECT_NO_THROW(detect(repeated(corners, 4), {.method = "plane"}));
+  EXPECT_NO_THROW(detect(repeated(corners, 4), {.method = "perpendicular"}));
+}
+
+TEST(Copies, HardlyChangeThePlane) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Points half = sheets(seed, 2000);
+    Points points(4000, 3);
+    points << half, half;
+    points.col(0).head(2000).array() += 1.5;  // and their mirror image in x = 0
+    points.col(0).tail(2000) = -points.col(0).head(2000);
+    points = add_noise(points, 0, 0.02, {}, seed);
+    for (const Index times : {2, 6}) {
+      const Result one = detect(points, {.method = "plane"});
+      const Result many = detect(repeated(points, times), {.method = "plane"});
+      EXPECT_NEAR(many.score, one.score, 0.1) << seed << ' ' << times;
+      EXPECT_NEAR(std::abs(dynamic_cast<Plane&>(*many.mirror).normal().x()), 1, 1e-4) << seed;
+    }
+  }
 }
 
 // Where few points are copies, the method has them.

@@ -136,6 +136,7 @@ Method plane_method() {
   };
   method.automatic = true;
   method.takes_shares = true;
+  method.sees_copies = true;  // a share does not know of those in others
   method.run = run_plane;
   return method;
 }
