@@ -25,8 +25,7 @@ Points centres_from(const Vector3& origin, const std::vector<Patch>& patches) {
 FreeForm::Blend::Blend(std::vector<Patch> patches)
     : patches_(std::move(patches)),
       origin_(mean_centre(patches_)),
-      centres_(centres_from(origin_, patches_)),
-      tree_(centres_) {
+      tree_(centres_from(origin_, patches_)) {
   for (const Patch& p : patches_) {
     reach_ = std::max(reach_, p.radius);
     Matrix3 bend = Matrix3::Zero();

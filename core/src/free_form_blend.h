@@ -47,8 +47,7 @@ struct FreeForm::Blend {
   std::vector<Piece> pieces_;
   double reach_ = 0;  // the largest radius
   Vector3 origin_;    // all is reckoned from here: as exact wherever the mirror lies
-  Points centres_;
-  PointTree tree_;
+  PointTree tree_;    // of the centres
 };
 
 }  // namespace symsurf

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "cloud.h"
-#include "copies.h"
 #include "outline.h"
+#include "places.h"
 
 namespace symsurf {
 

@@ -1,9 +1,10 @@
-#include "copies.h"
+#include "places.h"
 
 #include <algorithm>
 #include <bit>
 #include <numeric>
 
+#include "matching.h"
 #include "parallel.h"
 #include "radix_sort.h"
 
@@ -52,22 +53,20 @@ Places::Places(PointsView points, const Context& context) : place_(points.size()
   std::iota(order.begin(), order.end(), 0);
   radix_sort(hashes, order, context);
 
-  std::vector<std::int32_t>& first_of = place_;  // at first the point, then its place's number
+  // The first point of each point's place, until places are numbered.
   std::size_t run = 0;
   interruptible_for(context, points.size(), [&](Index k) {
     if (hashes[k] != hashes[run]) run = k;
     const auto copy = std::find_if(order.begin() + run, order.begin() + k, [&](std::int32_t other) {
       return points[other] == points[order[k]];
     });
-    first_of[order[k]] = *copy;
+    place_[order[k]] = *copy;
   });
-  std::vector<std::int32_t> number(points.size());
   interruptible_for(context, points.size(), [&](Index i) {
-    if (first_of[i] == i) {
-      number[i] = static_cast<std::int32_t>(first_.size());
-      first_.push_back(first_of[i]);
-    }
-    place_[i] = number[first_of[i]];
+    const std::int32_t first = place_[i];
+    const bool is_first = first == i;
+    place_[i] = is_first ? static_cast<std::int32_t>(first_.size()) : place_[first];
+    if (is_first) first_.push_back(first);
   });
 }
 
@@ -76,25 +75,19 @@ Points Places::rows(PointsView points) const {
 }
 
 void Places::hand_on(Result& result) const {
+  std::vector<Index> row_of(size(), -1);
+  for (Index row = 0; row < result.pairs.rows(); ++row) row_of[result.pairs(row, 0)] = row;
   const auto points = static_cast<Index>(place_.size());
-  std::vector<Index> rows_before(size() + 1, 0);
-  for (Index row = 0; row < result.pairs.rows(); ++row) ++rows_before[result.pairs(row, 0) + 1];
-  std::partial_sum(rows_before.begin(), rows_before.end(), rows_before.begin());
-  std::vector<Index> rows(result.pairs.rows()), next = rows_before;
-  for (Index row = 0; row < result.pairs.rows(); ++row) rows[next[result.pairs(row, 0)]++] = row;
-
-  std::vector<Index> point, source;
-  for (Index i = 0; i < points; ++i)
-    for (Index k = rows_before[place_[i]]; k < rows_before[place_[i] + 1]; ++k) {
-      point.push_back(i);
-      source.push_back(rows[k]);
-    }
-  Pairs pairs(static_cast<Index>(source.size()), 2);
-  for (Index row = 0; row < pairs.rows(); ++row)
-    pairs.row(row) << point[row], first_[result.pairs(source[row], 1)];
-  result.pairs = std::move(pairs);
-  result.residuals = result.residuals(source).eval();
-  result.surface_points = result.surface_points(source, Eigen::indexing::all).eval();
+  std::vector<Index> paired, rows;
+  for (Index i = 0; i < points; ++i) {
+    const Index row = row_of[place_[i]];
+    if (row < 0) continue;
+    paired.push_back(i);
+    rows.push_back(row);
+  }
+  keep_pairs(result, rows);
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    result.pairs.row(row) << paired[row], first_[result.pairs(row, 1)];
   const auto unpaired = result.statistics.find("unpaired_points");
   if (unpaired != result.statistics.end()) unpaired->second = points - result.pairs.rows();
 }
