@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
 
 #include "../gathered.h"
 #include "../point_tree.h"
@@ -13,9 +16,11 @@ namespace symsurf {
 namespace {
 
 constexpr Index grain = 1 << 16;
-constexpr double lattice_shift = 0.38197;
 constexpr double line_thinness = 1e-8;  // of the squared width against the squared length
 constexpr int finest_cells = 128;       // along the longest side
+// Clutter is: cells with so much less than the cell of the median point, if many have that little
+// and touch none that has more. Else sparse cells are where sheets end.
+constexpr double sparse = 0.05, many = 0.05;
 
 // How many points, their sum, and that of their products: side by side, to be added at once.
 struct Moments {
@@ -73,7 +78,7 @@ Vector3 Surfel::smoothed(const Vector3& x, double width) const {
 
 // What is known of the points of a cell.
 struct Surfels::Patch {
-  Cell cell = Cell::Zero();
+  CellGrid::Cell cell = CellGrid::Cell::Zero();
   Moments moments;
   Neighbour nearest;  // to the middle of the cell
   Vector3 sampled = Vector3::Zero();
@@ -86,15 +91,27 @@ struct Surfels::Patch {
 };
 
 Surfels::Surfels(const Cloud& cloud, Index count, const Context& context)
-    : Surfels(cloud, count, 0, context) {}
+    : Surfels(cloud, count, std::nullopt, 0, context) {}
 
 Surfels::Surfels(const Cloud& cloud, const Surfels& coarser, const Context& context)
-    : Surfels(cloud, 4 * coarser.count_, coarser.spacing() / 2, context) {}
+    : Surfels(cloud, 4 * coarser.count_, coarser.uncluttered_, coarser.spacing() / 2, context) {}
 
-Surfels::Surfels(const Cloud& cloud, Index count, double guess, const Context& context)
-    : count_(count), low_(cloud.frame.low) {
-  choose_cell(cloud, guess, context.stage(0, 0.5));
-  sum_moments(cloud, context.stage(0.5, 1));
+Surfels::Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> uncluttered, double guess,
+                 const Context& context)
+    : count_(count), uncluttered_(std::move(uncluttered)) {
+  // More than one point a cell: alone it tells of no patch.
+  const double wanted =
+      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.total));
+  choose_cell(cloud, wanted, guess, context.stage(0, 0.5));
+  std::vector<Patch> patches = patches_of(cloud, context.stage(0.5, 1));
+  // Without the clutter, cells are smaller, and what is clutter is seen better.
+  constexpr int most = 3;
+  for (int k = 0; k < most && drop_clutter(patches); ++k) {
+    const double kept = static_cast<double>(patches.size()) / wanted;
+    choose_cell(cloud, wanted, grid_.edge() * std::sqrt(kept), context.stage(1, 1));
+    patches = patches_of(cloud, context.stage(1, 1));
+  }
+  make_surfels(patches);
 }
 
 Points Surfels::positions(Index count) const {
@@ -107,28 +124,21 @@ Points Surfels::positions(Index count) const {
 
 // Sheets fill cells as the square of the resolution, so two or three guesses are enough. The first
 // is that edge of a cell, where it is given.
-void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& context) {
+void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
-  // More than one point a cell: alone it tells of no patch.
-  const double wanted =
-      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.total));
   double cells =
       std::min<double>(finest_cells, guess > 0 ? longest / guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
   for (int k = 0; k < guesses; ++k) {
-    cell_ = longest / cells;
-    cells_ = 1 / cell_;
-    // Off any lattice that the points may lie on: rounding must not decide between two cells.
-    low_ = cloud.frame.low.array() - lattice_shift * cell_;
-    size_ = ((cloud.frame.high - low_) * cells_).array().floor().cast<int>() + 1;
-    occupied_ = OccupiedCells(size_.cast<Index>().prod());
-    for (Index i = 0; i < cloud.points.size(); ++i)
-      occupied_.add(linear(cell_of(cloud.frame.enter(cloud.points[i]))));
+    grid_ = CellGrid(cloud.frame.low, cloud.frame.high, longest / cells);
+    for (Index i = 0; i < cloud.points.size(); ++i) {
+      const Vector3 x = cloud.frame.enter(cloud.points[i]);
+      if (!is_clutter(x)) grid_.occupy(grid_.cell_of(x));
+    }
     if (context.communicator())
-      for (const OccupiedCells::Words& part : gathered(context, occupied_.words()))
-        occupied_.add(part);
-    occupied_.number_them();
-    const double occupied = static_cast<double>(occupied_.count());
+      for (const OccupiedCells::Words& part : gathered(context, grid_.words())) grid_.occupy(part);
+    grid_.number_them();
+    const double occupied = static_cast<double>(grid_.count());
     context.report((k + 1.0) / guesses);
     const double better = std::min<double>(finest_cells, cells * std::sqrt(wanted / occupied));
     if (std::abs(occupied / wanted - 1) < 0.15 || std::abs(better - cells) < 0.5) return;
@@ -136,63 +146,82 @@ void Surfels::choose_cell(const Cloud& cloud, double guess, const Context& conte
   }
 }
 
-void Surfels::sum_moments(const Cloud& cloud, const Context& context) {
-  std::vector<Patch> patches(occupied_.count());
+std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Context& context) const {
+  std::vector<Patch> patches(grid_.count());
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
-    const Cell c = cell_of(x);
-    const Vector3 middle = low_ + cell_ * (c.cast<double>().array() + 0.5).matrix();
-    Patch& patch = patches[occupied_.number(linear(c))];
+    if (is_clutter(x)) continue;
+    const CellGrid::Cell c = grid_.cell_of(x);
+    Patch& patch = patches[grid_.number(c)];
     patch.cell = c;
-    patch.moments.add(x - low_);
-    patch.sample({cloud.first + i, (x - middle).squaredNorm()}, x);
+    patch.moments.add(x - grid_.low());
+    patch.sample({cloud.first + i, (x - grid_.middle(c)).squaredNorm()}, x);
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 
   if (context.communicator()) join(patches, context);
+  return patches;
+}
 
+// Whether there was any.
+bool Surfels::drop_clutter(std::vector<Patch>& patches) {
+  std::vector<double> counts;
+  for (const Patch& patch : patches) counts.push_back(patch.moments.count());
+  std::sort(counts.begin(), counts.end());
+  const double half = std::accumulate(counts.begin(), counts.end(), 0.0) / 2;
+  double below = 0, typical = 0;
+  for (auto count = counts.begin(); below < half; ++count) below += typical = *count;
+  const double least = sparse * typical;
+  if (counts.front() >= least) return false;
+
+  const auto dense = [&](const Patch& patch) { return patch.moments.count() >= least; };
+  Index apart = 0;
+  for (const Patch& patch : patches) {
+    bool touches_dense = false;
+    grid_.for_each_touching(patch.cell,
+                            [&](Index k) { touches_dense = touches_dense || dense(patches[k]); });
+    if (!touches_dense) ++apart;
+  }
+  if (static_cast<double>(apart) < many * static_cast<double>(patches.size())) return false;
+
+  std::erase_if(patches, std::not_fn(dense));
+  grid_.clear();
+  for (const Patch& patch : patches) grid_.occupy(patch.cell);
+  grid_.number_them();
+  uncluttered_ = grid_;
+  return true;
+}
+
+void Surfels::make_surfels(const std::vector<Patch>& patches) {
   surfels_.reserve(patches.size());
   for (const Patch& patch : patches) {
     Moments around;
-    const Cell from = (patch.cell.array() - 1).max(0);
-    const Cell to = (patch.cell.array() + 1).min(size_.array() - 1);
-    for (int x = from.x(); x <= to.x(); ++x)
-      for (int y = from.y(); y <= to.y(); ++y) {
-        const Index row = linear({x, y, 0}), end = occupied_.before(row + to.z() + 1);
-        for (Index k = occupied_.before(row + from.z()); k < end; ++k) around += patches[k].moments;
-      }
+    grid_.for_each_touching(patch.cell, [&](Index k) { around += patches[k].moments; });
     const Matrix3 covariance = around.covariance();
     const Thinnest thinnest = thinnest_direction(covariance);
     surfels_.push_back({{thinnest.direction, thinnest.flatness},
-                        low_ + patch.moments.mean(),
+                        grid_.low() + patch.moments.mean(),
                         thinnest.thickness,
                         thinnest.width,
                         patch.sampled,
-                        low_ + around.mean(),
+                        grid_.low() + around.mean(),
                         covariance});
   }
 }
 
 // The patches of all processes, those of one cell made one.
-void Surfels::join(std::vector<Patch>& patches, const Context& context) {
+void Surfels::join(std::vector<Patch>& patches, const Context& context) const {
   std::erase_if(patches, [](const Patch& patch) { return patch.moments.count() == 0; });
   const auto parts = gathered(context, patches);
-  patches.assign(occupied_.count(), {});
+  patches.assign(grid_.count(), {});
   for (const std::vector<Patch>& part : parts)
     for (const Patch& other : part) {
-      Patch& patch = patches[occupied_.number(linear(other.cell))];
+      Patch& patch = patches[grid_.number(other.cell)];
       patch.cell = other.cell;
       patch.moments += other.moments;
       patch.sample(other.nearest, other.sampled);
     }
-}
-
-Index Surfels::containing(const Vector3& x) const {
-  const Vector3 at = (x - low_) * cells_;
-  // Points on the far faces belong to the last cell, as in cell_of.
-  if (!((at.array() >= 0).all() && (at.array() <= size_.cast<double>().array()).all())) return -1;
-  return occupied_.number(linear(cell_of(x)));
 }
 
 const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x) {

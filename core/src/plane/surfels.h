@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
-#include "../occupied_cells.h"
+#include "cell_grid.h"
 
 namespace symsurf {
 
@@ -34,12 +35,13 @@ struct Surfel : Facet {
 };
 
 /// The cloud thinned to about `count` surfels. Moments are summed cell by cell, so noise averages
-/// out, density hardly counts and 10^6 points cost one pass.
+/// out, density hardly counts and 10^6 points cost one pass. Clutter, where a dense cloud has next
+/// to no points in many cells, makes none.
 class Surfels {
  public:
   Surfels(const Cloud& cloud, Index count, const Context& context);
 
-  /// About four times as many.
+  /// About four times as many. What was clutter there is clutter here.
   Surfels(const Cloud& cloud, const Surfels& coarser, const Context& context);
 
   Index size() const { return static_cast<Index>(surfels_.size()); }
@@ -49,37 +51,32 @@ class Surfels {
   Points positions(Index count) const;
 
   /// Edge of a cell, about the distance between surfels.
-  double spacing() const { return cell_; }
+  double spacing() const { return grid_.edge(); }
 
   /// The same of that many points, all the cloud has: on a sheet.
   double spacing_of(Index points) const {
-    return cell_ * std::sqrt(static_cast<double>(size()) / static_cast<double>(points));
+    return spacing() * std::sqrt(static_cast<double>(size()) / static_cast<double>(points));
   }
 
-  /// The surfel of the cell that holds x, -1 where the cell is empty or x lies outside the grid.
-  Index containing(const Vector3& x) const;
+  /// The surfel of the cell that holds x, -1 where the cell has none or x lies outside the grid.
+  Index containing(const Vector3& x) const { return grid_.number_at(x); }
 
  private:
-  using Cell = Eigen::Vector3i;
   struct Patch;
 
-  Surfels(const Cloud& cloud, Index count, double guess, const Context& context);
-  void choose_cell(const Cloud& cloud, double guess, const Context& context);
-  void sum_moments(const Cloud& cloud, const Context& context);
-  void join(std::vector<Patch>& patches, const Context& context);
-  Cell cell_of(const Vector3& x) const {
-    return ((x - low_) * cells_).cast<int>().cwiseMax(0).cwiseMin(size_ - Cell::Ones());
-  }
-  Index linear(const Cell& c) const {
-    return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
-  }
+  Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> uncluttered, double guess,
+          const Context& context);
+  bool is_clutter(const Vector3& x) const { return uncluttered_ && uncluttered_->number_at(x) < 0; }
+  void choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context);
+  std::vector<Patch> patches_of(const Cloud& cloud, const Context& context) const;
+  void join(std::vector<Patch>& patches, const Context& context) const;
+  bool drop_clutter(std::vector<Patch>& patches);
+  void make_surfels(const std::vector<Patch>& patches);
 
   Index count_;  // that was asked for
-  Vector3 low_;
-  double cell_ = 1, cells_ = 1;  // edge of a cell, cells along a unit of length
-  Cell size_;
-  OccupiedCells occupied_;
-  std::vector<Surfel> surfels_;  // one each
+  CellGrid grid_;
+  std::optional<CellGrid> uncluttered_;  // a coarser one, what is outside of which is clutter
+  std::vector<Surfel> surfels_;          // one an occupied cell
 };
 
 /// The flattest of the surfels whose cells hold x; of nearly equal ones the first.
