@@ -11,6 +11,7 @@
 #include "outline.h"
 #include "run_alone.h"
 #include "shared_cloud.h"
+#include "strays.h"
 
 namespace symsurf {
 
@@ -98,10 +99,18 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
   const Index normals = share_of(shared, options.normals.size()).total;
   if (!method.takes_shares || normals > 0 || share_of(shared, own.size()).total <= small_cloud)
     return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
-  Cloud cloud = checked_shared_cloud(own, method.minimum_points, shared.stage(0, 0));
+  const Context unreported = shared.stage(0, 0);
+  Cloud cloud = checked_shared_cloud(own, method.minimum_points, unreported);
+  const auto strays = Strays::where_any(cloud, method, unreported);
+  Points rest;
+  if (strays) {
+    rest = strays->rows(own);
+    cloud = checked_shared_cloud(rest, method.minimum_points, unreported);
+  }
   cloud.seed = options.seed;
   Result result = method.run(cloud, values, shared);
-  set_footprint(result, outline(own, shared));
+  set_footprint(result, outline(cloud.points, shared));
+  if (strays) strays->hand_on(result);
   return result;
 }
 

@@ -72,13 +72,13 @@ def draw(
             residuals stay below.
     """
     object_ = _object(result, shape, points)
-    diagonal = object_.length
+    seen = _without_strays(result, object_)
     plotter.set_background(BACKGROUND)
     plotter.enable_anti_aliasing("ssaa")
     plotter.enable_lightkit()
-    _draw_object(plotter, object_, _percent(result, object_.n_points, diagonal), residual_range)
-    _draw_mirror(plotter, result, object_)
-    _look(plotter, result, object_)
+    _draw_object(plotter, object_, _percent(result, object_.n_points, seen.length), residual_range)
+    _draw_mirror(plotter, result, seen)
+    _look(plotter, result, seen)
 
 
 def _pyvista():
@@ -98,6 +98,16 @@ def _object(result: Result, shape: Shape | None, points: ArrayLike | None) -> py
     if shape.faces is None:
         return _pyvista().PolyData(shape.points)
     return _pyvista().PolyData.from_regular_faces(shape.points, shape.faces)
+
+
+def _without_strays(result: Result, object_: pyvista.PolyData) -> pyvista.PolyData:
+    """What a picture should show: the object, or its points without those that lie far off."""
+    strays = result.statistics.get("stray_points", 0)
+    if not strays:
+        return object_
+    points = np.asarray(object_.points)
+    distances = np.linalg.norm(points - np.median(points, axis=0), axis=1)
+    return _pyvista().PolyData(points[np.argsort(distances, kind="stable")[:-strays]])
 
 
 def _percent(result: Result, count: int, diagonal: float) -> NDArray[np.float64]:
@@ -182,7 +192,7 @@ def _look(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -
     camera.position = np.asarray(object_.center) + direction * object_.length
     camera.up = up
     camera.view_angle = 25
-    plotter.reset_camera()
+    plotter.reset_camera(bounds=object_.bounds if "stray_points" in result.statistics else None)
     camera.zoom(1.35)
     # Room for the bar below.
     lower = np.asarray(camera.up) * -0.05 * object_.length

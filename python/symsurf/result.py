@@ -40,7 +40,8 @@ class Result:
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any] = field(repr=False)
-    """Whatever else the method reports."""
+    """Whatever else the method reports, and "stray_points" where some points lie so far off that
+    they were left out: how many. They have no partners."""
     seconds: float
     points: NDArray[np.float64] | None = field(default=None, repr=False)
     """(n, 3) the input: the caller's own array where it could be read in place."""

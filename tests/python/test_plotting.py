@@ -61,6 +61,24 @@ def test_picture_without_the_mirror_where_it_maps_no_point(result, tmp_path):
         assert grey > 0.002 and bluish(bare) == 0
 
 
+def test_strays_are_out_of_the_picture(tmp_path):
+    """What is drawn fills about as much of the picture without them, and the mirror is no larger."""
+    pyvista = pytest.importorskip("pyvista")
+    points, _ = mirrored_surface(800, 0)
+    strays = 300 * np.random.default_rng(0).normal(size=(5, 3))
+    shares, sizes = [], []
+    for given in points, np.vstack([points, strays]):
+        result = symsurf.detect(given, "plane")
+        result.plot(tmp_path / "given.png")
+        picture = pixels(tmp_path / "given.png")
+        shares.append([(picture != BACKGROUND).any(axis=1).mean(), bluish(picture)])
+        result.save(tmp_path / "given.vtp")
+        sizes.append(pyvista.read(tmp_path / "given.vtp").length)
+    assert result.statistics["stray_points"] == 5
+    np.testing.assert_allclose(shares[1], shares[0], rtol=0.6)
+    assert sizes[1] < 1.2 * sizes[0]
+
+
 def test_points_that_do_not_belong(result):
     pytest.importorskip("pyvista")
     with pytest.raises(symsurf.InvalidInput, match="10 points"):

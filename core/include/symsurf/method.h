@@ -35,6 +35,7 @@ struct Method {
   bool automatic = false;     ///< one of those that "auto" tries
   bool takes_shares = false;  ///< run can do with a share of the points; else each gets all
   bool sees_copies = false;   ///< run gets points that are copies of others; else their places
+  bool sees_strays = false;   ///< run gets the few points far off all others; else the rest
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };
 

@@ -23,7 +23,9 @@ struct Result {
   /// score: one may score more than the result.
   std::vector<Result> candidates;
   Values parameters;  ///< as used
-  Values statistics;  ///< whatever the method reports
+  /// Whatever the method reports, and "stray_points" where some points lie so far off that they
+  /// were left out: how many. They have no partners.
+  Values statistics;
   double seconds = 0;
 };
 

@@ -29,6 +29,7 @@ Method normals_only_method() {
       "constant distance.";
   method.parameters = normal_parameters();
   method.sees_copies = true;
+  method.sees_strays = true;
   method.run = run_normals_only;
   return method;
 }

@@ -31,6 +31,7 @@ Method separation_method() {
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
   method.sees_copies = true;
+  method.sees_strays = true;
   method.run = run_separation;
   return method;
 }

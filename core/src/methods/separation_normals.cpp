@@ -33,6 +33,7 @@ Method separation_normals_method() {
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());
   method.sees_copies = true;
+  method.sees_strays = true;
   method.run = run_separation_normals;
   return method;
 }

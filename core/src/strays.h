@@ -1,0 +1,35 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/method.h>
+#include <symsurf/result.h>
+
+#include <optional>
+#include <vector>
+
+namespace symsurf {
+
+/// The few points of a cloud that lie far off the rest: what a scanner saw in the air, pixels
+/// without depth that were written as the origin. They would set the scale of everything else. Of
+/// all processes, where several share the cloud out.
+class Strays {
+ public:
+  /// None where there are none, too few points would be left for the method, or it sees strays.
+  /// Collective.
+  static std::optional<Strays> where_any(const Cloud& cloud, const Method& method,
+                                         const Context& context);
+
+  /// Of these rows, one a point of this process, those of no strays.
+  Points rows(PointsView all) const;
+
+  /// From what was found of the rest to what it says of all points: strays have no partners.
+  void hand_on(Result& result) const;
+
+ private:
+  Strays(const Cloud& cloud, Index needed, const Context& context);
+
+  std::vector<Index> own_,
+      all_;  // in the order of the points; own ones counted from this process's
+};
+
+}  // namespace symsurf
