@@ -15,6 +15,13 @@ def noise(points: Points, share: float, rng: np.random.Generator) -> Points:
     return points + rng.normal(size=points.shape) * share * diagonal(points) / np.sqrt(3)
 
 
+def cluttered(points: Points, share: float, times: float, rng: np.random.Generator) -> Points:
+    """With that share of the points more, anywhere in a box so many times as large as theirs."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    places = rng.uniform(-times / 2, times / 2, size=(round(share * len(points)), 3))
+    return np.vstack([points, (low + high) / 2 + places * (high - low)])
+
+
 def hole(points: Points, share: float, rng: np.random.Generator) -> Rows:
     """What is left when that share of the points around one of them is missing."""
     centre = points[rng.integers(len(points))]
@@ -30,14 +37,19 @@ def falling_density(points: Points, ratio: float, rng: np.random.Generator) -> R
 
 
 def half(
-    points: Points, signed: NDArray[np.float64], rng: np.random.Generator, slab: bool = False
+    points: Points, signed: NDArray[np.float64], rng: np.random.Generator, left: str = "piece"
 ) -> Rows:
-    """One side of a mirror, and 30 % of the points on the other: a compact piece, or those next to
-    the cut."""
+    """One side of a mirror, and 30 % of the points on the other: a compact "piece", the "slab" next
+    to the cut, or any, "thinned"."""
     signed = signed * rng.choice([-1, 1])
     other = np.flatnonzero(signed < 0)
     centre = points[rng.choice(other)]
-    distances = -signed[other] if slab else np.linalg.norm(points[other] - centre, axis=1)
-    nearest_first = np.argsort(distances, kind="stable")
+    if left == "slab":
+        order = -signed[other]
+    elif left == "thinned":
+        order = rng.random(len(other))
+    else:
+        order = np.linalg.norm(points[other] - centre, axis=1)
+    nearest_first = np.argsort(order, kind="stable")
     piece = other[nearest_first[: round(0.3 * len(other))]]
     return np.sort(np.concatenate([np.flatnonzero(signed >= 0), piece]))

@@ -7,7 +7,7 @@ import numpy as np
 from symsurf import Plane
 
 from .case import Case, Figures, at_least, at_most, timed_detect
-from .damage import falling_density, half, hole, noise
+from .damage import cluttered, falling_density, half, hole, noise
 from .poses import Points, diagonal, random_rotation, turned
 from .solids import ASYMMETRIC, MESHES, asymmetric, mirrored_mesh, sampled
 
@@ -32,22 +32,31 @@ def _damaged(points: Points, truth: Plane, damages: str, rng: np.random.Generato
         points = points[falling_density(points, 4, rng)]
     if "half" in damages:
         signed = truth.signed_distance(points)
-        points = points[half(points, signed, rng, slab="slab" in damages)]
+        left = next((kind for kind in ("slab", "thinned") if kind in damages), "piece")
+        points = points[half(points, signed, rng, left)]
     return points
 
 
 def _case(
-    name: str, damages: str, share: str, least: float, meshes: tuple[str, ...] = (*MESHES, "fox")
+    name: str,
+    damages: str,
+    share: str,
+    least: float,
+    meshes: tuple[str, ...] = (*MESHES, "fox"),
+    count: int = COUNT,
 ) -> Case:
     """`share`: of the trials in which the plane is "found", or in which it is the "right" one, no
     other, at the least."""
 
     def run(subject: str, rng: np.random.Generator) -> Figures:
         vertices, faces, truth = mirrored_mesh(subject)
-        points = _damaged(sampled(vertices, faces, COUNT, rng), truth, damages, rng)
+        points = _damaged(sampled(vertices, faces, count, rng), truth, damages, rng)
         rotation = random_rotation(rng)
         points, truth = points @ rotation.T, turned(truth, rotation)
-        result, seconds = timed_detect(points, "plane")
+        given = points
+        if "clutter" in damages:
+            given = cluttered(points, 0.1, rng.uniform(1, 5), rng)
+        result, seconds = timed_detect(given, "plane")
         angle, offset = difference(result.mirror, truth, points)
         found = float(angle <= 1 and offset <= 0.005)
         right = float(angle <= 5 and offset <= 0.03)
@@ -71,7 +80,10 @@ CASES = (
     _case("20 % missing", "missing", "found", 0.95),
     _case("4:1 density", "density", "found", 0.95),
     _case("all three", "noise missing density", "found", 0.95, MESHES),
-    _case("half, 30 % of the other half", "half", "right", 0.9, MESHES),
+    _case("10 % clutter", "clutter", "found", 0.95),
+    _case("10 % clutter, 50000 points", "clutter", "found", 0.95, count=50000),
+    _case("half, a compact 30 % of the other half", "half", "right", 0.9, MESHES),
+    _case("half, a thinned 30 % of the other half", "half thinned", "right", 0.9, MESHES),
     _case("half, the 30 % next to the cut", "half slab", "right", 0.9, MESHES),
     Case("plane, no mirror", ASYMMETRIC, _without_mirror, {"at most 0.4": at_least(0.99)}),
 )
