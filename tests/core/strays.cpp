@@ -6,6 +6,7 @@
 #include <symsurf/sphere.h>
 
 #include <cmath>
+#include <vector>
 
 #include "cloud.h"
 #include "random_cloud.h"
@@ -131,6 +132,20 @@ TEST(Clutter, DoesNotHideThePlane) {
         EXPECT_LT(turned_by(result), 0.01) << seed << ' ' << count << ' ' << wide;
         EXPECT_GT(result.score, 0.8) << seed << ' ' << count << ' ' << wide;
       }
+}
+
+TEST(Clutter, IsNotWhereASheetIsSparse) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = ball(random, 40000);
+    std::vector<Index> kept;
+    for (Index i = 0; i < points.rows(); ++i)
+      if (points(i, 0) > 0 || random.uniform(0, 1) < 0.05) kept.push_back(i);
+    const Points uneven = points(kept, Eigen::indexing::all);
+    const Result result = detect(uneven, {.method = "plane"});
+    EXPECT_LT(turned_by(result), 1e-3) << seed;
+    EXPECT_GT(result.score, 0.8) << seed;
+  }
 }
 
 TEST(Clutter, DoesNotHideTheSphere) {

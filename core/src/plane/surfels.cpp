@@ -18,9 +18,11 @@ namespace {
 constexpr Index grain = 1 << 16;
 constexpr double line_thinness = 1e-8;  // of the squared width against the squared length
 constexpr int finest_cells = 128;       // along the longest side
-// Clutter is: cells with so much less than the cell of the median point, if many have that little
-// and touch none that has more. Else sparse cells are where sheets end.
-constexpr double sparse = 0.05, many = 0.05;
+// Clutter are cells with so much less than the cell of the median point, if many of those that
+// touch none with more fill space, as sheets and rods do not. Few points cannot tell.
+constexpr double sparse = 0.05, many = 0.02, telling = 6;
+constexpr Index mostly = 2;             // filling ones for one that is thin
+constexpr double thin_variance = 0.06;  // of that along the longest direction
 
 // How many points, their sum, and that of their products: side by side, to be added at once.
 struct Moments {
@@ -45,6 +47,21 @@ struct Moments {
     return s / count() - mean() * mean().transpose();
   }
 };
+
+bool is_thin(const Matrix3& covariance) {
+  const LeastEigen spread = least_eigen_of(covariance);
+  return spread.value < thin_variance * spread.greatest;
+}
+
+// How many share the group of the median member.
+double size_of_median_group(std::vector<double> sizes) {
+  std::sort(sizes.begin(), sizes.end());
+  const double half = std::accumulate(sizes.begin(), sizes.end(), 0.0) / 2;
+  double passed = 0;
+  auto size = sizes.begin();
+  while ((passed += *size) < half) ++size;
+  return *size;
+}
 
 struct Thinnest {
   Vector3 direction;
@@ -168,24 +185,24 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
 bool Surfels::drop_clutter(std::vector<Patch>& patches) {
   std::vector<double> counts;
   for (const Patch& patch : patches) counts.push_back(patch.moments.count());
-  std::sort(counts.begin(), counts.end());
-  const double half = std::accumulate(counts.begin(), counts.end(), 0.0) / 2;
-  double below = 0, typical = 0;
-  for (auto count = counts.begin(); below < half; ++count) below += typical = *count;
-  const double least = sparse * typical;
-  if (counts.front() >= least) return false;
+  const double least = sparse * size_of_median_group(std::move(counts));
+  const auto is_dense = [&](const Patch& patch) { return patch.moments.count() >= least; };
+  if (std::all_of(patches.begin(), patches.end(), is_dense)) return false;
 
-  const auto dense = [&](const Patch& patch) { return patch.moments.count() >= least; };
-  Index apart = 0;
+  Index filling = 0, thin = 0;
   for (const Patch& patch : patches) {
-    bool touches_dense = false;
-    grid_.for_each_touching(patch.cell,
-                            [&](Index k) { touches_dense = touches_dense || dense(patches[k]); });
-    if (!touches_dense) ++apart;
+    bool apart = true;
+    Moments around;
+    grid_.for_each_touching(patch.cell, [&](Index other) {
+      apart = apart && !is_dense(patches[other]);
+      around += patches[other].moments;
+    });
+    if (apart && around.count() >= telling) ++(is_thin(around.covariance()) ? thin : filling);
   }
-  if (static_cast<double>(apart) < many * static_cast<double>(patches.size())) return false;
+  if (static_cast<double>(filling) < many * static_cast<double>(patches.size())) return false;
+  if (filling < mostly * thin) return false;
 
-  std::erase_if(patches, std::not_fn(dense));
+  std::erase_if(patches, std::not_fn(is_dense));
   grid_.clear();
   for (const Patch& patch : patches) grid_.occupy(patch.cell);
   grid_.number_them();
