@@ -191,6 +191,7 @@ bool Surfels::drop_clutter(std::vector<Patch>& patches) {
 
   Index filling = 0, thin = 0;
   for (const Patch& patch : patches) {
+    if (is_dense(patch)) continue;
     bool apart = true;
     Moments around;
     grid_.for_each_touching(patch.cell, [&](Index other) {
