@@ -2,6 +2,7 @@
 
 #include <symsurf/communicator.h>
 #include <symsurf/context.h>
+#include <symsurf/types.h>
 
 #include <algorithm>
 #include <cstring>
@@ -50,6 +51,16 @@ T summed(const Context& context, const T& own) {
   const std::vector<T> all = concatenated(context, std::vector<T>{own});
   T sum = all.front();
   for (std::size_t i = 1; i < all.size(); ++i) sum += all[i];
+  return sum;
+}
+
+/// The same, element by element.
+template <typename T>
+Eigen::ArrayX<T> summed(const Context& context, const Eigen::ArrayX<T>& own) {
+  if (!context.communicator()) return own;
+  Eigen::ArrayX<T> sum = Eigen::ArrayX<T>::Zero(own.size());
+  for (const std::vector<T>& part : gathered(context, std::vector<T>(own.begin(), own.end())))
+    sum += Eigen::Map<const Eigen::ArrayX<T>>(part.data(), own.size());
   return sum;
 }
 

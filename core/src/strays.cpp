@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cells.h"
 #include "gathered.h"
 #include "parallel.h"
 
@@ -14,82 +15,73 @@ namespace {
 // holds most points, and spans less than half of the diagonal.
 constexpr double least_part = 0.05, least_share = 0.85, most_extent = 0.5;
 
-// A grid over a cloud, and which of its cells hold what strays are beside, or touch it.
+// The cells over a cloud that hold what strays are beside, or touch it.
 class Body {
  public:
-  Body(PointsView own, const PrincipalFrame& frame, const Context& context) : frame_(frame) {
+  Body(PointsView own, const PrincipalFrame& frame, const Context& context)
+      : frame_(frame), cells_(frame.low, frame.high, edge) {
     const Counts counts = counts_of(own, context);
     total_ = counts.sum();
-    const std::vector<Index> cells = large_parts(counts);
-    cells_.assign(volume, false);
-    Vector3 low(side, side, side), high(0, 0, 0);
-    for (const Index cell : cells) {
-      const Vector3 at(cell / (side * side), cell / side % side, cell % side);
-      low = low.cwiseMin(at);
-      high = high.cwiseMax(at);
-      for_each_touching(cell, [&](Index other) { cells_[other] = true; });
+    holding_.assign(counts.size(), false);
+    Cells::Cell low = cells_.cell_of(frame.high), high = cells_.cell_of(frame.low);
+    for (const Index k : large_parts(counts)) {
+      const Cells::Cell cell = cells_.numbered(k);
+      low = low.cwiseMin(cell);
+      high = high.cwiseMax(cell);
+      for_each_touching(k, [&](Index other) { holding_[other] = true; });
     }
-    extent_ = (high - low + Vector3::Ones()).norm() / along;
-    for (Index cell = 0; cell < volume; ++cell)
-      if (cells_[cell]) held_ += counts[cell];
+    extent_ = edge * (high - low + Cells::Cell::Ones()).cast<double>().norm();
+    for (std::size_t k = 0; k < holding_.size(); ++k)
+      if (holding_[k]) held_ += counts[k];
   }
 
-  /// Of the points that the grid was laid over.
+  /// Of the points that the cells were laid over.
   Index held() const { return held_; }
 
   bool has_strays() const { return held_ < total_ && extent_ < most_extent; }
 
-  bool holds(const Vector3& x) const { return cells_[cell_of(x)]; }
+  bool holds(const Vector3& x) const { return holding_[number_at(x)]; }
 
  private:
-  // Off any lattice that the points may lie on: rounding must not decide between two cells.
-  static constexpr double shift = 0.38197;
-  // One more on each side, so that every cell of the cloud has its neighbours.
-  static constexpr Index along = 16, side = along + 3, volume = side * side * side;
-  using Counts = Eigen::Array<Index, volume, 1>;
+  using Counts = Eigen::ArrayX<Index>;
+  static constexpr double edge = 1. / 16;  // diagonals
 
-  Index cell_of(const Vector3& x) const {
-    const Vector3 at = (frame_.enter(x) - frame_.low) * along;
-    Index cell = 0;
-    for (const double a : at)
-      cell = cell * side + 1 + static_cast<Index>(std::clamp<double>(a, 0, along) + shift);
-    return cell;
-  }
+  Index number_at(const Vector3& x) const { return cells_.number(cells_.cell_of(frame_.enter(x))); }
 
   Counts counts_of(PointsView own, const Context& context) const {
     constexpr Index grain = 1 << 16;
-    const Counts none = Counts::Zero();
+    const Counts none = Counts::Zero(cells_.count());
     return summed(context,
                   parallel_sum(context, own.size(), grain, none, [&](Index begin, Index end) {
-                    Counts counts = Counts::Zero();
-                    for (Index i = begin; i < end; ++i) ++counts[cell_of(own[i])];
+                    Counts counts = none;
+                    for (Index i = begin; i < end; ++i) ++counts[number_at(own[i])];
                     return counts;
                   }));
   }
 
   template <typename Visit>
-  static void for_each_touching(Index cell, const Visit& visit) {
-    for (Index x = -1; x <= 1; ++x)
-      for (Index y = -1; y <= 1; ++y)
-        for (Index z = -1; z <= 1; ++z) visit(cell + (x * side + y) * side + z);
+  void for_each_touching(Index number, const Visit& visit) const {
+    cells_.for_each_row_touching(cells_.numbered(number), [&](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k) visit(k);
+    });
   }
 
   // The cells of all connected parts that are more than strays, and than would come together by
   // chance of as many strays as there may be, anywhere in the box.
   std::vector<Index> large_parts(const Counts& counts) const {
     const auto total = static_cast<double>(total_);
-    const double box = ((frame_.high - frame_.low) * along).array().ceil().max(1).prod();
+    const double box = ((frame_.high - frame_.low) / edge).array().ceil().max(1).prod();
     const auto least = static_cast<Index>(2 + 4 * (1 - least_share) * total / box);
-    std::vector<bool> seen(volume, false);
+    std::vector<bool> seen(counts.size(), false);
     std::vector<Index> cells;
-    for (Index start = 0; start < volume; ++start) {
+    for (Index start = 0; start < counts.size(); ++start) {
       const std::size_t first = cells.size();
       Index held = 0;
-      const auto reach = [&](Index cell) {
-        if (seen[cell] || counts[cell] < least) return;
-        seen[cell] = true;
-        held += counts[cell];
-        cells.push_back(cell);
+      const auto reach = [&](Index k) {
+        if (seen[k] || counts[k] < least) return;
+        seen[k] = true;
+        held += counts[k];
+        cells.push_back(k);
       };
       reach(start);
       for (std::size_t k = first; k < cells.size(); ++k) for_each_touching(cells[k], reach);
@@ -99,7 +91,8 @@ class Body {
   }
 
   PrincipalFrame frame_;
-  std::vector<bool> cells_;
+  Cells cells_;
+  std::vector<bool> holding_;
   Index total_ = 0, held_ = 0;
   double extent_ = 0;
 };

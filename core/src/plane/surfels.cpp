@@ -125,7 +125,7 @@ Surfels::Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> unclut
   constexpr int most = 3;
   for (int k = 0; k < most && drop_clutter(patches); ++k) {
     const double kept = static_cast<double>(patches.size()) / wanted;
-    choose_cell(cloud, wanted, grid_.edge() * std::sqrt(kept), context.stage(1, 1));
+    choose_cell(cloud, wanted, grid_.cells().edge() * std::sqrt(kept), context.stage(1, 1));
     patches = patches_of(cloud, context.stage(1, 1));
   }
   make_surfels(patches);
@@ -150,7 +150,7 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
     grid_ = CellGrid(cloud.frame.low, cloud.frame.high, longest / cells);
     for (Index i = 0; i < cloud.points.size(); ++i) {
       const Vector3 x = cloud.frame.enter(cloud.points[i]);
-      if (!is_clutter(x)) grid_.occupy(grid_.cell_of(x));
+      if (!is_clutter(x)) grid_.occupy(grid_.cells().cell_of(x));
     }
     if (context.communicator())
       for (const OccupiedCells::Words& part : gathered(context, grid_.words())) grid_.occupy(part);
@@ -168,11 +168,11 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.enter(cloud.points[i]);
     if (is_clutter(x)) continue;
-    const CellGrid::Cell c = grid_.cell_of(x);
+    const CellGrid::Cell c = grid_.cells().cell_of(x);
     Patch& patch = patches[grid_.number(c)];
     patch.cell = c;
-    patch.moments.add(x - grid_.low());
-    patch.sample({cloud.first + i, (x - grid_.middle(c)).squaredNorm()}, x);
+    patch.moments.add(x - grid_.cells().low());
+    patch.sample({cloud.first + i, (x - grid_.cells().middle(c)).squaredNorm()}, x);
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
@@ -219,11 +219,11 @@ void Surfels::make_surfels(const std::vector<Patch>& patches) {
     const Matrix3 covariance = around.covariance();
     const Thinnest thinnest = thinnest_direction(covariance);
     surfels_.push_back({{thinnest.direction, thinnest.flatness},
-                        grid_.low() + patch.moments.mean(),
+                        grid_.cells().low() + patch.moments.mean(),
                         thinnest.thickness,
                         thinnest.width,
                         patch.sampled,
-                        grid_.low() + around.mean(),
+                        grid_.cells().low() + around.mean(),
                         covariance});
   }
 }

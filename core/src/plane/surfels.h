@@ -51,7 +51,7 @@ class Surfels {
   Points positions(Index count) const;
 
   /// Edge of a cell, about the distance between surfels.
-  double spacing() const { return grid_.edge(); }
+  double spacing() const { return grid_.cells().edge(); }
 
   /// The same of that many points, all the cloud has: on a sheet.
   double spacing_of(Index points) const {
