@@ -62,8 +62,11 @@ class Window:
         return self._xdotool("search", "--onlyvisible", "--name", title).returncode == 0
 
     def click(self, x: int, y: int) -> None:
-        self._xdotool("mousemove", x, y, "click", 1)
-        time.sleep(1)
+        """Clicks there, and waits until that is answered on the screen."""
+        self._xdotool("mousemove", x, y)
+        before = self.seen()
+        self._xdotool("click", 1)
+        self._wait(lambda: not np.array_equal(self.seen(), before))
 
     def press(self, *keys: str) -> None:
         self._xdotool("key", "--delay", 300, *keys)
@@ -73,12 +76,15 @@ class Window:
         time.sleep(2)
         return self.log.read_text()
 
-    def picture(self, name: str) -> np.ndarray:
-        """A picture of the screen, (rows, columns, 3), also left in the folder of pictures."""
-        file = self.pictures / f"{name}.png"
-        subprocess.run(["import", "-window", "root", file], env=self.environment, check=True)
-        raw = subprocess.run(["convert", file, "rgb:-"], check=True, capture_output=True).stdout
+    def seen(self) -> np.ndarray:
+        """The screen, (rows, columns, 3)."""
+        raw = self._import("-depth", "8", "rgb:-").stdout
         return np.frombuffer(raw, np.uint8).reshape(800, 1280, 3).astype(int)
+
+    def picture(self, name: str) -> np.ndarray:
+        """The screen, also left in the folder of pictures."""
+        self._import(self.pictures / f"{name}.png")
+        return self.seen()
 
     def _start_screen(self) -> subprocess.Popen:
         """An X server on a display that nobody has."""
@@ -100,6 +106,10 @@ class Window:
         return subprocess.Popen(
             words, env=self.environment, stdout=sink, stderr=sink, pass_fds=pass_fds
         )
+
+    def _import(self, *words: object) -> subprocess.CompletedProcess:
+        command = ["import", "-silent", "-window", "root", *map(str, words)]
+        return subprocess.run(command, env=self.environment, capture_output=True, check=True)
 
     def _xdotool(self, *words: object) -> subprocess.CompletedProcess:
         command = ["xdotool", *map(str, words)]

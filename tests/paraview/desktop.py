@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -68,9 +68,20 @@ class Desktop:
     def key(self, *keys: str) -> None:
         """Presses keys one after the other, each when the answer to the last one is drawn."""
         for name in keys:
+            before = self.pixels()
             self._do("xdotool", "key", name)
-            time.sleep(0.2)
+            self.wait_until(lambda now, before=before: not np.array_equal(now, before))
             self.settle(rest=0.5)
+
+    def wait_until(self, shown: Callable[[np.ndarray], bool], patience: float = 60) -> np.ndarray:
+        """Waits until `shown` says so of the whole screen's picture; that picture."""
+        deadline = time.monotonic() + patience
+        while time.monotonic() < deadline:
+            now = self.pixels()
+            if shown(now):
+                return now
+            time.sleep(0.2)
+        raise AssertionError(f"not to be seen within {patience:g} s")
 
     def settle(self, rest: float = 2, patience: float = 60) -> np.ndarray:
         """Waits until the picture stays the same for `rest` seconds; that picture."""

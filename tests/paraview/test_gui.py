@@ -42,16 +42,14 @@ def test_menu_apply_and_the_mirror_is_drawn(
     with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
         empty = desktop.settle()[VIEW]
         desktop.key("alt+a")
-        shape = desktop.settle()[VIEW]
-        assert (np.abs(shape - empty).max(-1) > 20).mean() > 0.02
-        assert colourful(shape).mean() < 0.005
+        desktop.wait_until(lambda now: (np.abs(now[VIEW] - empty).max(-1) > 20).mean() > 0.02)
+        assert colourful(desktop.settle()[VIEW]).mean() < 0.005
 
         # From the end of the menu: Temporal, Symmetry; its first entry is Mirror Detection.
         desktop.key("alt+l", "Up", "Up", "Right", "Return")
         desktop.settle()
         desktop.key("alt+a")
-        found = desktop.settle()[VIEW]
-        assert colourful(found).mean() > 0.01
+        desktop.wait_until(lambda now: colourful(now[VIEW]).mean() > 0.01)
 
 
 def test_picture_of_the_mirror(
