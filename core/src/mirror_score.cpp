@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "mirror_layers.h"
 #include "parallel.h"
 #include "plane/agreement.h"
 #include "quantile.h"
@@ -19,6 +20,23 @@ constexpr Index coarse_size = 400, most_samples = 1600;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double least_moved = 0.35;
 constexpr double exact = 1e-6;  // of the cloud's size: the rounding of single precision
+
+// What the best mirror of a kind explains of random blobs, less what the best plane does; and,
+// since of two mirrors that explain the same the simpler is meant, what its freedom costs.
+struct Freedom {
+  double by_chance = 0, cost = 0;
+  bool anywhere = false;  // it may have any height over each place
+};
+
+Freedom freedom_of(std::string_view kind) {
+  static const std::map<std::string_view, Freedom> freedoms{
+      {"sphere", {0.15, 0.01}},          {"cylinder", {0.15, 0.02}},
+      {"quadric", {0.4, 0.03}},          {"height field", {0.85, 0.05, true}},
+      {"free-form", {0.65, 0.06, true}},
+  };
+  const auto found = freedoms.find(kind);
+  return found == freedoms.end() ? Freedom() : found->second;
+}
 
 // The image's normal, from where its tangents go: exact whatever the mirror's curvature.
 Vector3 image_normal(const Mirror& mirror, const Vector3& x, const Vector3& normal,
@@ -82,11 +100,11 @@ void MirrorScore::look_at_neighbours() {
     residuals.push_back(looks.back().residual);
   }
   if (looks.empty()) return;
-  const double typical = median(std::move(residuals));
-  testimony_.meets = std::hypot(testimony_.meets, typical);
-  testimony_.misses = std::hypot(testimony_.misses, 2 * typical);
+  roughness_ = median(std::move(residuals));
+  testimony_.meets = std::hypot(testimony_.meets, roughness_);
+  testimony_.misses = std::hypot(testimony_.misses, 2 * roughness_);
   // A sheet is no mirror of the noise on its two sides.
-  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * typical);
+  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * roughness_);
   double sum = 0;
   for (const Look& look : looks) sum += testimony_(look.residual, look.facing);
   self_ = sum / static_cast<double>(samples_.size());
@@ -102,12 +120,14 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   };
   std::vector<Moved> asked;
   std::vector<Vector3> images;
+  MirrorLayers layers(0.7 * fine_.spacing() * size, 15 * roughness_ * size, size);
   for (const Sample& s : samples_) {
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
       moved += 1;
       continue;
     }
+    layers.add(x, cloud_.frame.axes * s.surfel->normal, image);
     const double weight = displaced((image - x).norm() / (2 * size), moved_tolerance_);
     if (weight <= 0) continue;
     moved += weight;
@@ -132,7 +152,7 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
     sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
   }
   const double witnesses = std::max(moved, least_moved * static_cast<double>(samples_.size()));
-  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses};
+  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses, layers.single()};
 }
 
 void MirrorScore::fill(Result& result) const {
@@ -140,6 +160,8 @@ void MirrorScore::fill(Result& result) const {
   result.score = discounted(found, result.mirror->kind());
   result.statistics["explained_share"] = found.share;
   result.statistics["exact_share"] = found.exactly;
+  if (freedom_of(result.mirror->kind()).anywhere)
+    result.statistics["single_layer"] = found.single_layer;
 }
 
 Result MirrorScore::ranked(const std::string& method,
@@ -161,20 +183,11 @@ Result MirrorScore::ranked(const std::string& method,
 }
 
 double discounted(const Explained& explained, std::string_view kind) {
-  // What the best mirror of a kind explains of random blobs, less what the best plane does; and,
-  // since of two mirrors that explain the same the simpler is meant, what its freedom costs.
-  struct Freedom {
-    double by_chance, cost;
-  };
-  static const std::map<std::string_view, Freedom> freedoms{
-      {"plane", {0, 0}},        {"sphere", {0.15, 0.01}},       {"cylinder", {0.15, 0.02}},
-      {"quadric", {0.4, 0.03}}, {"height field", {0.85, 0.05}}, {"free-form", {0.65, 0.06}},
-  };
-  const auto found = freedoms.find(kind);
-  if (found == freedoms.end()) return explained.share;
-  const double by_chance = found->second.by_chance * (1 - explained.exactly);
+  const Freedom freedom = freedom_of(kind);
+  const double by_chance = freedom.by_chance * (1 - explained.exactly);
   const double beyond = std::max(0.0, explained.share - by_chance) / (1 - by_chance);
-  return (1 - found->second.cost) * beyond;
+  const double placed = freedom.anywhere ? explained.single_layer * (1 - explained.exactly) : 0;
+  return (1 - freedom.cost) * (1 - placed) * beyond;
 }
 
 }  // namespace symsurf

@@ -37,13 +37,15 @@ double distance_past(const Vector3& gap, const Facet& partner, double spacing);
 /// What a mirror explains of a cloud, before the discount for its freedom; both in [0, 1].
 struct Explained {
   double share = 0;
-  double exactly = 0;  ///< share of what the mirror moves whose image is a point, to rounding
+  double exactly = 0;       ///< share of what the mirror moves whose image is a point, to rounding
+  double single_layer = 0;  ///< how far any such cloud has a mirror of any shape: MirrorLayers
 };
 
 /// The one score of all kinds of mirror: the mean testimony of the points that the mirror moves (at
 /// least 35 % of all), over that of the points about their own nearest neighbours, since a perfect
 /// mirror maps the cloud onto another sample of the same sheets. From that is taken what a mirror
-/// of the same freedom explains of random clouds, which have no exact partners.
+/// of the same freedom explains of random clouds, which have no exact partners; and of a mirror
+/// that may have any shape what speaks for nothing, as it fits every cloud of a single layer.
 class MirrorScore {
  public:
   /// The cloud and its points must outlive the score.
@@ -75,6 +77,7 @@ class MirrorScore {
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;
   Testimony testimony_;
+  double roughness_ = 0;  // how far neighbours miss each other's surface
   double moved_tolerance_ = 0.01;
   double self_ = 0;  // what the points' own neighbours explain
 };

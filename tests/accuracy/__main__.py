@@ -6,12 +6,12 @@ import argparse
 import os
 from concurrent.futures import ProcessPoolExecutor
 
-from . import curved, kinds, planes
+from . import curved, deformed, kinds, planes
 from .case import Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-CASES = {case.name: case for case in curved.CASES + kinds.CASES + planes.CASES}
+CASES = {case.name: case for case in curved.CASES + deformed.CASES + kinds.CASES + planes.CASES}
 
 
 def _trial(task: tuple[str, str, int]) -> Figures:

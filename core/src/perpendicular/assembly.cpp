@@ -81,6 +81,10 @@ std::vector<Sheet> assemble(const SearchCloud& cloud, std::vector<Sheet> sheets,
   for (std::size_t k = 0; k < std::min(sheets.size(), most_refined); ++k) {
     context.report(static_cast<double>(k) / most_refined);
     if (rank(sheets[k]) < worth_refining * rank(sheets[0])) break;
+    if (sheets[k].bent && !sheets[k].exact) {
+      wholes.push_back(sheets[k]);
+      continue;
+    }
     Sheet whole = whole_from(cloud, sheets, k);
     refine(cloud, last_rounds, whole);
     wholes.push_back(whole.mirror && whole.explained > sheets[k].explained ? std::move(whole)

@@ -159,13 +159,15 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sh
   sheet.exact = sheet.typical_miss < exact_miss;
 }
 
-bool is_flat(const Sheet& sheet) {
+double flatness(const Sheet& sheet) {
   Matrix3 spread = Matrix3::Zero();
   for (const Carried& c : sheet.carried) spread += c.normal * c.normal.transpose();
   const Vector3 values =
       Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[2] > flat_enough * static_cast<double>(sheet.carried.size());
+  return values[2] / static_cast<double>(sheet.carried.size());
 }
+
+bool is_flat(const Sheet& sheet) { return flatness(sheet) > flat_enough; }
 
 void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
   std::size_t matched = 0;

@@ -17,6 +17,7 @@ struct Sheet {
   std::vector<std::int32_t> points, partners;
   double typical_miss = 0;  ///< median distance from an image to its partner, in spacings
   bool exact = false;       ///< the partners are the images themselves
+  bool bent = false;        ///< smoother than patches that are fitted each to what is near it
   double explained = 0;     ///< share of the points that are carried onto the cloud
 };
 
@@ -30,7 +31,11 @@ using FootOf = std::function<bool(const Vector3& x, Vector3& foot, Vector3& norm
 /// of a partner whose normal fits.
 void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sheet& sheet);
 
-/// Whether all its normals are nearly parallel: a plane, for which there is a method of its own.
+/// How nearly parallel its normals are: the greatest mean square of their products with a
+/// direction.
+double flatness(const Sheet& sheet);
+
+/// Whether it is nearly a plane, for which there is a method of its own.
 bool is_flat(const Sheet& sheet);
 
 /// The share of the points that the sheet carries onto the cloud; points on the sheet itself, which

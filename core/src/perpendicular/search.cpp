@@ -1,8 +1,10 @@
 #include "search.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "assembly.h"
+#include "bending.h"
 #include "exploration.h"
 #include "seeds.h"
 
@@ -11,6 +13,7 @@ namespace symsurf::perpendicular {
 namespace {
 
 constexpr std::size_t few_trials = 6;
+constexpr double convincing = 0.85;  // share of the points
 
 // Whether points have exact partners: smoothing would spoil them.
 bool has_exact_partners(const SearchCloud& cloud, const Seeds& seeds) {
@@ -30,8 +33,11 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
     seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.4, 0.6));
   }
   explore(search.cloud, seeds.along, search.sheets, context.stage(0.6, 0.7));
-  explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.8));
-  search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.8, 1));
+  explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.75));
+  const bool found = std::any_of(search.sheets.begin(), search.sheets.end(),
+                                 [](const Sheet& sheet) { return sheet.explained > convincing; });
+  if (!found) bend_planes(cloud, search.cloud, search.sheets, context.stage(0.75, 0.85));
+  search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.85, 1));
   return search;
 }
 

@@ -1,0 +1,49 @@
+#include "mirror_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double facing = 0.5;  // cosine: 60 degrees from the mirror's normal
+constexpr double steepest = 2;  // that a surface that faces the mirror rises over it
+constexpr double near = 0.02;   // of the size
+constexpr double closes = 0.03, layers_in_many_places = 0.025;  // shares of the cloud
+
+}  // namespace
+
+void MirrorLayers::add(const Vector3& x, const Vector3& normal, const Vector3& image) {
+  ++added_;
+  const Vector3 chord = image - x;
+  const double distance = chord.norm() / 2;
+  if (std::abs(normal.dot(chord)) > facing * 2 * distance)
+    facing_.push_back({(x + image) / 2, distance});
+  else if (distance < near * size_)
+    ++crossing_;
+}
+
+double MirrorLayers::single() const {
+  if (facing_.empty()) return 0;
+  Points feet(static_cast<Index>(facing_.size()), 3);
+  for (Index i = 0; i < feet.rows(); ++i) feet.row(i) = facing_[i].foot.transpose();
+  const PointTree tree(feet);
+  const double least = steepest * apart_ + rough_;
+  Index layered = 0;
+  for (const Place& place : facing_) {
+    bool other = false;
+    tree.within(place.foot, apart_, [&](Index k, double) {
+      other = other || std::abs(facing_[k].distance - place.distance) > least;
+    });
+    layered += other;
+  }
+  const auto share = [&](Index count, double enough) {
+    return std::min(1.0, static_cast<double>(count) / (enough * static_cast<double>(added_)));
+  };
+  return share(crossing_, closes) * (1 - share(layered, layers_in_many_places));
+}
+
+}  // namespace symsurf

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <symsurf/free_form.h>
+
+#include <memory>
+#include <vector>
+
+#include "height_spline.h"
+#include "search_cloud.h"
+
+namespace symsurf::perpendicular {
+
+/// A mirror that starts as a plane and is bent, step by step, until the points' images lie on the
+/// cloud.
+class BentPlane {
+ public:
+  /// Through a point of the plane, as wide as the cloud and finer than it is at the end.
+  BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
+
+  /// One Gauss-Newton step on the points of every `stride`-th place of the tree's order: images are
+  /// drawn to the tangent planes of their partners, against the bending energy times `stiffness`.
+  /// Partners farther than `tolerance` have little say.
+  void step(double tolerance, double stiffness, Index stride);
+
+  void subdivide() { heights_ = heights_.subdivided(); }
+
+  /// The share of those points whose images agreed with the cloud, as it was before the last step.
+  double agreed() const { return agreed_; }
+
+  Vector3 image(const Vector3& x) const;
+
+  /// The mirror near the feet of the points.
+  std::shared_ptr<const FreeForm> free_form() const;
+
+ private:
+  // The foot of a point, in the plane's frame.
+  struct Foot {
+    HeightSpline::At at;
+    Vector3 position, normal;
+    double slant;  // the cosine between the mirror's normal and the plane's, inverted
+  };
+
+  Vector3 enter(const Vector3& x) const { return axes_ * (x - origin_); }
+  Foot foot(const Vector3& x, HeightSpline::At from) const;
+
+  const SearchCloud* cloud_;
+  Vector3 origin_;
+  Matrix3 axes_;  // rows: two along the plane and its normal
+  HeightSpline heights_;
+  std::vector<HeightSpline::At> feet_;  // of the points, as they were last
+  double agreed_ = 0;
+};
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <symsurf/types.h>
+
+#include <array>
+
+namespace symsurf::perpendicular {
+
+/// Heights over a rectangle of a plane: a uniform bicubic B-spline (de Boor, "A Practical Guide to
+/// Splines").
+class HeightSpline {
+ public:
+  using At = Eigen::Vector2d;
+
+  /// The height and its derivatives along the plane.
+  struct Jet {
+    double h, u, v, uu, uv, vv;
+  };
+
+  /// What the coefficients that have a say at a place weigh there: in the height, in its slopes and
+  /// in its second derivatives.
+  struct Weights {
+    static constexpr int count = 16;
+    using Row = Eigen::Matrix<double, 1, count>;
+    std::array<Index, count> index;
+    Row h, u, v, uu, uv, vv;
+  };
+
+  /// Flat, of square cells that cover the rectangle.
+  HeightSpline(const At& low, const At& high, double cell);
+
+  /// The same heights over cells of half the length (Lane and Riesenfeld 1980).
+  HeightSpline subdivided() const;
+
+  /// The place nearest to this that has heights.
+  At clamped(const At& at) const { return at.cwiseMax(low_).cwiseMin(high()); }
+
+  const At& low() const { return low_; }
+  At high() const { return low_ + cell_ * cells_.cast<double>(); }
+
+  Weights weights(const At& at) const;
+  Jet jet(const At& at) const;
+
+  Index size() const { return coefficients_.size(); }
+  void step(const Eigen::VectorXd& by) { coefficients_ += by; }
+  const Eigen::VectorXd& coefficients() const { return coefficients_; }
+
+  /// E with c' E c the mean over the rectangle of h_uu^2 + 2 h_uv^2 + h_vv^2, by Gauss's rule of
+  /// two points a side in each cell.
+  Eigen::MatrixXd bending_energy() const;
+
+ private:
+  HeightSpline(const At& low, double cell, const Eigen::Vector2i& cells);
+
+  At low_;
+  double cell_;
+  Eigen::Vector2i cells_;
+  Eigen::VectorXd coefficients_;  // v fastest, three more than cells along each side
+};
+
+}  // namespace symsurf::perpendicular
