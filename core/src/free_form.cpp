@@ -90,10 +90,7 @@ Mesh FreeForm::mesh_over(PointsView object, int resolution) const {
     if (feet.row(i).allFinite()) feet.row(kept++) = feet.row(i);
   if (kept == 0) return {};
   feet.conservativeResize(kept, 3);
-  return surface_net(feet, resolution, [this](const Vector3& x, double& value) {
-    Vector3 gradient;
-    return blend_->value(x, value, gradient);
-  });
+  return surface_net(feet, resolution, [this](const Vector3& x) { return blend_->value(x); });
 }
 
 }  // namespace symsurf

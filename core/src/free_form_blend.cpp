@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 namespace symsurf {
 
@@ -83,15 +84,16 @@ bool FreeForm::Blend::jet(const Vector3& x, const std::vector<std::int32_t>& pat
   return true;
 }
 
-bool FreeForm::Blend::value(const Vector3& x, double& value, Vector3& gradient) const {
+double FreeForm::Blend::value(const Vector3& x) const {
   std::vector<std::int32_t> patches;
   const Vector3 from_origin = x - origin_;
   around(from_origin, 0, patches);
   Jet here;
-  if (!jet(from_origin, patches, here)) return false;
-  value = here.value;
-  gradient = here.gradient;
-  return true;
+  if (jet(from_origin, patches, here)) return here.value;
+  const Neighbour nearest = tree_.nearest(from_origin);
+  if (nearest.index < 0) return std::numeric_limits<double>::quiet_NaN();  // at infinity
+  const Piece& piece = pieces_[nearest.index];
+  return piece.above(from_origin - piece.centre);
 }
 
 // Newton's method on the conditions of the closest point, x - y = lambda g and f(y) = 0. The

@@ -16,8 +16,8 @@ struct FreeForm::Blend {
 
   const std::vector<Patch>& patches() const { return patches_; }
 
-  /// The blended height of x and its gradient; false where no patch has a say.
-  bool value(const Vector3& x, double& value, Vector3& gradient) const;
+  /// The blended height of x; where no patch has a say, the nearest one's.
+  double value(const Vector3& x) const;
 
   /// The surface's point closest to x, and its unit normal; `precision` is relative to the patches.
   bool closest(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const;
@@ -41,6 +41,8 @@ struct FreeForm::Blend {
     double height;
     Vector3 slope;
     Matrix3 bend;
+
+    double above(const Vector3& d) const { return d.dot(slope + 0.5 * (bend * d)) - height; }
   };
 
   std::vector<Patch> patches_;

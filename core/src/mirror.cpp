@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "cloud.h"
 #include "parallel.h"
 
 namespace symsurf {
@@ -48,7 +49,9 @@ Eigen::VectorXd Mirror::signed_distance(PointsView points, const Context& contex
 
 Mesh Mirror::mesh(PointsView object, int resolution) const {
   if (object.empty())
-    throw InvalidInput("a mirror made by hand has no footprint: give the points of the object");
+    throw InvalidInput("there are no points to lay the mesh over: a mirror made by hand has no "
+                       "footprint of its own, give the points of the object");
+  require_finite(object, "point");
   if (resolution < 1)
     throw InvalidParameter("resolution is " + std::to_string(resolution) +
                            "; allowed is 1 and above");

@@ -92,10 +92,7 @@ Mesh Quadric::mesh_over(PointsView object, int resolution) const {
     throw InvalidInput("none of the " + std::to_string(object.size()) +
                        " points of the object has a foot on this quadric");
   feet.conservativeResize(kept, 3);
-  return surface_net(feet, resolution, [this](const Vector3& x, double& result) {
-    result = value(x);
-    return true;
-  });
+  return surface_net(feet, resolution, [this](const Vector3& x) { return value(x); });
 }
 
 }  // namespace symsurf

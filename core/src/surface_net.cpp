@@ -1,11 +1,14 @@
 #include "surface_net.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <vector>
 
+#include "point_tree.h"
+#include "quantile.h"
 #include "rows_of.h"
 #include "symmetric_matrix.h"
 
@@ -22,6 +25,7 @@ struct Grid {
   double cell = 0;
 
   Vector3 corner(const Cell& c) const { return origin + axes * (cell * Vector3(c[0], c[1], c[2])); }
+  Vector3 middle(const Cell& c) const { return corner(c) + axes * Vector3::Constant(cell / 2); }
   Cell cell_of(const Vector3& x) const {
     const Vector3 at = axes.transpose() * (x - origin) / cell;
     return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
@@ -43,6 +47,19 @@ Grid grid_along(const Points& points, int resolution) {
   return grid;
 }
 
+// How far a point's twelfth neighbour is, in the median: there are no gaps as wide between points,
+// even where each stands twice.
+double typical_distance(const Points& points, const PointTree& tree) {
+  constexpr Index neighbours = 12;
+  std::vector<Neighbour> found;
+  std::vector<double> squared;
+  for (Index i = 0; i < points.rows(); ++i) {
+    tree.nearest(points.row(i), std::min(neighbours + 1, points.rows()), found);
+    squared.push_back(found.back().squared_distance);
+  }
+  return std::sqrt(median(std::move(squared)));
+}
+
 Cell moved(Cell c, int axis, int by) {
   c[axis] += by;
   return c;
@@ -51,7 +68,7 @@ Cell moved(Cell c, int axis, int by) {
 }  // namespace
 
 Mesh surface_net(const Points& on_surface, int resolution,
-                 const std::function<bool(const Vector3&, double&)>& value) {
+                 const std::function<double(const Vector3&)>& value) {
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
   for (Index i = 0; i < on_surface.rows(); ++i) {
@@ -64,10 +81,36 @@ Mesh surface_net(const Points& on_surface, int resolution,
   std::map<Cell, double> values;
   const auto at = [&](const Cell& c) {
     const auto [entry, fresh] = values.try_emplace(c, std::nan(""));
-    double v;
-    if (fresh && value(grid.corner(c), v)) entry->second = v;
+    if (fresh) entry->second = value(grid.corner(c));
     return entry->second;
   };
+  const auto crosses = [&](const Cell& c) {
+    int below = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const double v = at({c[0] + (corner & 1), c[1] + (corner >> 1 & 1), c[2] + (corner >> 2)});
+      if (!std::isfinite(v)) return false;
+      below += v < 0;
+    }
+    return below > 0 && below < 8;
+  };
+
+  const PointTree tree(on_surface);
+  const double reach = std::max(grid.cell, typical_distance(on_surface, tree));
+  std::vector<Cell> open;
+  for (const auto& entry : vertex_of) open.push_back(entry.first);
+  while (!open.empty()) {
+    const Cell c = open.back();
+    open.pop_back();
+    if (!crosses(c)) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int by : {-1, 1}) {
+        const Cell next = moved(c, axis, by);
+        if (vertex_of.contains(next)) continue;
+        if (tree.nearest(grid.middle(next), reach * reach).index < 0) continue;
+        vertex_of[next] = -1;
+        open.push_back(next);
+      }
+  }
 
   std::vector<Vector3> vertices;
   for (auto& [c, vertex] : vertex_of) {

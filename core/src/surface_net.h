@@ -8,8 +8,9 @@ namespace symsurf {
 
 /// Triangulates the zero set of `value` around the given points on it: surface nets (Gibson 1998)
 /// on a grid along the points' principal axes, `resolution` cells along the longest, in cells that
-/// hold a point or touch one that does. `value` gives false where the function is not defined.
+/// hold a point or touch one that does, and from there on as far as the points stand from each
+/// other. `value` is NaN where the function is not defined.
 Mesh surface_net(const Points& on_surface, int resolution,
-                 const std::function<bool(const Vector3& x, double& value)>& value);
+                 const std::function<double(const Vector3& x)>& value);
 
 }  // namespace symsurf

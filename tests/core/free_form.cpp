@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 #include "expect_error.h"
 #include "random_cloud.h"
@@ -101,6 +102,55 @@ TEST(FreeForm, MeshLiesOnTheMirrorAndCoversTheObject) {
   for (Index i = 0; i < feet.rows(); ++i) {
     const double nearest = (mesh.vertices.rowwise() - feet.row(i)).rowwise().norm().minCoeff();
     EXPECT_LT(nearest, 0.06);
+  }
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Vector3 a = mesh.vertices.row(mesh.triangles(t, 0)),
+                  b = mesh.vertices.row(mesh.triangles(t, 1)),
+                  c = mesh.vertices.row(mesh.triangles(t, 2));
+    sum += (b - a).cross(c - a).norm() / 2;
+  }
+  return sum;
+}
+
+// About random places of the cap, a point on either side of each.
+Points about_the_cap(double opening, double width, RandomCloud& random) {
+  constexpr Index places = 1500;
+  Points object(2 * places, 3);
+  for (Index i = 0; i < places; ++i) {
+    const double x = random.uniform(-opening, opening), y = random.uniform(-width, width);
+    const Vector3 foot = Vector3(std::sin(x), y, std::cos(x)).normalized();
+    object.row(2 * i) = 1.1 * foot.transpose();
+    object.row(2 * i + 1) = 0.9 * foot.transpose();
+  }
+  return object;
+}
+
+TEST(FreeForm, MeshHasNoGapsHoweverFine) {
+  RandomCloud random(1);
+  const FreeForm cap(unit_cap(0.8, 0.05));
+  const Points object = about_the_cap(0.5, 0.4, random);
+  const double fine = area(cap.mesh(object, 64));
+  EXPECT_NEAR(area(cap.mesh(object, 128)), fine, 0.05 * fine);
+  EXPECT_NEAR(area(cap.mesh(object, 256)), fine, 0.05 * fine);
+}
+
+// Cells of a thirty-second of the length stick out of what patches reach.
+TEST(FreeForm, MeshOfANarrowMirrorIsWhole) {
+  RandomCloud random(2);
+  std::vector<Patch> strip = unit_cap(0.8, 0.01);
+  std::erase_if(strip, [](const Patch& patch) { return std::abs(patch.centre.y()) > 0.02; });
+  const FreeForm mirror(strip);
+  const Points object = about_the_cap(0.7, 0.015, random);
+  const Mesh mesh = mirror.mesh(object);
+  ASSERT_GT(mesh.triangles.rows(), 0);
+  const Points feet = mirror.project(object);
+  for (Index i = 0; i < feet.rows(); ++i) {
+    const double nearest = (mesh.vertices.rowwise() - feet.row(i)).rowwise().norm().minCoeff();
+    EXPECT_LT(nearest, 1.5 * 1.4 / 32);
   }
 }
 

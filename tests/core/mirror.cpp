@@ -155,6 +155,9 @@ TEST(PlaneMesh, SaysWhatIsWrong) {
   const Points points = RandomCloud(0).box(10);
   expect_error<InvalidParameter>("resolution is 0; allowed is 1 and above",
                                  [&] { plane.mesh(points, 0); });
+  Points broken = points;
+  broken(3, 1) = std::nan("");
+  expect_error<InvalidInput>("point 3", [&] { plane.mesh(broken); });
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <symsurf/sphere.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "random_cloud.h"
 
@@ -192,6 +194,71 @@ TEST(Bend, IsTheSameWhereverTheObjectLiesAndInAnyUnit) {
       const Points back = bend(bent, *there, Bend::Restore);
       EXPECT_LE((back - moved(box)).rowwise().norm().maxCoeff(), 1e-6 * unit + rounding) << away;
     }
+}
+
+// A mirror that bends twice, with random points about it.
+struct BentSolid {
+  Points points, images;
+};
+
+// Two bodies on either side, joined by a bar: along a normal of the mirror there are many sheets.
+BentSolid dumbbell(RandomCloud& random) {
+  constexpr Index count = 4000;
+  BentSolid solid{Points(count, 3), Points(count, 3)};
+  const Matrix3 rotation = random.rotation();
+  const Vector3 shift = 5 * random.in_box();
+  for (Index i = 0; i < count; ++i) {
+    Vector3 x = random.direction();  // u, v and the distance from the mirror
+    if (i % 4 == 0)
+      x = Vector3(0.2 * x.x() + 0.3, 0.12 * x.y(), 0.6 * x.z());
+    else
+      x = Vector3(0.8 * x.x() + 0.2 * x.y() * x.y(), 0.35 * x.y() + 0.1 * std::sin(4 * x.x()),
+                  0.3 * x.z() * (1 + 0.4 * std::sin(5 * x.x() + 1)));
+    // The sides are drawn each by itself.
+    const double distance = i % 2 ? std::abs(x.z()) : -std::abs(x.z());
+    const double height = 0.15 * std::sin(2.5 * x.x()), slope = 0.375 * std::cos(2.5 * x.x());
+    const Vector3 foot(x.x(), x.y(), height), normal = Vector3(-slope, 0, 1).normalized();
+    solid.points.row(i) = (rotation * (foot + distance * normal) + shift).transpose();
+    solid.images.row(i) = (rotation * (foot - distance * normal) + shift).transpose();
+  }
+  return solid;
+}
+
+TEST(Perpendicular, FindsTheBentMiddleOfASolidWithoutExactPartners) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const BentSolid solid = dumbbell(random);
+    const Result result = detect(solid.points, {.method = "perpendicular"});
+    ASSERT_TRUE(result.mirror) << seed;
+    std::vector<double> errors;
+    const Points images = result.mirror->reflect(solid.points);
+    for (Index i = 0; i < images.rows(); ++i) {
+      const double error = (images.row(i) - solid.images.row(i)).norm();
+      errors.push_back(std::isnan(error) ? INFINITY : error);
+    }
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LT(errors[errors.size() / 2], 0.005 * diagonal(solid.points)) << seed;
+    EXPECT_LT(errors[errors.size() * 9 / 10], 0.03 * diagonal(solid.points)) << seed;
+  }
+}
+
+// Every smooth closed body has a bent middle: that it has one says nothing.
+TEST(Perpendicular, ScoresTheMiddleOfARandomBodyLow) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    std::vector<Vector3> bumps;
+    for (int k = 0; k < 6; ++k) bumps.push_back(random.direction());
+    Points points(3000, 3);
+    for (Index i = 0; i < points.rows(); ++i) {
+      const Vector3 x = random.direction();
+      double radius = 1;
+      for (std::size_t k = 0; k < bumps.size(); ++k)
+        radius += (k % 2 ? 0.5 : -0.3) * std::exp(4 * (x.dot(bumps[k]) - 1));
+      points.row(i) = radius * Vector3(x.x(), 0.7 * x.y(), 1.4 * x.z()).transpose();
+    }
+    for (const char* method : {"perpendicular", "fixed_direction"})
+      EXPECT_LT(detect(points, {.method = method}).score, 0.3) << method << ' ' << seed;
+  }
 }
 
 }  // namespace
