@@ -31,7 +31,9 @@ def read_text(path: str | os.PathLike[str]) -> SavedText:
     path = Path(path)
     try:
         lines = path.read_text().splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise InvalidInput(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
         raise InvalidInput(f"{path}: {error}") from error
     figures: dict[str, str] = {}
     rows: list[list[float]] = []

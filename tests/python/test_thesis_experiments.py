@@ -170,6 +170,15 @@ def test_damaged_points_without_truth_take_over_none(tmp_path):
     assert not truth_path(tmp_path / "damaged.xyz").exists()
 
 
+def test_evaluate_goes_on_after_a_file_that_is_not_there(tmp_path):
+    shell("generate perpendicular --output points.xyz", tmp_path)
+    shell("detect points.xyz --method perpendicular --output . --formats txt", tmp_path)
+    done = run_here("evaluate none.txt points.txt --sample points.xyz --json", tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.splitlines() == ["symsurf: none.txt: No such file or directory"]
+    assert json.loads(done.stdout)["file"] == "points.txt"
+
+
 def test_evaluate_a_sphere(tmp_path):
     shell("generate spherical --cloud f1 --centre 1,1,2 --output points.xyz", tmp_path)
     detected(tmp_path, "sphere_thesis", "--sample-size 40", "--radii 3")

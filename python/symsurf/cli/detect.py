@@ -5,19 +5,19 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import detection
-from .._core import InvalidInput, InvalidParameter
+from .._core import InvalidParameter
 from ..result import Result
 from ..sampling import downsample
 from ..saving import FORMATS
 from ..saving.json_format import plain, summary
 from ..shape import read
+from .each_file import for_each_file
 from .method_options import add_method_options, given_parameters
 from .progress_bar import ProgressBar
 from .values import shown, whole
@@ -58,20 +58,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
-    failed = 0
-    for path in arguments.files:
-        try:
-            result = _detect(path, arguments)
-            for output in outputs.get(path, []):
-                result.save(output)
-        except (InvalidInput, OSError, MemoryError) as error:
-            failed += 1
-            reason = str(error) or type(error).__name__
-            named = reason if str(path) in reason else f"{path}: {reason}"
-            print("symsurf:", " ".join(named.split()), file=sys.stderr)
-            continue
+
+    def do(path: Path) -> None:
+        result = _detect(path, arguments)
+        for output in outputs.get(path, []):
+            result.save(output)
         print(json.dumps(_record(path, result)) if arguments.json else _report(path, result))
-    return 1 if failed else 0
+
+    return for_each_file(arguments.files, do)
 
 
 def _detect(path: Path, arguments: argparse.Namespace) -> Result:

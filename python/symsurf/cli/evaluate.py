@@ -12,6 +12,7 @@ from ..saved_text import read_text
 from ..saving.json_format import plain
 from ..shape import read
 from ..truth import read_truth, truth_path
+from .each_file import for_each_file
 
 SUMMARY = "Compare results (TXT) with the truth of the sample they were found in"
 
@@ -29,14 +30,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    for path in arguments.results:
+    def do(path: Path) -> None:
         figures = evaluated(path, arguments.sample)
         if arguments.json:
             print(json.dumps({"file": str(path)} | plain(figures)))
         else:
             print(path)
             print("\n".join(f"  {name:16} {value:.6g}" for name, value in figures.items()))
-    return 0
+
+    return for_each_file(arguments.results, do)
 
 
 def evaluated(result: Path, sample: Path) -> dict[str, float]:

@@ -1,0 +1,25 @@
+"""Several files, of which one that fails does not stop the rest."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from .._core import InvalidInput
+
+
+def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
+    """The exit status; one line a file that failed."""
+    failed = 0
+    for path in files:
+        try:
+            do(path)
+        except BrokenPipeError:
+            raise
+        except (InvalidInput, OSError, MemoryError) as error:
+            failed += 1
+            reason = str(error) or type(error).__name__
+            named = reason if str(path) in reason else f"{path}: {reason}"
+            print("symsurf:", " ".join(named.split()), file=sys.stderr)
+    return 1 if failed else 0
