@@ -12,7 +12,9 @@ namespace {
 constexpr double facing = 0.5;  // cosine: 60 degrees from the mirror's normal
 constexpr double steepest = 2;  // that a surface that faces the mirror rises over it
 constexpr double near = 0.02;   // of the size
-constexpr double closes = 0.03, layers_in_many_places = 0.025;  // shares of the cloud
+// Shares of the cloud: sheets that cross themselves at a crease, and bodies that close.
+constexpr double creased = 0.03, closed = 0.055;
+constexpr double layers_in_many_places = 0.025;
 
 }  // namespace
 
@@ -40,10 +42,11 @@ double MirrorLayers::single() const {
     });
     layered += other;
   }
-  const auto share = [&](Index count, double enough) {
-    return std::min(1.0, static_cast<double>(count) / (enough * static_cast<double>(added_)));
-  };
-  return share(crossing_, closes) * (1 - share(layered, layers_in_many_places));
+  const auto total = static_cast<double>(added_);
+  const double crossing = static_cast<double>(crossing_) / total;
+  const double layers = static_cast<double>(layered) / total;
+  return std::clamp((crossing - creased) / (closed - creased), 0.0, 1.0) *
+         (1 - std::min(1.0, layers / layers_in_many_places));
 }
 
 }  // namespace symsurf

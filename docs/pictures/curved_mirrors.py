@@ -84,6 +84,29 @@ def over_f1(height, count, rng):
     return np.vstack([np.column_stack([x, y, f + side * height(x, y)]) for side in (1, -1)])
 
 
+PARTS = np.array([  # centre and half axes of balls: body, head, and limbs on the one side
+    [0.0, 0.0, 0.0, 0.45, 0.16, 0.11],
+    [0.55, 0.05, 0.0, 0.14, 0.13, 0.09],
+    [0.25, -0.1, 0.2, 0.06, 0.2, 0.05],
+    [-0.05, -0.05, 0.26, 0.12, 0.05, 0.14],
+    [-0.35, -0.12, 0.17, 0.07, 0.18, 0.05],
+])  # fmt: skip
+
+
+def crooked_figure(count, rng):
+    """A body with limbs on either side of a wave; no point has an exact partner."""
+    areas = np.prod(PARTS[:, 3:], axis=1) ** (2 / 3) * (1 + (PARTS[:, 2] > 0))
+    part = PARTS[rng.choice(len(PARTS), size=count, p=areas / areas.sum())]
+    direction = rng.normal(size=(count, 3))
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    x, y, z = (part[:, :3] + part[:, 3:] * direction).T
+    z *= np.where(part[:, 2] > 0, rng.choice([-1, 1], size=count), 1)
+    height, slope = 0.1 * np.sin(4 * x), 0.4 * np.cos(4 * x)
+    normal = np.column_stack([-slope, np.zeros(count), np.ones(count)])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    return np.column_stack([x, y, height]) + z[:, None] * normal
+
+
 def blob(count, rng):
     direction = rng.normal(size=(count, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
@@ -114,6 +137,14 @@ def main(folder):
         Panel("cones, one in the other", sheets("f3", lambda x: 0 * x + 0.25, 600, rng, 2),
               "perpendicular"),
     )  # fmt: skip
+
+    figure = crooked_figure(4000, np.random.default_rng(5))
+    from_above = (0.15, 1, 0.4)
+    picture(
+        folder / "bent_solid.png",
+        Panel("a crooked figure", figure, "plane", from_above, range=3),
+        Panel("the same", figure, "perpendicular", from_above, range=3),
+    )
 
     def dome(x, y):
         return np.sqrt(1 - x**2 - y**2) * (1 + 0.3 * np.sin(4 * x + y))

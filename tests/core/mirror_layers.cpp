@@ -10,7 +10,7 @@ namespace symsurf {
 namespace {
 
 constexpr Index count = 2000;
-constexpr double apart = 0.05, size = 2;
+constexpr double apart = 0.05, size = 3.4;
 
 // Points as normal and place, mirrored in z = 0.
 template <typename Draw>
