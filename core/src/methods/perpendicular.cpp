@@ -52,8 +52,8 @@ Method perpendicular_method() {
   method.name = "perpendicular";
   method.title = "Curved mirror, perpendicular mapping";
   method.summary =
-      "Finds a curved mirror of any shape that maps points along its normals, by growing a sheet "
-      "of oriented midpoints.";
+      "Finds a curved mirror of any shape that maps points along its normals, by growing sheets of "
+      "oriented midpoints and by bending planes.";
   method.parameters = perpendicular::search_parameters();
   method.minimum_points = 12;
   method.automatic = true;
