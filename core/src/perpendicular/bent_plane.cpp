@@ -81,50 +81,56 @@ BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
   return {at, Vector3(at.x(), at.y(), jet.h), upwards / slant, slant};
 }
 
-void BentPlane::step(double tolerance, double stiffness, Index stride) {
+std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
   constexpr double farthest = 3;  // tolerances
   constexpr double least_cosine = 0.6;
+  const Vector3 x = enter(cloud_->point(i));
+  const Foot foot = this->foot(x, feet_[i]);
+  feet_[i] = foot.at;
+  const double distance = foot.normal.dot(x - foot.position);
+  // Near the mirror a point's neighbours are its image's, wherever the mirror is.
+  const double moved = std::clamp(std::abs(distance) / (1.5 * cloud_->spacing) - 0.5, 0.0, 1.0);
+  if (moved == 0) return std::nullopt;
+  const Vector3 image = x - 2 * distance * foot.normal;
+  const double reach = farthest * tolerance;
+  const Neighbour near = cloud_->tree.nearest(axes_.transpose() * image + origin_, reach * reach);
+  if (near.index < 0) return std::nullopt;
+  const Vector3 normal = axes_ * cloud_->normal(i), partner = axes_ * cloud_->normal(near.index);
+  const double cosine = std::abs(partner.dot(normal - 2 * foot.normal.dot(normal) * foot.normal));
+  if (cosine < least_cosine) return std::nullopt;
+
+  // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
+  // 2 d grad q.
+  Pull pull{heights_.weights(foot.at), {}, 0, 0};
+  const double u = -foot.normal.x() / foot.normal.z(), v = -foot.normal.y() / foot.normal.z();
+  Eigen::Matrix2d metric;
+  metric << 1 + u * u, u * v, u * v, 1 + v * v;
+  const At slopes =
+      metric.inverse() * At(partner.x() + u * partner.z(), partner.y() + v * partner.z());
+  pull.row = 2 / foot.slant *
+             (partner.dot(foot.normal) * pull.at.h +
+              distance * (slopes.x() * pull.at.u + slopes.y() * pull.at.v));
+  pull.miss = partner.dot(enter(cloud_->point(near.index)) - image);
+  const double far = near.squared_distance / (tolerance * tolerance);
+  pull.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
+  return pull;
+}
+
+void BentPlane::step(double tolerance, double stiffness, Index stride) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(heights_.size(), heights_.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(heights_.size());
   double total = 0;
   Index looked = 0;
   for (Index p = 0; p < cloud_->size(); p += stride, ++looked) {
-    const Index i = cloud_->tree.order()[p];
-    const Vector3 x = enter(cloud_->point(i));
-    const Foot foot = this->foot(x, feet_[i]);
-    feet_[i] = foot.at;
-    const double distance = foot.normal.dot(x - foot.position);
-    // Near the mirror a point's neighbours are its image's, wherever the mirror is.
-    const double moved = std::clamp(std::abs(distance) / (1.5 * cloud_->spacing) - 0.5, 0.0, 1.0);
-    if (moved == 0) continue;
-    const Vector3 image = x - 2 * distance * foot.normal;
-    const double reach = farthest * tolerance;
-    const Neighbour near = cloud_->tree.nearest(axes_.transpose() * image + origin_, reach * reach);
-    if (near.index < 0) continue;
-    const Vector3 normal = axes_ * cloud_->normal(i), partner = axes_ * cloud_->normal(near.index);
-    const double cosine = std::abs(partner.dot(normal - 2 * foot.normal.dot(normal) * foot.normal));
-    if (cosine < least_cosine) continue;
-    const double far = near.squared_distance / (tolerance * tolerance);
-    const double weight = moved * cosine * cosine / ((1 + far) * (1 + far));
-    total += weight;
-
-    // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
-    // 2 d grad q.
-    const Weights w = heights_.weights(foot.at);
-    const double u = -foot.normal.x() / foot.normal.z(), v = -foot.normal.y() / foot.normal.z();
-    Eigen::Matrix2d metric;
-    metric << 1 + u * u, u * v, u * v, 1 + v * v;
-    const At slopes =
-        metric.inverse() * At(partner.x() + u * partner.z(), partner.y() + v * partner.z());
-    const Weights::Row row =
-        2 / foot.slant *
-        (partner.dot(foot.normal) * w.h + distance * (slopes.x() * w.u + slopes.y() * w.v));
-    const double miss = partner.dot(enter(cloud_->point(near.index)) - image);
+    const auto pull = pull_of(cloud_->tree.order()[p], tolerance);
+    if (!pull) continue;
+    total += pull->weight;
     const Eigen::Matrix<double, Weights::count, Weights::count> products =
-        weight * row.transpose() * row;
+        pull->weight * pull->row.transpose() * pull->row;
+    const auto& index = pull->at.index;
     for (int a = 0; a < Weights::count; ++a) {
-      right[w.index[a]] += weight * miss * row[a];
-      for (int b = 0; b < Weights::count; ++b) matrix(w.index[a], w.index[b]) += products(a, b);
+      right[index[a]] += pull->weight * pull->miss * pull->row[a];
+      for (int b = 0; b < Weights::count; ++b) matrix(index[a], index[b]) += products(a, b);
     }
   }
   agreed_ = total / static_cast<double>(looked);

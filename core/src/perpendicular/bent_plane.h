@@ -3,6 +3,7 @@
 #include <symsurf/free_form.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "height_spline.h"
@@ -14,7 +15,7 @@ namespace symsurf::perpendicular {
 /// cloud.
 class BentPlane {
  public:
-  /// Through a point of the plane, as wide as the cloud and finer than it is at the end.
+  /// Through a point of the plane, as wide as the cloud. The cloud must outlive it.
   BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
 
   /// One Gauss-Newton step on the points of every `stride`-th place of the tree's order: images are
@@ -37,11 +38,20 @@ class BentPlane {
   struct Foot {
     HeightSpline::At at;
     Vector3 position, normal;
-    double slant;  // the cosine between the mirror's normal and the plane's, inverted
+    double slant;  // one over the cosine between the mirror's normal and the plane's
+  };
+
+  // How far a point's image is off its partner's tangent plane, and what each coefficient that has
+  // a say at the foot does about it.
+  struct Pull {
+    HeightSpline::Weights at;
+    HeightSpline::Weights::Row row;
+    double miss, weight;
   };
 
   Vector3 enter(const Vector3& x) const { return axes_ * (x - origin_); }
   Foot foot(const Vector3& x, HeightSpline::At from) const;
+  std::optional<Pull> pull_of(Index i, double tolerance);
 
   const SearchCloud* cloud_;
   Vector3 origin_;
