@@ -54,7 +54,9 @@ def test_picture_without_the_mirror_where_it_maps_no_point(result, tmp_path):
     """A sphere has no mesh there, a free form an empty one; both leave the bare object."""
     points = result.points
     free_form = symsurf.detect(points, "perpendicular").mirror
-    for mirror, moved in (symsurf.Sphere((500, 0, 0), 1), 0), (free_form, 500):
+    over = free_form.mesh()[0]
+    beside = 500 * np.linalg.svd(over - over.mean(axis=0), full_matrices=False)[2][0]
+    for mirror, moved in (symsurf.Sphere((500, 0, 0), 1), 0), (free_form, beside):
         symsurf.match(points + moved, mirror).plot(tmp_path / "bare.png")
         bare = pixels(tmp_path / "bare.png")
         grey = (abs(bare - UNPAIRED) < 10).all(axis=1).mean()
