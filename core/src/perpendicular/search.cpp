@@ -13,7 +13,7 @@ namespace symsurf::perpendicular {
 namespace {
 
 constexpr std::size_t few_trials = 6;
-constexpr double convincing = 0.85;  // share of the points
+constexpr double convincing = 0.85, convincing_exactly = 0.3;  // shares of the points
 
 // Whether points have exact partners: smoothing would spoil them.
 bool has_exact_partners(const SearchCloud& cloud, const Seeds& seeds) {
@@ -34,8 +34,10 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   }
   explore(search.cloud, seeds.along, search.sheets, context.stage(0.6, 0.7));
   explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.75));
-  const bool found = std::any_of(search.sheets.begin(), search.sheets.end(),
-                                 [](const Sheet& sheet) { return sheet.explained > convincing; });
+  const bool found =
+      std::any_of(search.sheets.begin(), search.sheets.end(), [](const Sheet& sheet) {
+        return sheet.explained > (sheet.exact ? convincing_exactly : convincing);
+      });
   if (!found) bend_planes(cloud, search.cloud, search.sheets, context.stage(0.75, 0.85));
   search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.85, 1));
   return search;
