@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include "mirror_layers.h"
 #include "parallel.h"
@@ -120,14 +121,16 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   };
   std::vector<Moved> asked;
   std::vector<Vector3> images;
-  MirrorLayers layers(0.7 * fine_.spacing() * size, 15 * roughness_ * size, size);
+  std::optional<MirrorLayers> layers;
+  if (freedom_of(mirror.kind()).anywhere)
+    layers.emplace(0.7 * fine_.spacing() * size, 15 * roughness_ * size, size);
   for (const Sample& s : samples_) {
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
       moved += 1;
       continue;
     }
-    layers.add(x, cloud_.frame.axes * s.surfel->normal, image);
+    if (layers) layers->add(x, cloud_.frame.axes * s.surfel->normal, image);
     const double weight = displaced((image - x).norm() / (2 * size), moved_tolerance_);
     if (weight <= 0) continue;
     moved += weight;
@@ -152,7 +155,8 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
     sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
   }
   const double witnesses = std::max(moved, least_moved * static_cast<double>(samples_.size()));
-  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses, layers.single()};
+  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses,
+          layers ? layers->single() : 0};
 }
 
 void MirrorScore::fill(Result& result) const {
@@ -186,7 +190,7 @@ double discounted(const Explained& explained, std::string_view kind) {
   const Freedom freedom = freedom_of(kind);
   const double by_chance = freedom.by_chance * (1 - explained.exactly);
   const double beyond = std::max(0.0, explained.share - by_chance) / (1 - by_chance);
-  const double placed = freedom.anywhere ? explained.single_layer * (1 - explained.exactly) : 0;
+  const double placed = explained.single_layer * (1 - explained.exactly);
   return (1 - freedom.cost) * (1 - placed) * beyond;
 }
 

@@ -38,7 +38,7 @@ double distance_past(const Vector3& gap, const Facet& partner, double spacing);
 struct Explained {
   double share = 0;
   double exactly = 0;       ///< share of what the mirror moves whose image is a point, to rounding
-  double single_layer = 0;  ///< how far any such cloud has a mirror of any shape: MirrorLayers
+  double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
 };
 
 /// The one score of all kinds of mirror: the mean testimony of the points that the mirror moves (at

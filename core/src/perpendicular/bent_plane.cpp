@@ -51,6 +51,7 @@ BentPlane::BentPlane(const SearchCloud& cloud, const Vector3& point, const Vecto
       origin_(point),
       axes_(axes_along(cloud, point, normal)),
       heights_(flat_over(cloud, point, axes_)),
+      energy_(heights_.bending_energy()),
       feet_(cloud.size()) {
   for (Index i = 0; i < cloud.size(); ++i) feet_[i] = enter(cloud.point(i)).head<2>();
 }
@@ -135,9 +136,14 @@ void BentPlane::step(double tolerance, double stiffness, Index stride) {
   }
   agreed_ = total / static_cast<double>(looked);
   if (total == 0) return;
-  const Eigen::MatrixXd energy = stiffness * heights_.bending_energy();
+  const Eigen::MatrixXd energy = stiffness * energy_;
   heights_.step(solved<Eigen::Dynamic>(matrix / total + energy,
                                        right / total - energy * heights_.coefficients()));
+}
+
+void BentPlane::subdivide() {
+  heights_ = heights_.subdivided();
+  energy_ = heights_.bending_energy();
 }
 
 Vector3 BentPlane::image(const Vector3& x) const {

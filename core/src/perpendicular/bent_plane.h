@@ -23,7 +23,7 @@ class BentPlane {
   /// Partners farther than `tolerance` have little say.
   void step(double tolerance, double stiffness, Index stride);
 
-  void subdivide() { heights_ = heights_.subdivided(); }
+  void subdivide();
 
   /// The share of those points whose images agreed with the cloud, as it was before the last step.
   double agreed() const { return agreed_; }
@@ -57,6 +57,7 @@ class BentPlane {
   Vector3 origin_;
   Matrix3 axes_;  // rows: two along the plane and its normal
   HeightSpline heights_;
+  Eigen::MatrixXd energy_;              // theirs
   std::vector<HeightSpline::At> feet_;  // of the points, as they were last
   double agreed_ = 0;
 };
