@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../keep_unlike.h"
 #include "../plane/candidates.h"
 #include "bent_plane.h"
 
@@ -15,6 +16,7 @@ constexpr double alike = 0.05;               // mirrors closer than this are one
 constexpr Index few = 600, many = 2000;      // points that planes are bent by
 constexpr std::size_t most_bent = 3;         // to the end
 constexpr double unbent = 0.997;             // flatness of what is a plane still
+constexpr double foot_precision = 1e-6;
 
 // From a stiff plane that looks far to one that bends and looks near.
 constexpr int stages = 16, glance = 6, steps = 2;
@@ -67,20 +69,6 @@ bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b
   return squared < alike * alike * static_cast<double>(count);
 }
 
-// Those that differ, best first.
-void keep_best(const SearchCloud& search, std::vector<BentPlane>& bent) {
-  std::stable_sort(bent.begin(), bent.end(),
-                   [](const BentPlane& a, const BentPlane& b) { return a.agreed() > b.agreed(); });
-  std::vector<BentPlane> kept;
-  for (BentPlane& plane : bent) {
-    if (kept.size() == most_bent) break;
-    if (std::none_of(kept.begin(), kept.end(),
-                     [&](const BentPlane& better) { return act_alike(search, plane, better); }))
-      kept.push_back(std::move(plane));
-  }
-  bent = std::move(kept);
-}
-
 }  // namespace
 
 void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Sheet>& sheets,
@@ -90,19 +78,16 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Shee
     bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
     bend(search, 0, glance, few, bent.back());
   }
-  keep_best(search, bent);
+  std::stable_sort(bent.begin(), bent.end(),
+                   [](const BentPlane& a, const BentPlane& b) { return a.agreed() > b.agreed(); });
+  keep_unlike(bent, most_bent,
+              [&](const BentPlane& a, const BentPlane& b) { return act_alike(search, a, b); });
   for (std::size_t k = 0; k < bent.size(); ++k) {
     context.stage(0.4, 1).report(static_cast<double>(k) / most_bent);
     bend(search, glance, stages, many, bent[k]);
     Sheet sheet;
     sheet.mirror = bent[k].free_form();
-    const FreeForm& mirror = *sheet.mirror;
-    match(
-        search,
-        [&](const Vector3& x, Vector3& foot, Vector3& normal) {
-          return mirror.foot(x, 1e-6, foot, normal);
-        },
-        1.3, sheet);
+    match(search, foot_precision, sheet);
     if (sheet.carried.size() < 6 || flatness(sheet) > unbent) continue;
     sheet.explained = explained(search, sheet);
     sheet.bent = true;

@@ -35,7 +35,7 @@ void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, 
                double pair_distance, const Context& context) {
   PointTree tree(cloud.points, context.stage(0, 0.2));
   // Farther off there are only mere neighbours.
-  const double limit = std::min(pair_distance, (sheet.exact ? 0.8 : 1.3) * searched.spacing);
+  const double limit = std::min(pair_distance, reach(sheet) * searched.spacing);
   symsurf::add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
                      context.stage(0.2, 0.7));
   if (!sheet.exact)

@@ -93,7 +93,7 @@ std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> mod
           normal = (x - foot) / distance;
           return true;
         },
-        sheet.exact ? 0.8 : 1.3, sheet);
+        sheet);
     if (static_cast<int>(sheet.points.size()) < 2 * model->size()) return nullptr;
     if (round < rounds) improve(cloud, sheet, model);
   }

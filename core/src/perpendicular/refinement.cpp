@@ -127,7 +127,9 @@ double local_spacing(const SearchCloud& cloud, Index i) {
 
 }  // namespace
 
-void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sheet& sheet) {
+double reach(const Sheet& sheet) { return sheet.exact ? 0.8 : 1.3; }
+
+void match(const SearchCloud& cloud, const FootOf& foot_of, Sheet& sheet) {
   sheet.carried.clear();
   sheet.points.clear();
   sheet.partners.clear();
@@ -140,8 +142,8 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sh
     if (!foot_of(x, c.foot, c.normal)) continue;
     c.distance = c.normal.dot(x - c.foot);
     const Vector3 image = x - 2 * c.distance * c.normal;
-    const double reach = tolerance * local_spacing(cloud, i);
-    const Neighbour near = cloud.tree.nearest(image, reach * reach);
+    const double farthest = reach(sheet) * local_spacing(cloud, i);
+    const Neighbour near = cloud.tree.nearest(image, farthest * farthest);
     if (near.index < 0 || near.index == i) continue;
     const Vector3 n = cloud.normal(i), other = cloud.normal(near.index);
     const double cosine = std::abs(other.dot(n - 2 * c.normal.dot(n) * c.normal));
@@ -157,6 +159,15 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sh
   if (misses.empty()) return;
   sheet.typical_miss = median(std::move(misses));
   sheet.exact = sheet.typical_miss < exact_miss;
+}
+
+void match(const SearchCloud& cloud, double precision, Sheet& sheet) {
+  match(
+      cloud,
+      [&](const Vector3& x, Vector3& foot, Vector3& normal) {
+        return sheet.mirror->foot(x, precision, foot, normal);
+      },
+      sheet);
 }
 
 double flatness(const Sheet& sheet) {
@@ -180,14 +191,7 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
     sheet.mirror = fitted(cloud, sheet.carried,
                           fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!sheet.mirror) return;
-    const FreeForm& mirror = *sheet.mirror;
-    const double precision = sheet.exact ? exact_foot_precision : foot_precision;
-    match(
-        cloud,
-        [&](const Vector3& x, Vector3& foot, Vector3& normal) {
-          return mirror.foot(x, precision, foot, normal);
-        },
-        sheet.exact ? 0.8 : 1.3, sheet);
+    match(cloud, sheet.exact ? exact_foot_precision : foot_precision, sheet);
     if (sheet.carried.size() < 6) {
       sheet.mirror = nullptr;
       return;

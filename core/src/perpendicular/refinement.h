@@ -27,9 +27,14 @@ void refine(const SearchCloud& cloud, int rounds, Sheet& sheet);
 
 /// Carries all points over a mirror: gives its foot for x and its normal there, or false.
 using FootOf = std::function<bool(const Vector3& x, Vector3& foot, Vector3& normal)>;
-/// Fills what the sheet has carried with the points whose images fall within `tolerance` spacings
-/// of a partner whose normal fits.
-void match(const SearchCloud& cloud, const FootOf& foot_of, double tolerance, Sheet& sheet);
+/// Fills what the sheet has carried with the points whose images fall within its reach of a partner
+/// whose normal fits.
+void match(const SearchCloud& cloud, const FootOf& foot_of, Sheet& sheet);
+/// The same over the sheet's own mirror, feet to a precision relative to its patches.
+void match(const SearchCloud& cloud, double precision, Sheet& sheet);
+
+/// How far from its image a partner may be, in spacings.
+double reach(const Sheet& sheet);
 
 /// How nearly parallel its normals are: the greatest mean square of their products with a
 /// direction.

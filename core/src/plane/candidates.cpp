@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "../keep_unlike.h"
 #include "../parametric/settling.h"
 #include "plane_step.h"
 
@@ -160,14 +161,10 @@ PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandid
 
 void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
   sort_best_first(candidates);
-  std::vector<PlaneCandidate> kept;
-  for (const PlaneCandidate& candidate : candidates) {
-    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const PlaneCandidate& other) {
-      return difference(other.plane, candidate.plane) < distance;
-    });
-    if (is_new && static_cast<Index>(kept.size()) < count) kept.push_back(candidate);
-  }
-  candidates = std::move(kept);
+  keep_unlike(candidates, static_cast<std::size_t>(count),
+              [&](const PlaneCandidate& candidate, const PlaneCandidate& other) {
+                return difference(other.plane, candidate.plane) < distance;
+              });
 }
 
 }  // namespace symsurf
