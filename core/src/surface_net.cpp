@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "point_tree.h"
-#include "quantile.h"
 #include "rows_of.h"
+#include "sheet_spacing.h"
 #include "symmetric_matrix.h"
 
 namespace symsurf {
@@ -47,19 +47,6 @@ Grid grid_along(const Points& points, int resolution) {
   return grid;
 }
 
-// How far a point's twelfth neighbour is, in the median: there are no gaps as wide between points,
-// even where each stands twice.
-double typical_distance(const Points& points, const PointTree& tree) {
-  constexpr Index neighbours = 12;
-  std::vector<Neighbour> found;
-  std::vector<double> squared;
-  for (Index i = 0; i < points.rows(); ++i) {
-    tree.nearest(points.row(i), std::min(neighbours + 1, points.rows()), found);
-    squared.push_back(found.back().squared_distance);
-  }
-  return std::sqrt(median(std::move(squared)));
-}
-
 Cell moved(Cell c, int axis, int by) {
   c[axis] += by;
   return c;
@@ -94,8 +81,11 @@ Mesh surface_net(const Points& on_surface, int resolution,
     return below > 0 && below < 8;
   };
 
+  // Between points spread over a sheet there are no gaps as wide; both points of an exact pair
+  // stand at one place.
+  constexpr double gap = 1.4;  // spacings
   const PointTree tree(on_surface);
-  const double reach = std::max(grid.cell, typical_distance(on_surface, tree));
+  const double reach = std::max(grid.cell, gap * sheet_spacing(on_surface, tree, 2));
   std::vector<Cell> open;
   for (const auto& entry : vertex_of) open.push_back(entry.first);
   while (!open.empty()) {
