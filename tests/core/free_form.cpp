@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expect_error.h"
+#include "mesh_area.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -103,17 +104,6 @@ TEST(FreeForm, MeshLiesOnTheMirrorAndCoversTheObject) {
     const double nearest = (mesh.vertices.rowwise() - feet.row(i)).rowwise().norm().minCoeff();
     EXPECT_LT(nearest, 0.06);
   }
-}
-
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-    const Vector3 a = mesh.vertices.row(mesh.triangles(t, 0)),
-                  b = mesh.vertices.row(mesh.triangles(t, 1)),
-                  c = mesh.vertices.row(mesh.triangles(t, 2));
-    sum += (b - a).cross(c - a).norm() / 2;
-  }
-  return sum;
 }
 
 // About random places of the cap, a point on either side of each.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "expect_error.h"
+#include "mesh_area.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -106,17 +107,6 @@ bool is_in(const Mesh& mesh, Index triangle, const Vector3& x) {
   edges << corner(1) - corner(0), corner(2) - corner(0);
   const Eigen::Vector2d at = edges.colPivHouseholderQr().solve(x - corner(0));
   return at.minCoeff() >= -1e-9 && at.sum() <= 1 + 1e-9;
-}
-
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-    const Vector3 a = mesh.vertices.row(mesh.triangles(t, 0));
-    const Vector3 b = mesh.vertices.row(mesh.triangles(t, 1));
-    const Vector3 c = mesh.vertices.row(mesh.triangles(t, 2));
-    sum += (b - a).cross(c - a).norm() / 2;
-  }
-  return sum;
 }
 
 TEST(PlaneMesh, CoversTheFootprint) {

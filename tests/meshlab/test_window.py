@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from airplane import bent_airplane, write_obj
 from conftest import BUILD, plugin_file
@@ -78,13 +79,15 @@ class Window:
 
     def seen(self) -> np.ndarray:
         """The screen, (rows, columns, 3)."""
-        raw = self._import("-depth", "8", "rgb:-").stdout
-        return np.frombuffer(raw, np.uint8).reshape(800, 1280, 3).astype(int)
+        command = ["import", "-silent", "-window", "root", "-depth", "8", "rgb:-"]
+        done = subprocess.run(command, env=self.environment, capture_output=True, check=True)
+        return np.frombuffer(done.stdout, np.uint8).reshape(800, 1280, 3).astype(int)
 
     def picture(self, name: str) -> np.ndarray:
         """The screen, also left in the folder of pictures."""
-        self._import(self.pictures / f"{name}.png")
-        return self.seen()
+        seen = self.seen()
+        Image.fromarray(seen.astype(np.uint8)).save(self.pictures / f"{name}.png")
+        return seen
 
     def _start_screen(self) -> subprocess.Popen:
         """An X server on a display that nobody has."""
@@ -106,10 +109,6 @@ class Window:
         return subprocess.Popen(
             words, env=self.environment, stdout=sink, stderr=sink, pass_fds=pass_fds
         )
-
-    def _import(self, *words: object) -> subprocess.CompletedProcess:
-        command = ["import", "-silent", "-window", "root", *map(str, words)]
-        return subprocess.run(command, env=self.environment, capture_output=True, check=True)
 
     def _xdotool(self, *words: object) -> subprocess.CompletedProcess:
         command = ["xdotool", *map(str, words)]

@@ -9,12 +9,15 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import pytest
 
 PROGRAMS = ("openbox", "xdotool", "import", "convert", "paraview")
 SIZE = (1280, 860)
+
+Found = TypeVar("Found")
 
 
 @contextmanager
@@ -75,13 +78,12 @@ class Desktop:
 
     def wait_until(self, shown: Callable[[np.ndarray], bool], patience: float = 60) -> np.ndarray:
         """Waits until `shown` says so of the whole screen's picture; that picture."""
-        deadline = time.monotonic() + patience
-        while time.monotonic() < deadline:
+
+        def picture() -> np.ndarray | None:
             now = self.pixels()
-            if shown(now):
-                return now
-            time.sleep(0.2)
-        raise AssertionError(f"not to be seen within {patience:g} s")
+            return now if shown(now) else None
+
+        return _wait_for(picture, "what should be on the screen", patience)
 
     def settle(self, rest: float = 2, patience: float = 60) -> np.ndarray:
         """Waits until the picture stays the same for `rest` seconds; that picture."""
@@ -119,15 +121,24 @@ class Desktop:
         return subprocess.run(command, env=self._environment, capture_output=True, check=True)
 
     def _wait_for_window(self, name: str, patience: float = 60) -> str:
-        deadline = time.monotonic() + patience
-        while time.monotonic() < deadline:
+        def window() -> str | None:
             found = subprocess.run(
                 ["xdotool", "search", "--onlyvisible", "--name", name],
                 env=self._environment,
                 capture_output=True,
                 text=True,
             )
-            if found.stdout.strip():
-                return found.stdout.split()[-1]
-            time.sleep(0.3)
-        raise AssertionError(f"no window {name}")
+            return found.stdout.split()[-1] if found.stdout.strip() else None
+
+        return _wait_for(window, f"window {name}", patience)
+
+
+def _wait_for(look: Callable[[], Found | None], name: str, patience: float) -> Found:
+    """What `look` gives as soon as that is not None."""
+    deadline = time.monotonic() + patience
+    while time.monotonic() < deadline:
+        found = look()
+        if found is not None:
+            return found
+        time.sleep(0.2)
+    raise AssertionError(f"no {name} within {patience:g} s")
