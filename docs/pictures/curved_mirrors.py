@@ -84,6 +84,11 @@ def over_f1(height, count, rng):
     return np.vstack([np.column_stack([x, y, f + side * height(x, y)]) for side in (1, -1)])
 
 
+def directions(count, rng):
+    x = rng.normal(size=(count, 3))
+    return x / np.linalg.norm(x, axis=1, keepdims=True)
+
+
 PARTS = np.array([  # centre and half axes of balls: body, head, and limbs on the one side
     [0.0, 0.0, 0.0, 0.45, 0.16, 0.11],
     [0.55, 0.05, 0.0, 0.14, 0.13, 0.09],
@@ -97,9 +102,7 @@ def crooked_figure(count, rng):
     """A body with limbs on either side of a wave; no point has an exact partner."""
     areas = np.prod(PARTS[:, 3:], axis=1) ** (2 / 3) * (1 + (PARTS[:, 2] > 0))
     part = PARTS[rng.choice(len(PARTS), size=count, p=areas / areas.sum())]
-    direction = rng.normal(size=(count, 3))
-    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    x, y, z = (part[:, :3] + part[:, 3:] * direction).T
+    x, y, z = (part[:, :3] + part[:, 3:] * directions(count, rng)).T
     z *= np.where(part[:, 2] > 0, rng.choice([-1, 1], size=count), 1)
     height, slope = 0.1 * np.sin(4 * x), 0.4 * np.cos(4 * x)
     normal = np.column_stack([-slope, np.zeros(count), np.ones(count)])
@@ -108,8 +111,7 @@ def crooked_figure(count, rng):
 
 
 def blob(count, rng):
-    direction = rng.normal(size=(count, 3))
-    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    direction = directions(count, rng)
     waves = rng.normal(size=(12, 3)) * rng.uniform(1, 4, size=(12, 1))
     bumps = np.cos(direction @ waves.T + rng.uniform(0, 6, size=12)) @ rng.normal(size=12)
     return direction * np.exp(0.4 * bumps / bumps.std())[:, None]
@@ -155,8 +157,7 @@ def main(folder):
         Panel("a closed body about f1", body, "fixed_direction"),
         Panel("with noise", body + 0.02 * rng.normal(size=body.shape), "fixed_direction"),
     )
-    ball = rng.normal(size=(800, 3))
-    ball /= np.linalg.norm(ball, axis=1, keepdims=True)
+    ball = directions(800, rng)
     close = sheets("f1", lambda x: 0 * x + 0.05, 400, rng, 2, noise=0.08)
     picture(
         folder / "not_found.png",
