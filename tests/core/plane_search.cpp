@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "quantile.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -132,6 +134,28 @@ TEST(PlaneSearch, FindsThePlaneOfHalfAnObject) {
     EXPECT_LT(angle(result, truth), 2) << seed;
     EXPECT_LT(offset(result, truth, half), 0.01) << seed;
   }
+}
+
+// Few pairs there tell of the mirror, and all of them at short range.
+TEST(PlaneSearch, MostlyFindsThePlaneOfHalfAnObjectWithAStripOfTheOtherHalf) {
+  constexpr int trials = 10, least_found = 7;
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < trials; ++seed) {
+    RandomCloud random(seed);
+    const Points whole = lumpy_ball(random, 4096, false);
+    std::vector<double> depths;
+    for (Index i = 0; i < whole.rows(); ++i)
+      if (whole(i, 0) < 0) depths.push_back(-whole(i, 0));
+    const double strip = quantile(std::move(depths), 0.3);
+    Points half(whole.rows(), 3);
+    Index kept = 0;
+    for (Index i = 0; i < whole.rows(); ++i)
+      if (whole(i, 0) > -strip) half.row(kept++) = whole.row(i);
+    half.conservativeResize(kept, 3);
+    const Result result = detected(half);
+    found += angle(result, truth) < 2 && offset(result, truth, half) < 0.01;
+  }
+  EXPECT_GE(found, least_found);
 }
 
 TEST(PlaneSearch, DoesNotDependOnPose) {

@@ -1,6 +1,7 @@
 #include <symsurf/plane.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "../gathered.h"
 #include "../mirror_score.h"
@@ -18,15 +19,25 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 20;         // candidates that are settled on the surfels, roughly
-constexpr Index settled_well = 14;    // of these, are settled closely
-constexpr Index quickly_fitted = 10;  // of these, are fitted to the full cloud
-constexpr Index finalists = 6;        // of these, are fitted carefully
-constexpr double convincing = 0.05;   // below the best by this share of it: worth the last digits
-constexpr double hopeless = 0.4;      // further below than that: not worth fitting
-constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
-constexpr double alike = 0.05;        // planes closer than this are one
-constexpr Index measured = 150;       // surfels that the measure is taken over
+constexpr double convincing = 0.05;  // below the best by this share of it: worth the last digits
+constexpr double meagre = 0.3;       // a best that explains less has the margins of one like this
+constexpr double alike = 0.05;       // planes closer than this are one
+constexpr Index measured = 150;      // surfels that the measure is taken over
+
+struct Effort {
+  Search search;
+  Index started;         // candidates that are settled on the surfels, roughly
+  Index settled_well;    // of these, are settled closely
+  Index quickly_fitted;  // of these, are fitted to the full cloud
+  Index finalists;       // of these, are fitted carefully
+  double hopeless;       // below the best by this share of it: not worth fitting
+};
+
+constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.4};
+// For clouds that a usual search explains no better than this: where most of one side is missing,
+// few pairs tell of the mirror, and patches tell it badly from others.
+constexpr double unexplained = 0.15;
+constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
 
 // Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
 void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
@@ -42,28 +53,51 @@ void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candida
 
 double below(double best, double share) { return best - share * std::max(best, meagre); }
 
-void drop_hopeless(std::vector<PlaneCandidate>& candidates) {
-  const double least = below(candidates.front().explained, hopeless);
+void drop_hopeless(std::vector<PlaneCandidate>& candidates, double share) {
+  const double least = below(candidates.front().explained, share);
   std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
 }
 
 // On the thinned cloud alone.
-std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Context& context) {
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Effort& effort,
+                                             const Context& context) {
   const SurfelMap map(surfels);
-  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
+  std::vector<PlaneCandidate> candidates =
+      candidate_planes(surfels, map, effort.search, effort.started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
-  keep_distinct(candidates, alike, started);
+  keep_distinct(candidates, alike, effort.started);
   context.report(0.5);
   climb(surfels, map, candidates.front());
-  drop_hopeless(candidates);
-  keep_distinct(candidates, alike, settled_well);
+  drop_hopeless(candidates, effort.hopeless);
+  keep_distinct(candidates, alike, effort.settled_well);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
-  keep_distinct(candidates, alike, quickly_fitted);
+  keep_distinct(candidates, alike, effort.quickly_fitted);
   context.report(1);
   return candidates;
+}
+
+// Each by itself.
+template <typename Step>
+void improve(std::vector<PlaneCandidate>& candidates, const Context& context, const Step& step) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i] = step(candidates[i]);
+    context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
+  }
+}
+
+// Moved a little, and told apart, on samples of the full cloud.
+void fit(const Refinement& refinement, const Effort& effort,
+         std::vector<PlaneCandidate>& candidates, const Context& context) {
+  improve(candidates, context.stage(0, 0.5),
+          [&](const PlaneCandidate& c) { return refinement.quick(c); });
+  keep_distinct(candidates, alike, effort.finalists);
+  drop_hopeless(candidates, effort.hopeless);
+  improve(candidates, context.stage(0.5, 1),
+          [&](const PlaneCandidate& c) { return refinement.careful(c); });
+  keep_distinct(candidates, alike, effort.finalists);
 }
 
 // Where the cloud extends most along the mirror: processes look for partners in slabs across it.
@@ -76,27 +110,25 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
   const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
-  std::vector<PlaneCandidate> candidates = promising_planes(coarse, context.stage(0.2, 0.25));
+  std::vector<PlaneCandidate> candidates =
+      promising_planes(coarse, usual, context.stage(0.2, 0.25));
 
   const Slabs slabs(cloud, along_mirror(candidates.front().plane, cloud.frame),
                     context.stage(0.25, 0.3));
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
-  const auto refine = [&](double from, double to, const auto& step) {
-    const Context part = context.stage(from, to);
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      candidates[i] = step(candidates[i]);
-      part.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
-    }
-  };
-  refine(0.4, 0.43, [&](const PlaneCandidate& c) { return refinement.quick(c); });
-  keep_distinct(candidates, alike, finalists);
-  drop_hopeless(candidates);
-  refine(0.43, 0.46, [&](const PlaneCandidate& c) { return refinement.careful(c); });
-  keep_distinct(candidates, alike, finalists);
-  refine(0.46, 0.5, [&](const PlaneCandidate& c) {
-    if (&c == &candidates.front()) return refinement.final(c, -1);
+  fit(refinement, usual, candidates, context.stage(0.4, 0.42));
+  if (candidates.front().explained < unexplained) {
+    std::vector<PlaneCandidate> more =
+        promising_planes(coarse, thorough, context.stage(0.42, 0.44));
+    fit(refinement, thorough, more, context.stage(0.44, 0.46));
+    candidates.insert(candidates.end(), more.begin(), more.end());
+    keep_distinct(candidates, alike, thorough.finalists);
+  }
+  improve(candidates, context.stage(0.46, 0.5), [&](const PlaneCandidate& c) {
+    constexpr double any = -std::numeric_limits<double>::infinity();
+    if (&c == &candidates.front()) return refinement.final(c, any);
     const double least = below(candidates.front().explained, convincing);
     return c.explained < least ? c : refinement.final(c, least);
   });

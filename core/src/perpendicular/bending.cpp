@@ -27,7 +27,7 @@ constexpr bool is_finer(int stage) { return stage == 4 || stage == 8 || stage ==
 std::vector<UnitPlane> likely_planes(const Cloud& cloud, const Context& context) {
   const Surfels surfels(cloud, patches, context);
   const SurfelMap map(surfels);
-  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, 2 * likely);
+  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, usual_search, 2 * likely);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
   keep_distinct(candidates, alike, likely);

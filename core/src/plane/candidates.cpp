@@ -13,16 +13,13 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index seeds = 200;  // surfels that pairs are made of
 constexpr double shortest_chord = 0.04;
 constexpr double facing_cosine = 0.88;                           // 28 degrees
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
 constexpr double search_tolerance = 0.015;
 constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
-// Pairs that are tried, looked at again, and once more: for so many surfels or more. Of fewer,
-// which lie further from their partners, fewer pairs come near a plane, and more are tried.
-constexpr double first_count = 3000, looked_at = 800, second_count = 150, many = 1000;
+constexpr double many = 1000;  // surfels; see Search
 constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
 
 // Two mirrors act alike where they send points to like places. Probes at the corners of a
@@ -100,8 +97,8 @@ double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitP
 }
 
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
-                                             Index count) {
-  const Index step = std::max<Index>(1, surfels.size() / seeds);
+                                             const Search& search, Index count) {
+  const Index step = std::max<Index>(1, surfels.size() / search.seeds);
   const Index glancing = std::max<Index>(1, surfels.size() / glance);
   const Index coarse = std::max<Index>(1, surfels.size() / first_look);
   struct Pair {
@@ -127,14 +124,14 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   std::vector<PlaneCandidate> found;
   const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
   const double last_ticket =
-      sparser * first_count / telling * std::numeric_limits<std::uint32_t>::max();
+      sparser * search.pairs / telling * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
     const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
     if (explained > least_explained) found.push_back({plane, explained});
   }
-  keep_best(found, sparser * looked_at);
+  keep_best(found, sparser * search.promising);
 
   std::map<std::int32_t, Average> bins;
   for (const auto& [plane, glanced] : found) {
@@ -143,7 +140,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   }
   found.clear();
   for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
-  keep_best(found, sparser * second_count);
+  keep_best(found, sparser * search.averages);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
     candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);

@@ -22,10 +22,20 @@ struct PlaneCandidate {
 double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
                        double tolerance, Index stride = 1);
 
+/// How much to try, on a thousand surfels or more. Of fewer, which lie further from their partners,
+/// fewer pairs come near a plane, and more are tried.
+struct Search {
+  Index seeds;       ///< surfels that pairs are made of
+  double pairs;      ///< whose planes are glanced at
+  double promising;  ///< of these, that are looked at and averaged with the like
+  double averages;   ///< that are looked at again
+};
+inline constexpr Search usual_search{200, 3000, 800, 150};
+
 /// Planes between pairs of surfels whose normals mirror each other, similar ones averaged, the
 /// best `count` first.
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
-                                             Index count);
+                                             const Search& search, Index count);
 
 /// Moves a plane onto the surfels' images, looking less far with each step.
 PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,

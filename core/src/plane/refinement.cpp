@@ -17,9 +17,10 @@ namespace {
 constexpr Index few_samples = 250, many_samples = 1000, telling_samples = 1300;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
-// Stricter than the score: where much is missing, it is misses, and how close the rest comes, that
-// tell a false plane from the true.
-constexpr Testimony testimony{.meets = 0.001, .misses = 0.013, .objection = 1.0};
+// Stricter than the score: where much is missing, it is how close the rest comes that tells a false
+// plane from the true. As close as the noise lets it.
+constexpr double closest = 0.0003, close = 0.001;
+constexpr double misses = 0.016, objection = 0.4;
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
@@ -48,6 +49,8 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.place < b.place; });
   noise_ = measured_noise();
+  testimony_ = {
+      .meets = std::clamp(noise_, closest, close), .misses = misses, .objection = objection};
   for (Sample& s : samples_) s.smoothed = smoothed(s.point, *s.surfel);
 }
 
@@ -109,7 +112,7 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Vector3 gap = smoothed_gap(plane, match);
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
-    explained += weight * testimony(distance_past(gap, *match.surfel, spacing_), agreement.facing);
+    explained += weight * testimony_(distance_past(gap, *match.surfel, spacing_), agreement.facing);
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "../mirror_score.h"
 #include "../nearest_points.h"
 #include "agreement.h"
 #include "candidates.h"
@@ -60,8 +61,9 @@ class Refinement {
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
-  double spacing_;               // of the points on a sheet
-  double noise_ = 0;             // their standard deviation off it
+  double spacing_;    // of the points on a sheet
+  double noise_ = 0;  // their standard deviation off it
+  Testimony testimony_;
   std::vector<Sample> samples_;  // spread evenly over the cloud
 };
 
