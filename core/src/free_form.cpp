@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "finite_rows.h"
 #include "free_form_blend.h"
 #include "surface_net.h"
 
@@ -84,13 +85,11 @@ std::unique_ptr<Mirror> FreeForm::transformed(double scale, const Matrix3& rotat
 
 // Surface nets over a grid along the patches' principal axes, so that it turns with the mirror.
 Mesh FreeForm::mesh_over(PointsView object, int resolution) const {
-  Points feet = project(object);
-  Index kept = 0;
-  for (Index i = 0; i < feet.rows(); ++i)
-    if (feet.row(i).allFinite()) feet.row(kept++) = feet.row(i);
-  if (kept == 0) return {};
-  feet.conservativeResize(kept, 3);
-  return surface_net(feet, resolution, [this](const Vector3& x) { return blend_->value(x); });
+  const Points feet = finite_rows(project(object));
+  if (feet.rows() == 0) return {};
+  return surface_net(
+      feet, resolution, [this](const Vector3& x) { return blend_->value(x); },
+      [this](const Vector3& x) { return foot(x); });
 }
 
 }  // namespace symsurf

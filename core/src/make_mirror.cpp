@@ -96,6 +96,14 @@ std::shared_ptr<Mirror> free_form(const Values& numbers) {
   return std::make_shared<FreeForm>(std::move(patches));
 }
 
+std::shared_ptr<Mirror> quadric(const Values& numbers) {
+  const Matrix3 matrix = table(numbers, "matrix", 3, 3);
+  if (numbers.contains("origin"))
+    return std::make_shared<Quadric>(matrix, vector(numbers, "origin"), vector(numbers, "gradient"),
+                                     scalar(numbers, "value"));
+  return std::make_shared<Quadric>(matrix, vector(numbers, "linear"), scalar(numbers, "constant"));
+}
+
 struct Kind {
   std::string_view name;
   std::shared_ptr<Mirror> (*make)(const Values&);
@@ -115,11 +123,7 @@ const std::array kinds{
            return std::make_shared<Cylinder>(vector(v, "point"), vector(v, "axis"),
                                              scalar(v, "radius"));
          }},
-    Kind{"quadric",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Quadric>(table(v, "matrix", 3, 3), vector(v, "linear"),
-                                            scalar(v, "constant"));
-         }},
+    Kind{"quadric", quadric},
     Kind{"free-form", free_form},
     Kind{"height field",
          [](const Values& v) -> std::shared_ptr<Mirror> {

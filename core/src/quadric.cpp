@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "finite_rows.h"
 #include "surface_net.h"
 #include "symmetric_matrix.h"
 
@@ -17,9 +18,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 Quadric::Quadric(const Matrix3& matrix, const Vector3& linear, double constant)
-    : matrix_((matrix + matrix.transpose()) / 2), linear_(linear), constant_(constant) {
-  if (!matrix.allFinite() || !linear.allFinite() || !std::isfinite(constant) ||
-      (matrix_.isZero(0) && linear.isZero(0)))
+    : Quadric(matrix, Vector3::Zero(), linear, constant) {}
+
+Quadric::Quadric(const Matrix3& matrix, const Vector3& origin, const Vector3& gradient,
+                 double value)
+    : origin_(origin),
+      matrix_((matrix + matrix.transpose()) / 2),
+      linear_(gradient),
+      constant_(value) {
+  if (!matrix.allFinite() || !origin.allFinite() || !gradient.allFinite() ||
+      !std::isfinite(value) || (matrix_.isZero(0) && gradient.isZero(0)))
     throw InvalidInput("a quadric needs finite numbers, and not all of A and b zero");
   const SymmetricEigen<3> eigen = eigen_of(matrix_);
   axes_ = eigen.vectors;
@@ -71,28 +79,30 @@ double Quadric::signed_distance(const Vector3& x) const {
 }
 
 Values Quadric::numbers() const {
-  return {{"matrix", Eigen::MatrixXd(matrix_)}, {"linear", linear()}, {"constant", constant()}};
+  return {{"matrix", Eigen::MatrixXd(matrix_)},
+          {"linear", linear()},
+          {"constant", constant()},
+          {"origin", origin_},
+          {"gradient", linear_},
+          {"value", constant_}};
 }
 
 std::unique_ptr<Mirror> Quadric::transformed(double scale, const Matrix3& rotation,
                                              const Vector3& translation) const {
   // f((R'(x - t)) / s), times s^2.
-  auto moved = std::make_unique<Quadric>(rotation * matrix_ * rotation.transpose(),
-                                         scale * (rotation * linear_), scale * scale * constant_);
-  moved->origin_ = scale * (rotation * origin_) + translation;
-  return moved;
+  return std::make_unique<Quadric>(rotation * matrix_ * rotation.transpose(),
+                                   scale * (rotation * origin_) + translation,
+                                   scale * (rotation * linear_), scale * scale * constant_);
 }
 
 Mesh Quadric::mesh_over(PointsView object, int resolution) const {
-  Points feet = project(object);
-  Index kept = 0;
-  for (Index i = 0; i < feet.rows(); ++i)
-    if (feet.row(i).allFinite()) feet.row(kept++) = feet.row(i).eval();
-  if (kept == 0)
+  const Points feet = finite_rows(project(object));
+  if (feet.rows() == 0)
     throw InvalidInput("none of the " + std::to_string(object.size()) +
                        " points of the object has a foot on this quadric");
-  feet.conservativeResize(kept, 3);
-  return surface_net(feet, resolution, [this](const Vector3& x) { return value(x); });
+  return surface_net(
+      feet, resolution, [this](const Vector3& x) { return value(x); },
+      [this](const Vector3& x) { return foot(x); });
 }
 
 }  // namespace symsurf

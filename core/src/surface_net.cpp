@@ -55,7 +55,8 @@ Cell moved(Cell c, int axis, int by) {
 }  // namespace
 
 Mesh surface_net(const Points& on_surface, int resolution,
-                 const std::function<double(const Vector3&)>& value) {
+                 const std::function<double(const Vector3&)>& value,
+                 const std::function<Vector3(const Vector3&)>& foot) {
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
   for (Index i = 0; i < on_surface.rows(); ++i) {
@@ -120,7 +121,8 @@ Mesh surface_net(const Points& on_surface, int resolution,
       }
     if (!defined || crossings == 0) continue;
     vertex = static_cast<Index>(vertices.size());
-    vertices.push_back(sum / crossings);
+    const Vector3 near = sum / crossings, on = foot(near);
+    vertices.push_back((on - near).norm() < grid.cell ? on : near);
   }
 
   std::vector<std::array<Index, 3>> triangles;

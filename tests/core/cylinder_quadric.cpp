@@ -98,6 +98,8 @@ TEST(Quadric, IsAsExactFarFromTheOrigin) {
     const Vector3 shift = away * random.direction(), x(0.1, 0.15, 1.2);
     const auto moved = quadric.transformed(1, Matrix3::Identity(), shift);
     EXPECT_LE((moved->reflect(x + shift) - (quadric.reflect(x) + shift)).norm(), 1e-14 * away);
+    const auto copy = make_mirror("quadric", moved->numbers());
+    EXPECT_EQ(copy->reflect(Vector3(x + shift)), moved->reflect(Vector3(x + shift)));
   }
 }
 
@@ -114,6 +116,15 @@ TEST(Quadric, MovesWithItsPointsAndComesBackFromItsNumbers) {
     EXPECT_NEAR((moved->reflect(Vector3(3 * (rotation * x) + shift)) - expected).norm(), 0, 1e-8);
     EXPECT_EQ(make_mirror("quadric", quadric.numbers())->reflect(x), quadric.reflect(x));
   }
+}
+
+TEST(Quadric, MeshLiesOnIt) {
+  const Quadric quadric(Vector3(1, 0.25, 1. / 9).asDiagonal(), {0, 0, 0}, -1);
+  const Points object = 2 * RandomCloud(0).sphere(500);
+  const Mesh mesh = quadric.mesh(object, 12);
+  ASSERT_GT(mesh.vertices.rows(), 100);
+  for (Index v = 0; v < mesh.vertices.rows(); ++v)
+    EXPECT_NEAR(quadric.value(mesh.vertices.row(v)), 0, 1e-12);
 }
 
 TEST(Quadric, RefusesWhatIsNoSurface) {

@@ -99,6 +99,9 @@ TEST(FreeForm, MeshLiesOnTheMirrorAndCoversTheObject) {
   ASSERT_GT(mesh.triangles.rows(), 100);
   for (Index v = 0; v < mesh.vertices.rows(); ++v)
     EXPECT_NEAR(mesh.vertices.row(v).norm(), 1, 2e-3);
+  // But for a few at its rim, which have no foot.
+  const Eigen::ArrayXd off = cap.signed_distance(PointsView(mesh.vertices)).array().abs();
+  EXPECT_GT((off < 1e-9).count(), 0.8 * off.size());
   const Points feet = cap.project(object);
   for (Index i = 0; i < feet.rows(); ++i) {
     const double nearest = (mesh.vertices.rowwise() - feet.row(i)).rowwise().norm().minCoeff();

@@ -83,6 +83,11 @@ TEST(Coverage, IsTheShareOfTheFootprint) {
       (sample.points.topRows(41 * 41) + sample.points.bottomRows(41 * 41)) / 2;
   EXPECT_EQ(coverage(surface_points, *sample.truth, sample.points), 1);
   EXPECT_EQ(coverage(Points(0, 3), *sample.truth, sample.points), 0);
+  Points with_gap = surface_points;
+  with_gap(0, 0) = std::nan("");
+  EXPECT_EQ(coverage(with_gap, *sample.truth, sample.points), 1);
+  with_gap.setConstant(std::nan(""));
+  EXPECT_EQ(coverage(with_gap, *sample.truth, sample.points), 0);
   // The grid runs along x first: its first half covers half, and a rim as wide as the tolerance.
   const double part =
       coverage(surface_points.topRows(41 * 20).eval(), *sample.truth, sample.points);

@@ -10,6 +10,9 @@ class Quadric final : public Mirror {
   /// A is made symmetric. Throws InvalidInput for numbers that are not finite, or when A and b are
   /// zero.
   Quadric(const Matrix3& matrix, const Vector3& linear, double constant);
+  /// The same about a point: f(x) = (x - o)' A (x - o) + g . (x - o) + f(o), g the gradient there.
+  /// Near the object it keeps the digits that b and c lose far from the coordinates' own origin.
+  Quadric(const Matrix3& matrix, const Vector3& origin, const Vector3& gradient, double value);
 
   const Matrix3& matrix() const { return matrix_; }
   Vector3 linear() const { return linear_ - 2 * (matrix_ * origin_); }
@@ -27,7 +30,8 @@ class Quadric final : public Mirror {
   Vector3 foot(const Vector3& x) const override;
   /// Positive where f is.
   double signed_distance(const Vector3& x) const override;
-  /// "matrix" (3 x 3), "linear", "constant".
+  /// "matrix" (3 x 3), "linear", "constant"; about a point near the object "origin", "gradient" and
+  /// "value". One made from numbers with the latter is made from those.
   Values numbers() const override;
   std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
                                       const Vector3& translation) const override;
@@ -36,7 +40,7 @@ class Quadric final : public Mirror {
  private:
   Mesh mesh_over(PointsView object, int resolution) const override;
 
-  // About a point that moves along: far from the coordinates' own origin the terms cancel.
+  // Far from the coordinates' own origin the terms cancel.
   Vector3 origin_ = Vector3::Zero();
   Matrix3 matrix_;
   Vector3 linear_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../finite_rows.h"
 #include "../point_tree.h"
 #include "../sheet_spacing.h"
 
@@ -15,6 +16,7 @@ double diagonal(PointsView object) {
   if (object.empty()) throw InvalidInput("0 points of the object given; at least 1 is needed");
   const Vector3 extent =
       object.matrix().colwise().maxCoeff() - object.matrix().colwise().minCoeff();
+  if (!extent.allFinite()) throw InvalidInput("points of the object are not finite");
   if (!(extent.norm() > 0))
     throw InvalidInput("all " + std::to_string(object.size()) + " points of the object are equal");
   return extent.norm();
@@ -29,6 +31,7 @@ Vector3 closest(const Mirror& mirror, const Vector3& x) {
 template <typename Frame>
 SurfaceErrors errors_in_frame(PointsView surface_points, const Surface& surface,
                               const Frame& frame) {
+  if (surface_points.empty()) throw InvalidInput("0 surface points given; at least 1 is needed");
   SurfaceErrors errors;
   double squared = 0;
   for (Index i = 0; i < surface_points.size(); ++i) {
@@ -93,20 +96,18 @@ double coverage(PointsView surface_points, const Mirror& truth, PointsView objec
   if (!(tolerance >= 0))
     throw InvalidParameter("tolerance is " + to_string(Value(tolerance)) + "; allowed is [0, inf)");
   double reach = tolerance * diagonal(object);
-  Points feet = truth.project(object);
-  Index rows = 0;
-  for (Index i = 0; i < feet.rows(); ++i)
-    if (feet.row(i).allFinite()) feet.row(rows++) = feet.row(i).eval();
-  feet.conservativeResize(rows, 3);
+  const Points feet = finite_rows(truth.project(object));
+  const Index rows = feet.rows();
   if (rows == 0)
     throw InvalidInput("none of the " + std::to_string(object.size()) +
                        " points of the object has a foot on the true mirror");
-  if (surface_points.empty()) return 0;
+  const Points covering = finite_rows(surface_points.matrix());
+  if (covering.rows() == 0) return 0;
 
   constexpr double spacings = 3;
   constexpr Index copies = 2;  // a point and its image share a foot
   if (tolerance == 0) reach = spacings * sheet_spacing(feet, PointTree(feet), copies);
-  const PointTree tree(surface_points);
+  const PointTree tree(covering);
   Index covered = 0;
   for (Index i = 0; i < rows; ++i) covered += tree.nearest(feet.row(i), reach * reach).index >= 0;
   return static_cast<double>(covered) / static_cast<double>(rows);
