@@ -2,25 +2,35 @@
 #include <symsurf/match.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "cloud.h"
 #include "matching.h"
+#include "strays.h"
 
 namespace symsurf {
 
 Result match(PointsView points, const Mirror& mirror, double pair_distance,
              const Context& context) {
-  if (!(pair_distance >= 0))
+  if (!(pair_distance >= 0 && std::isfinite(pair_distance)))
     throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
                            "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
-  const Cloud cloud = checked_cloud(points, {}, 1, context.stage(0, 0));
+  const Context unreported = context.stage(0, 0);
+  Cloud cloud = checked_cloud(points, {}, 1, unreported);
+  const auto strays = Strays::where_any(cloud, 1, unreported);
+  Points rest;
+  if (strays) {
+    rest = strays->rows(points);
+    cloud = checked_cloud(rest, {}, 1, unreported);
+  }
   Result result;
   result.method = "match";
   result.parameters = {{"pair_distance", pair_distance}};
-  PointTree tree(points, context.stage(0, 0.2));
-  add_pairs(result, points, std::move(tree), mirror, pair_distance * cloud.diagonal,
+  PointTree tree(cloud.points, context.stage(0, 0.2));
+  add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
             context.stage(0.2, 1));
+  if (strays) strays->hand_on(result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -43,7 +43,8 @@ Result run_alone(PointsView points, PointsView normals, std::uint64_t seed, cons
     set_footprint(result, outline(cloud.points, context));
     return result;
   };
-  const auto strays = Strays::where_any(cloud, method, unreported);
+  std::optional<Strays> strays;
+  if (!method.sees_strays) strays = Strays::where_any(cloud, least, unreported);
   return strays ? run_on(*strays, cloud, least, context, run_on_places) : run_on_places(cloud);
 }
 

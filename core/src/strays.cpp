@@ -20,7 +20,8 @@ class Body {
  public:
   Body(PointsView own, const PrincipalFrame& frame, const Context& context)
       : frame_(frame), cells_(frame.low, frame.high, edge) {
-    const Counts counts = counts_of(own, context);
+    Counts counts = counts_of(own, context);
+    count_once_what_is_one_place(own, counts, context);
     total_ = counts.sum();
     holding_.assign(counts.size(), false);
     Cells::Cell low = cells_.cell_of(frame.high), high = cells_.cell_of(frame.low);
@@ -35,7 +36,10 @@ class Body {
       if (holding_[k]) held_ += counts[k];
   }
 
-  /// Of the points that the cells were laid over.
+  /// The points that the cells were laid over; many in one place apart from the others are one.
+  Index total() const { return total_; }
+
+  /// Of these, what the cells hold.
   Index held() const { return held_; }
 
   bool has_strays() const { return held_ < total_ && extent_ < most_extent; }
@@ -57,6 +61,27 @@ class Body {
                     for (Index i = begin; i < end; ++i) ++counts[number_at(own[i])];
                     return counts;
                   }));
+  }
+
+  // Pixels without depth, written as the origin, are often more than any part of the body.
+  void count_once_what_is_one_place(PointsView own, Counts& counts, const Context& context) const {
+    const double many = least_part * static_cast<double>(counts.sum());
+    for (Index k = 0; k < counts.size(); ++k) {
+      if (static_cast<double>(counts[k]) < many || counts[k] < 2) continue;
+      Index around = 0;
+      for_each_touching(k, [&](Index other) { around += counts[other]; });
+      if (around == counts[k] && is_one_place(own, k, context)) counts[k] = 1;
+    }
+  }
+
+  bool is_one_place(PointsView own, Index number, const Context& context) const {
+    std::vector<Vector3> places;
+    for (Index i = 0; i < own.size() && places.size() < 2; ++i)
+      if (number_at(own[i]) == number && (places.empty() || own[i] != places.front()))
+        places.push_back(own[i]);
+    places = concatenated(context, places);
+    return std::all_of(places.begin(), places.end(),
+                       [&](const Vector3& x) { return x == places.front(); });
   }
 
   template <typename Visit>
@@ -104,18 +129,16 @@ bool fills_area(const PrincipalFrame& frame) {
 
 }  // namespace
 
-std::optional<Strays> Strays::where_any(const Cloud& cloud, const Method& method,
-                                        const Context& context) {
-  if (method.sees_strays) return std::nullopt;
-  Strays strays(cloud, method.minimum_points, context);
+std::optional<Strays> Strays::where_any(const Cloud& cloud, Index needed, const Context& context) {
+  Strays strays(cloud, needed, context);
   if (strays.all_.empty()) return std::nullopt;
   return strays;
 }
 
 Strays::Strays(const Cloud& cloud, Index needed, const Context& context) {
-  const double share = least_share * static_cast<double>(cloud.total);
-  const Index least = std::max(needed, static_cast<Index>(std::ceil(share)));
   Body body(cloud.points, cloud.frame, context);
+  const double share = least_share * static_cast<double>(body.total());
+  const Index least = std::max(needed, static_cast<Index>(std::ceil(share)));
   while (body.has_strays() && body.held() >= least) {
     const std::vector<Index> known = own_;
     own_.clear();

@@ -14,10 +14,8 @@ namespace symsurf {
 /// all processes, where several share the cloud out.
 class Strays {
  public:
-  /// None where there are none, too few points would be left for the method, or it sees strays.
-  /// Collective.
-  static std::optional<Strays> where_any(const Cloud& cloud, const Method& method,
-                                         const Context& context);
+  /// None where there are none, or fewer points than needed would be left. Collective.
+  static std::optional<Strays> where_any(const Cloud& cloud, Index needed, const Context& context);
 
   /// Of these rows, one a point of this process, those of no strays.
   Points rows(PointsView all) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
+#include <symsurf/match.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
 
@@ -39,7 +40,7 @@ Points mixed(const Points& points, const Points& others) {
 }
 
 std::optional<Strays> strays_of(const Points& points) {
-  return Strays::where_any(checked_cloud(points, {}, 4, {}), method("plane"), {});
+  return Strays::where_any(checked_cloud(points, {}, 4, {}), 4, {});
 }
 
 double turned_by(const Result& result) {
@@ -71,6 +72,19 @@ TEST(Strays, ChangeNothingButTheirNumbers) {
   }
 }
 
+TEST(Strays, HaveNoPartnersOverAKnownMirror) {
+  RandomCloud random(1);
+  const Points points = ball(random, 1000), far = 200 * random.sphere(7);
+  const Points all = mixed(points, far);
+  const Plane mirror(Vector3::UnitX(), 0);
+  const Result without = match(points, mirror, 0.01), with = match(all, mirror, 0.01);
+  EXPECT_EQ(with.residuals, without.residuals);
+  EXPECT_EQ(std::get<Index>(with.statistics.at("stray_points")), far.rows());
+  ASSERT_EQ(with.pairs.rows(), without.pairs.rows());
+  for (Index row = 0; row < with.pairs.rows(); ++row)
+    EXPECT_EQ(all.row(with.pairs(row, 1)), points.row(without.pairs(row, 1)));
+}
+
 // One, a tenth of the points; twice as far as the cloud is wide, or a thousand times.
 TEST(Strays, AreLeftOutWhereverTheyAre) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
@@ -92,6 +106,20 @@ TEST(Strays, OfStrays) {
   const auto strays = strays_of(all);
   ASSERT_TRUE(strays);
   EXPECT_EQ(strays->rows(all), points);
+}
+
+// However many: often more than the object's.
+TEST(Strays, ArePixelsWithoutDepth) {
+  RandomCloud random(0);
+  Points points = ball(random, 2000);
+  points.col(1).array() += 50;
+  for (const Index count : {1, 100, 110, 300, 6000}) {
+    Points all(points.rows() + count, 3);
+    all << points, Points::Zero(count, 3);
+    const auto strays = strays_of(all);
+    ASSERT_TRUE(strays) << count;
+    EXPECT_EQ(strays->rows(all), points) << count;
+  }
 }
 
 TEST(Strays, AreNoPartsOfTheObject) {
