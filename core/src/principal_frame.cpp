@@ -1,6 +1,7 @@
 #include <symsurf/principal_frame.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 
 #include "gathered.h"
@@ -82,7 +83,13 @@ PrincipalFrame principal_frame(PointsView points, const Context& context) {
   frame.low = extent.low;
   frame.high = extent.high;
   for (int axis = 0; axis < 3; ++axis) {
-    if (extent.skewness[axis] >= 0) continue;
+    // Across an exact mirror the skewness is rounding, which depends on the order of the points.
+    constexpr double rounding = 1e-6;
+    const double skewness = extent.skewness[axis] / count;
+    const bool told = std::abs(skewness) > rounding * std::pow(frame.variance[axis], 1.5);
+    Index largest;
+    frame.axes.col(axis).cwiseAbs().maxCoeff(&largest);
+    if ((told ? skewness : frame.axes(largest, axis)) >= 0) continue;
     frame.axes.col(axis) *= -1;
     frame.low[axis] = -extent.high[axis];
     frame.high[axis] = -extent.low[axis];

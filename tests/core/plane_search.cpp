@@ -2,8 +2,11 @@
 #include <symsurf/detect.h>
 #include <symsurf/plane.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <vector>
 
 #include "quantile.h"
@@ -95,6 +98,21 @@ TEST(PlaneSearch, ExactMirrorsAreFoundToRoundingInAnyPose) {
     EXPECT_GT(result.score, 0.99);
     EXPECT_EQ(result.pairs.rows(), 2000);
     EXPECT_LT(result.residuals.maxCoeff(), 1e-9 * diagonal(posed));
+  }
+}
+
+// Nothing in such a shape tells which side is which.
+TEST(PlaneSearch, ExactMirrorsFaceTheSameWayInAnyOrder) {
+  RandomCloud random(0);
+  const Points points = Pose(random)(lumpy_ball(random, 2000, true));
+  const Vector3 normal = dynamic_cast<const Plane&>(*detected(points).mirror).normal();
+  std::vector<Index> order(points.rows());
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 shuffle(0);
+  for (int trial = 0; trial < 8; ++trial) {
+    std::shuffle(order.begin(), order.end(), shuffle);
+    const Result result = detected(points(order, Eigen::all));
+    EXPECT_GT(dynamic_cast<const Plane&>(*result.mirror).normal().dot(normal), 0.9);
   }
 }
 
