@@ -4,21 +4,28 @@
 #include <vector>
 
 #include "../matching.h"
+#include "../quantile.h"
 
 namespace symsurf::perpendicular {
 
 namespace {
 
-// A point is not its own partner. Where partners are exact they agree about each other; elsewhere
-// the sheet may end before it reaches the middle between them.
-void drop_false_pairs(Result& result, Index size, bool mutual) {
-  std::vector<Index> partner(size, -1);
+// Where partners are exact they agree about each other, and a point as near to its own image as
+// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the sheet may end
+// before it reaches the middle between two.
+void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
+  constexpr double as_near = 2, rounding = 1e-9;
+  if (result.pairs.rows() == 0) return;
+  const std::vector<double> residuals(result.residuals.begin(), result.residuals.end());
+  const double on_mirror =
+      exact ? std::max(rounding * cloud.diagonal, as_near * median(residuals)) : -1;
+  std::vector<Index> partner(cloud.points.size(), -1);
   for (Index row = 0; row < result.pairs.rows(); ++row)
     partner[result.pairs(row, 0)] = result.pairs(row, 1);
   Index kept = 0;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
-    if (j == i || (mutual && partner[j] != i)) continue;
+    if ((j == i && result.residuals[row] > on_mirror) || (exact && partner[j] != i)) continue;
     if (!result.surface_points.row(row).allFinite()) continue;
     result.pairs.row(kept) = result.pairs.row(row);
     result.residuals[kept] = result.residuals[row];
@@ -40,7 +47,7 @@ void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, 
                      context.stage(0.2, 0.7));
   if (!sheet.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.7, 1));
-  drop_false_pairs(result, cloud.points.size(), sheet.exact);
+  drop_false_pairs(result, cloud, sheet.exact);
 }
 
 }  // namespace symsurf::perpendicular
