@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ._core import InvalidInput, Mirror, make_mirror
 from .saving import write_whole
 from .saving.json_format import mirror_record
+from .saving.points_format import write_points
 
 
 class Truth(NamedTuple):
@@ -24,7 +25,15 @@ class Truth(NamedTuple):
         return self._replace(mirror=_rotated(self.mirror, rotation))
 
     def kept(self, rows: NDArray[np.int64], count: int) -> Truth:
-        """The truth of some rows of ``count`` points: the pairs that are still whole."""
+        """The truth of some rows of ``count`` points: the pairs that are still whole.
+
+        Raises InvalidInput for pairs of other rows than those of the points.
+        """
+        others = self.pairs[(self.pairs < 0) | (self.pairs >= count)]
+        if others.size:
+            raise InvalidInput(
+                f"the truth pairs point {others[0]}; the sample has the points 0 to {count - 1}"
+            )
         renamed = np.full(count, -1)
         renamed[rows] = np.arange(len(rows))
         pairs = renamed[self.pairs]
@@ -36,9 +45,13 @@ def truth_path(points: Path) -> Path:
     return points.with_name(f"{points.name}.truth.json")
 
 
-def write_truth(path: Path, truth: Truth) -> None:
-    record = {"mirror": mirror_record(truth.mirror), "pairs": truth.pairs.tolist()}
-    write_whole(path, (json.dumps(record) + "\n").encode())
+def write_sample(path: Path, points: NDArray[np.float64], truth: Truth | None) -> None:
+    """The points, and their truth beside them; a truth of what stood there before goes."""
+    write_points(path, points)
+    truth_path(path).unlink(missing_ok=True)
+    if truth is not None:
+        record = {"mirror": mirror_record(truth.mirror), "pairs": truth.pairs.tolist()}
+        write_whole(truth_path(path), (json.dumps(record) + "\n").encode())
 
 
 def read_truth(path: Path) -> Truth:

@@ -110,6 +110,15 @@ def test_vtp(result, tmp_path):
     np.testing.assert_array_equal(saved.field_data["Normal"], [(1, 0, 0)])
 
 
+def test_vtp_keeps_the_rows_of_tables(tmp_path, blob):
+    pyvista = pytest.importorskip("pyvista")
+    nodes = np.column_stack([blob[:20, :2], np.zeros(20)])
+    mirror = symsurf.HeightField((0, 0, 1), nodes)
+    symsurf.match(blob, mirror).save(tmp_path / "result.vtp")
+    saved = pyvista.read(tmp_path / "result.vtp")
+    np.testing.assert_array_equal(saved.field_data["Nodes"], nodes)
+
+
 @pytest.mark.parametrize("suffix", SUFFIXES)
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_every_method_in_every_format(method, suffix, blob, tmp_path):

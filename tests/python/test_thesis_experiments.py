@@ -170,6 +170,24 @@ def test_damaged_points_without_truth_take_over_none(tmp_path):
     assert not truth_path(tmp_path / "damaged.xyz").exists()
 
 
+def test_a_truth_of_other_points_is_refused(tmp_path):
+    shell("generate fixed --resolution 6 --output points.xyz", tmp_path)
+    lines = (tmp_path / "points.xyz").read_text().splitlines()
+    (tmp_path / "points.xyz").write_text("\n".join(lines[:10]) + "\n")
+    done = run_here("damage noise points.xyz --output damaged.xyz", tmp_path)
+    assert done.returncode != 0
+    assert "the truth pairs point" in done.stderr and "0 to 9" in done.stderr
+    assert not (tmp_path / "damaged.xyz").exists()
+
+
+def test_points_that_cannot_be_written_leave_the_truth(tmp_path):
+    shell("generate fixed --resolution 6 --output points.xyz", tmp_path)
+    (tmp_path / "taken.xyz").mkdir()
+    done = run_here("damage noise points.xyz --output taken.xyz", tmp_path)
+    assert done.returncode != 0
+    assert not truth_path(tmp_path / "taken.xyz").exists()
+
+
 def test_evaluate_goes_on_after_a_file_that_is_not_there(tmp_path):
     shell("generate perpendicular --output points.xyz", tmp_path)
     shell("detect points.xyz --method perpendicular --output . --formats txt", tmp_path)

@@ -9,10 +9,10 @@ import numpy as np
 
 from .. import _core
 from .._core import Damage
-from ..saving.points_format import require_points_suffix, write_points
+from ..saving.points_format import require_points_suffix
 from ..shape import read
 from ..synthetic import rotation_matrix
-from ..truth import read_truth, truth_path, write_truth
+from ..truth import read_truth, truth_path, write_sample
 from .described_options import add_kinds, given_values
 from .values import whole
 
@@ -41,10 +41,6 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.kind.name == "rotation":
             angles = (values.get(name, 0.0) for name in ("roll", "pitch", "yaw"))
             truth = truth.moved(rotation_matrix(*angles))
-        write_truth(truth_path(arguments.output), truth)
-    write_points(arguments.output, damaged)
-    if truth is None:
-        # What stands there belongs to other points.
-        truth_path(arguments.output).unlink(missing_ok=True)
+    write_sample(arguments.output, damaged, truth)
     print(f"{arguments.output}: {len(damaged)} of {len(points)} points")
     return 0

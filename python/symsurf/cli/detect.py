@@ -62,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     def do(path: Path) -> None:
         result = _detect(path, arguments)
         for output in outputs.get(path, []):
+            output.parent.mkdir(parents=True, exist_ok=True)
             result.save(output)
         print(json.dumps(_record(path, result)) if arguments.json else _report(path, result))
 
@@ -120,7 +121,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
     for output in sum(outputs.values(), []):
         if output.resolve() in inputs:
             raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
-    arguments.output.mkdir(parents=True, exist_ok=True)
+    if arguments.output.exists():
+        arguments.output.mkdir(exist_ok=True)  # refuses what is no folder
     return outputs
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from .. import _core
 from .._core import Generator
-from ..saving.points_format import require_points_suffix, write_points
+from ..saving.points_format import require_points_suffix
 from ..shape import read
 from ..synthetic import Sample
-from ..truth import Truth, truth_path, write_truth
+from ..truth import Truth, write_sample
 from .described_options import add_kinds, given_values
 
 SUMMARY = "Make points with a known mirror, and a file with the truth beside them"
@@ -31,8 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     given = getattr(arguments, "points", None)
     points = None if given is None else read(given).points
     sample = Sample(*_core.generate(arguments.kind.name, given_values(arguments), points))
-    write_points(arguments.output, sample.points)
-    write_truth(truth_path(arguments.output), Truth(sample.truth, sample.pairs))
+    write_sample(arguments.output, sample.points, Truth(sample.truth, sample.pairs))
     skipped = f", {sample.skipped} skipped" if sample.skipped else ""
     print(f"{arguments.output}: {len(sample.points)} points{skipped}")
     return 0

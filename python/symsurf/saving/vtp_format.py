@@ -59,8 +59,7 @@ def _field_data(result: Result) -> list[str]:
         )
         for name, value in result.mirror.numbers.items():
             if isinstance(value, (float, np.ndarray)):
-                row = np.atleast_1d(value).reshape(1, -1)
-                fields.append(_array(name.capitalize(), row, tuples=True))
+                fields.append(_array(name.capitalize(), np.atleast_2d(value), tuples=True))
     return fields
 
 
