@@ -77,8 +77,8 @@ def draw(
     plotter.enable_anti_aliasing("ssaa")
     plotter.enable_lightkit()
     _draw_object(plotter, object_, _percent(result, object_.n_points, seen.length), residual_range)
-    _draw_mirror(plotter, result, seen)
-    _look(plotter, result, seen)
+    drawn = np.vstack([seen.points, _draw_mirror(plotter, result, seen)])
+    _look(plotter, *_view(result, seen), drawn)
 
 
 def _pyvista():
@@ -95,6 +95,10 @@ def _object(result: Result, shape: Shape | None, points: ArrayLike | None) -> py
         if chosen is None:
             raise InvalidInput("the result does not know its points: give shape or points")
         shape = Shape(np.asarray(chosen, dtype=float))
+    infinite = np.flatnonzero(~np.isfinite(shape.points).all(axis=1))
+    if len(infinite):
+        place = tuple(shape.points[infinite[0]].tolist())
+        raise InvalidInput(f"point {infinite[0]} is {place}; all coordinates must be finite")
     if shape.faces is None:
         return _pyvista().PolyData(shape.points)
     return _pyvista().PolyData.from_regular_faces(shape.points, shape.faces)
@@ -172,10 +176,13 @@ def _point_size(object_: pyvista.PolyData) -> float:
     return float(np.clip(700 / np.sqrt(object_.n_points), 3, 16))
 
 
-def _draw_mirror(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -> None:
+def _draw_mirror(
+    plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData
+) -> NDArray[np.float64]:
+    """Gives the points of what it has drawn."""
     vertices, triangles = mirror_mesh(result, object_.points)
     if not len(triangles):
-        return
+        return np.empty((0, 3))
     surface = _pyvista().PolyData.from_regular_faces(vertices, triangles)
     plotter.add_mesh(surface, color=MIRROR, opacity=0.22, lighting=False)
     edges = surface.extract_feature_edges(
@@ -183,20 +190,44 @@ def _draw_mirror(plotter: pyvista.Plotter, result: Result, object_: pyvista.Poly
     )
     if edges.n_points:
         plotter.add_mesh(edges, color=MIRROR, line_width=2)
+    return vertices
 
 
-def _look(plotter: pyvista.Plotter, result: Result, object_: pyvista.PolyData) -> None:
-    direction, up = _view(result, object_)
+def _look(
+    plotter: pyvista.Plotter,
+    direction: NDArray[np.float64],
+    up: NDArray[np.float64],
+    points: NDArray[np.float64],
+) -> None:
+    """From that direction, so close that the points fill the picture above the bar."""
+    sides, top, bottom = 0.94, 0.94, 0.7  # of the way to the picture's edges
+    x0, y0, x1, y1 = plotter.renderer.viewport
+    width, height = plotter.window_size
+    aspect = width * (x1 - x0) / (height * (y1 - y0))
+    across = np.cross(up, direction)
+    across /= np.linalg.norm(across)
+    axes = np.array([across, np.cross(direction, across), direction])
+    distance = 2.3 * np.linalg.norm(np.ptp(points, axis=0))
+    eye = (points.min(axis=0) + points.max(axis=0)) / 2 + distance * direction
+    for _ in range(4):  # moved aside, it sees what is near move further than what is far
+        left, low, right, high = _slopes(points, eye, axes)
+        half = max((high - low) / (top + bottom), (right - left) / (2 * sides * aspect))
+        aside = (left + right) / 2, (low + high) / 2 - half * (top - bottom) / 2
+        eye += distance * (np.array(aside) @ axes[:2])
+    left, low, right, high = _slopes(points, eye, axes)
+    half = max(high / top, -low / bottom, right / (sides * aspect), -left / (sides * aspect))
     camera = plotter.camera
-    camera.focal_point = object_.center
-    camera.position = np.asarray(object_.center) + direction * object_.length
-    camera.up = up
-    camera.view_angle = 25
-    plotter.reset_camera(bounds=object_.bounds if "stray_points" in result.statistics else None)
-    camera.zoom(1.35)
-    # Room for the bar below.
-    lower = np.asarray(camera.up) * -0.05 * object_.length
-    camera.position, camera.focal_point = camera.position + lower, camera.focal_point + lower
+    camera.position, camera.focal_point, camera.up = eye, eye - distance * direction, up
+    camera.view_angle = 2 * np.degrees(np.arctan(half))
+    plotter.reset_camera_clipping_range()
+
+
+def _slopes(
+    points: NDArray[np.float64], eye: NDArray[np.float64], axes: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """How far aside of the line of sight points are seen: left, lowest, right, highest."""
+    x, y, z = axes @ (points - eye).T
+    return np.array([np.min(x / -z), np.min(y / -z), np.max(x / -z), np.max(y / -z)])
 
 
 def _view(

@@ -9,6 +9,7 @@ import pytest
 from symmetric_shapes import mirrored_surface
 
 import symsurf
+from symsurf import synthetic
 
 BACKGROUND, UNPAIRED = (255, 255, 255), (0x9A, 0xA3, 0xAD)
 
@@ -61,6 +62,27 @@ def test_picture_without_the_mirror_where_it_maps_no_point(result, tmp_path):
         bare = pixels(tmp_path / "bare.png")
         grey = (abs(bare - UNPAIRED) < 10).all(axis=1).mean()
         assert grey > 0.002 and bluish(bare) == 0
+
+
+@pytest.mark.parametrize("surface", ["f1", "f2", "f4", "f6"])
+def test_nothing_is_cut_off(surface, tmp_path):
+    sample = synthetic.mirror_perpendicular(surface, 2, 30, 0.3)
+    symsurf.match(sample.points, sample.truth).plot(tmp_path / "sheets.png")
+    picture = pixels(tmp_path / "sheets.png").reshape(900, 1200, 3)
+    drawn = (picture != BACKGROUND).any(axis=2)
+    edges = drawn[0], drawn[-1], drawn[:, 0], drawn[:, -1]
+    assert not any(edge.any() for edge in edges)
+    # Nor is there much room left, where the picture is wide or high enough.
+    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    assert np.ptp(rows) > 0.85 * 900 and np.ptp(columns) > 0.3 * 1200
+
+
+def test_points_that_are_not_finite(result):
+    pytest.importorskip("pyvista")
+    points = result.points.copy()
+    points[3, 1] = np.nan
+    with pytest.raises(symsurf.InvalidInput, match=r"point 3 is \(.*nan"):
+        result.plot("never.png", points=points)
 
 
 def test_strays_are_out_of_the_picture(tmp_path):
