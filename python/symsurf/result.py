@@ -24,7 +24,7 @@ class Result:
     method: str
     """The method that found it."""
     mirror: Mirror | None
-    """None for methods that find surface points only."""
+    """None where none is found, and for methods that find surface points only."""
     surface_points: NDArray[np.float64] = field(repr=False)
     """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
     ``quadric`` and ``fixed_direction`` project them onto it. Input units."""

@@ -12,7 +12,7 @@ namespace symsurf {
 /// What a method found. No symmetry is a result too: one with a low score.
 struct Result {
   std::string method;
-  std::shared_ptr<Mirror> mirror;  ///< null for methods that find surface points only
+  std::shared_ptr<Mirror> mirror;  ///< null: none found, or surface points only
   /// Midpoints of the pairs, at most half a residual off the mirror; perpendicular, quadric and
   /// fixed_direction project them onto it. Input units.
   Points surface_points;
