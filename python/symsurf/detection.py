@@ -57,7 +57,8 @@ def match(
 ) -> Result:
     """Pairs every point with the input point nearest to its image over a known mirror.
 
-    How a mirror found elsewhere, or one of ``Result.candidates``, fits a point set.
+    How a mirror found elsewhere, or one of ``Result.candidates``, fits a point set. Points far off
+    the rest have no partners, as in ``detect``, and do not count for the diagonal.
 
     Args:
         points: (n, 3), as for ``detect``.
@@ -71,5 +72,7 @@ def match(
     Raises:
         InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.
     """
+    if not isinstance(mirror, _core.Mirror):
+        raise _core.InvalidInput(f"mirror is of type {type(mirror).__name__}; allowed is a Mirror")
     fields = _core.match(points, mirror, pair_distance, threads, progress)
     return Result.from_fields(fields | {"mirror": mirror})

@@ -163,3 +163,8 @@ def test_the_errors_are_value_errors():
     assert issubclass(symsurf.InvalidInput, ValueError)
     assert issubclass(symsurf.InvalidParameter, ValueError)
     assert not issubclass(symsurf.Cancelled, ValueError)
+
+
+def test_match_over_what_is_no_mirror(blob):
+    with pytest.raises(symsurf.InvalidInput, match="mirror is of type NoneType; allowed is a Mirror"):
+        symsurf.match(blob, None)

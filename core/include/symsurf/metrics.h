@@ -35,9 +35,9 @@ double surface_distance(PointsView surface_points, const Mirror& truth, PointsVi
 
 /// Which share of the object's footprint on the true mirror the surface points cover, 0 to 1: of
 /// the feet of the object's points, those with a surface point nearer than `tolerance` times the
-/// object's diagonal; by default (0) three times the spacing of the feet. Surface points that are not
-/// finite cover nothing.
-/// Throws InvalidInput for no object or one without feet, InvalidParameter for a tolerance below 0.
+/// object's diagonal; by default (0) three times the spacing of the feet. Surface points that are
+/// not finite cover nothing. Throws InvalidInput for no object or one without feet,
+/// InvalidParameter for a tolerance below 0.
 double coverage(PointsView surface_points, const Mirror& truth, PointsView object,
                 double tolerance = 0);
 

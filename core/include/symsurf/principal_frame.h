@@ -7,8 +7,8 @@ namespace symsurf {
 
 /// The frame in which methods compute: the centroid at 0, the principal axes along x, y, z
 /// (longest first), the bounding box's diagonal 1. It turns, moves and scales with the cloud, so
-/// results do not depend on unit or pose. The axes' signs follow the third moments and may make it
-/// left-handed.
+/// results do not depend on unit or pose. The axes' signs follow the third moments, or where these
+/// are but rounding make the largest component positive, and may make it left-handed.
 struct PrincipalFrame {
   Vector3 centroid = Vector3::Zero();
   Matrix3 axes = Matrix3::Identity();  ///< columns, in input coordinates
