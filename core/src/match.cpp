@@ -6,6 +6,7 @@
 
 #include "cloud.h"
 #include "matching.h"
+#include "run_on.h"
 #include "strays.h"
 
 namespace symsurf {
@@ -17,20 +18,18 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance,
                            "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
   const Context unreported = context.stage(0, 0);
-  Cloud cloud = checked_cloud(points, {}, 1, unreported);
+  const Cloud cloud = checked_cloud(points, {}, 1, unreported);
+  const auto run = [&](const Cloud& cloud) {
+    Result result;
+    PointTree tree(cloud.points, context.stage(0, 0.2));
+    add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
+              context.stage(0.2, 1));
+    return result;
+  };
   const auto strays = Strays::where_any(cloud, 1, unreported);
-  Points rest;
-  if (strays) {
-    rest = strays->rows(points);
-    cloud = checked_cloud(rest, {}, 1, unreported);
-  }
-  Result result;
+  Result result = strays ? run_on(*strays, cloud, 1, context, run) : run(cloud);
   result.method = "match";
   result.parameters = {{"pair_distance", pair_distance}};
-  PointTree tree(cloud.points, context.stage(0, 0.2));
-  add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
-            context.stage(0.2, 1));
-  if (strays) strays->hand_on(result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -4,7 +4,6 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "cloud.h"
 #include "gathered.h"
@@ -102,8 +101,7 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
     return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
   const Context unreported = shared.stage(0, 0);
   Cloud cloud = checked_shared_cloud(own, method.minimum_points, unreported);
-  std::optional<Strays> strays;
-  if (!method.sees_strays) strays = Strays::where_any(cloud, method.minimum_points, unreported);
+  const auto strays = Strays::where_any(cloud, method, unreported);
   Points rest;
   if (strays) {
     rest = strays->rows(own);

@@ -135,6 +135,12 @@ std::optional<Strays> Strays::where_any(const Cloud& cloud, Index needed, const 
   return strays;
 }
 
+std::optional<Strays> Strays::where_any(const Cloud& cloud, const Method& method,
+                                        const Context& context) {
+  if (method.sees_strays) return std::nullopt;
+  return where_any(cloud, method.minimum_points, context);
+}
+
 Strays::Strays(const Cloud& cloud, Index needed, const Context& context) {
   Body body(cloud.points, cloud.frame, context);
   const double share = least_share * static_cast<double>(body.total());

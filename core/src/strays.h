@@ -16,6 +16,9 @@ class Strays {
  public:
   /// None where there are none, or fewer points than needed would be left. Collective.
   static std::optional<Strays> where_any(const Cloud& cloud, Index needed, const Context& context);
+  /// Nor where the method sees strays.
+  static std::optional<Strays> where_any(const Cloud& cloud, const Method& method,
+                                         const Context& context);
 
   /// Of these rows, one a point of this process, those of no strays.
   Points rows(PointsView all) const;
