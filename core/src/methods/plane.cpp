@@ -59,9 +59,8 @@ void drop_hopeless(std::vector<PlaneCandidate>& candidates, double share) {
 }
 
 // On the thinned cloud alone.
-std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Effort& effort,
-                                             const Context& context) {
-  const SurfelMap map(surfels);
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const SurfelMap& map,
+                                             const Effort& effort, const Context& context) {
   std::vector<PlaneCandidate> candidates =
       candidate_planes(surfels, map, effort.search, effort.started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
@@ -110,8 +109,9 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
   const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
+  const SurfelMap map(coarse);
   std::vector<PlaneCandidate> candidates =
-      promising_planes(coarse, usual, context.stage(0.2, 0.25));
+      promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
   const Slabs slabs(cloud, along_mirror(candidates.front().plane, cloud.frame),
                     context.stage(0.25, 0.3));
@@ -121,7 +121,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   fit(refinement, usual, candidates, context.stage(0.4, 0.42));
   if (candidates.front().explained < unexplained) {
     std::vector<PlaneCandidate> more =
-        promising_planes(coarse, thorough, context.stage(0.42, 0.44));
+        promising_planes(coarse, map, thorough, context.stage(0.42, 0.44));
     fit(refinement, thorough, more, context.stage(0.44, 0.46));
     candidates.insert(candidates.end(), more.begin(), more.end());
     keep_distinct(candidates, alike, thorough.finalists);

@@ -22,18 +22,13 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
   std::vector<Index> partner(cloud.points.size(), -1);
   for (Index row = 0; row < result.pairs.rows(); ++row)
     partner[result.pairs(row, 0)] = result.pairs(row, 1);
-  Index kept = 0;
+  std::vector<Index> kept;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
     if ((j == i && result.residuals[row] > on_mirror) || (exact && partner[j] != i)) continue;
-    if (!result.surface_points.row(row).allFinite()) continue;
-    result.pairs.row(kept) = result.pairs.row(row);
-    result.residuals[kept] = result.residuals[row];
-    result.surface_points.row(kept++) = result.surface_points.row(row);
+    if (result.surface_points.row(row).allFinite()) kept.push_back(row);
   }
-  result.pairs.conservativeResize(kept, 2);
-  result.residuals.conservativeResize(kept);
-  result.surface_points.conservativeResize(kept, 3);
+  keep_pairs(result, kept);
 }
 
 }  // namespace
