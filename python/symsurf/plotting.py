@@ -98,7 +98,7 @@ def _object(result: Result, shape: Shape | None, points: ArrayLike | None) -> py
     infinite = np.flatnonzero(~np.isfinite(shape.points).all(axis=1))
     if len(infinite):
         place = tuple(shape.points[infinite[0]].tolist())
-        raise InvalidInput(f"point {infinite[0]} is {place}; all coordinates must be finite")
+        raise InvalidInput(f"point {infinite[0]} is {place}; coordinates must be finite")
     if shape.faces is None:
         return _pyvista().PolyData(shape.points)
     return _pyvista().PolyData.from_regular_faces(shape.points, shape.faces)
@@ -227,7 +227,8 @@ def _slopes(
 ) -> NDArray[np.float64]:
     """How far aside of the line of sight points are seen: left, lowest, right, highest."""
     x, y, z = axes @ (points - eye).T
-    return np.array([np.min(x / -z), np.min(y / -z), np.max(x / -z), np.max(y / -z)])
+    aside = np.array([x, y]) / -z
+    return np.concatenate([aside.min(axis=1), aside.max(axis=1)])
 
 
 def _view(

@@ -139,15 +139,19 @@ TEST(PlaneSearch, SurvivesDamage) {
   }
 }
 
+template <typename Keep>
+Points part_of(const Points& whole, const Keep& keep) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < whole.rows(); ++i)
+    if (keep(Vector3(whole.row(i)))) rows.push_back(i);
+  return whole(rows, Eigen::all);
+}
+
 TEST(PlaneSearch, FindsThePlaneOfHalfAnObject) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);
     const Points whole = lumpy_ball(random, 4096, false);
-    Points half(whole.rows(), 3);
-    Index kept = 0;
-    for (Index i = 0; i < whole.rows(); ++i)
-      if (whole(i, 0) > 0 || whole(i, 1) > 0.4) half.row(kept++) = whole.row(i);
-    half.conservativeResize(kept, 3);
+    const Points half = part_of(whole, [](const Vector3& x) { return x.x() > 0 || x.y() > 0.4; });
     const Result result = detected(half);
     EXPECT_LT(angle(result, truth), 2) << seed;
     EXPECT_LT(offset(result, truth, half), 0.01) << seed;
@@ -165,11 +169,7 @@ TEST(PlaneSearch, MostlyFindsThePlaneOfHalfAnObjectWithAStripOfTheOtherHalf) {
     for (Index i = 0; i < whole.rows(); ++i)
       if (whole(i, 0) < 0) depths.push_back(-whole(i, 0));
     const double strip = quantile(std::move(depths), 0.3);
-    Points half(whole.rows(), 3);
-    Index kept = 0;
-    for (Index i = 0; i < whole.rows(); ++i)
-      if (whole(i, 0) > -strip) half.row(kept++) = whole.row(i);
-    half.conservativeResize(kept, 3);
+    const Points half = part_of(whole, [&](const Vector3& x) { return x.x() > -strip; });
     const Result result = detected(half);
     found += angle(result, truth) < 2 && offset(result, truth, half) < 0.01;
   }
