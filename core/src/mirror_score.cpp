@@ -26,17 +26,33 @@ constexpr double exact = 1e-6;  // of the cloud's size: the rounding of single p
 // since of two mirrors that explain the same the simpler is meant, what its freedom costs.
 struct Freedom {
   double by_chance = 0, cost = 0;
+  NoiseIs noise = NoiseIs::kept;
   bool anywhere = false;  // it may have any height over each place
 };
 
 Freedom freedom_of(std::string_view kind) {
   static const std::map<std::string_view, Freedom> freedoms{
-      {"sphere", {0.15, 0.01}},          {"cylinder", {0.15, 0.02}},
-      {"quadric", {0.4, 0.03}},          {"height field", {0.85, 0.05, true}},
-      {"free-form", {0.65, 0.06, true}},
+      {"plane", {0, 0, NoiseIs::smoothed}},
+      {"sphere", {0.15, 0.01, NoiseIs::extrapolated}},
+      {"cylinder", {0.15, 0.02, NoiseIs::extrapolated}},
+      {"quadric", {0.4, 0.03}},
+      {"height field", {0.85, 0.05, NoiseIs::kept, true}},
+      {"free-form", {0.65, 0.06, NoiseIs::kept, true}},
   };
   const auto found = freedoms.find(kind);
   return found == freedoms.end() ? Freedom() : found->second;
+}
+
+// Patches that are apart agree less than neighbours' do.
+double agreement_apart(NoiseIs noise) {
+  switch (noise) {
+    case NoiseIs::smoothed:
+      return 0.93;
+    case NoiseIs::extrapolated:
+      return 0.85;
+    default:
+      return 1;
+  }
 }
 
 // The image's normal, from where its tangents go: exact whatever the mirror's curvature.
@@ -65,7 +81,8 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       points_(points),
       coarse_(cloud, coarse_size, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
-      spacing_(coarse_.spacing_of(cloud.total)) {
+      spacing_(coarse_.spacing_of(cloud.total)),
+      places_(coarse_, fine_, {}, cloud.total) {
   take_samples();
   look_at_neighbours();
 }
@@ -78,84 +95,111 @@ void MirrorScore::take_samples() {
   }
 }
 
-// Neighbours tell how far noise, or curvature between sparse points, takes a point off the surface:
-// less than that is no miss.
 void MirrorScore::look_at_neighbours() {
   if (samples_.empty()) return;
-  struct Look {
-    double residual, facing;
-  };
-  std::vector<Look> looks;
-  std::vector<double> residuals;
   std::vector<Vector3> places;
   for (const Sample& s : samples_) places.push_back(cloud_.frame.leave(s.position));
   const std::vector<Vector3> nearest = points_.second_nearest(places);
+  std::vector<double> offsets;
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const Vector3 chord = cloud_.frame.enter(nearest[k]) - samples_[k].position;
+    offsets.push_back(std::abs(chord.dot(samples_[k].surfel->normal)));
+  }
+  places_ = SheetPlaces(coarse_, fine_, SheetNoise(std::move(offsets), fine_), cloud_.total);
+  for (const NoiseIs noise : {NoiseIs::kept, NoiseIs::smoothed, NoiseIs::extrapolated})
+    neighbours_[static_cast<std::size_t>(noise)] = said(nearest, noise);
+}
+
+// Neighbours tell how far noise, or curvature between sparse points, takes a point off the surface:
+// less than that is no miss. Without the noise, which their patches have in common, they agree more
+// than patches apart from each other.
+MirrorScore::Neighbours MirrorScore::said(const std::vector<Vector3>& nearest,
+                                          NoiseIs noise) const {
+  struct Look {
+    double residual, facing, uncertain;
+  };
+  std::vector<Look> looks;
+  std::vector<double> residuals;
   for (std::size_t k = 0; k < samples_.size(); ++k) {
     const Sample& s = samples_[k];
     const Vector3 other = cloud_.frame.enter(nearest[k]);
     const Surfel* partner = surfel_at(other);
     if (!partner) continue;
-    const Vector3 gap = s.position - other;
+    const Located here = places_.at(s.position, noise), there = places_.at(other, noise);
+    const Vector3 gap = here.place - there.place;
     const Agreement agreement(gap, s.surfel->normal, s.surfel->flatness, *partner);
-    looks.push_back({distance_past(gap, *partner, spacing_), agreement.facing});
-    residuals.push_back(looks.back().residual);
+    residuals.push_back(distance_past(gap, *partner, spacing_));
+    looks.push_back(
+        {residuals.back(), agreement.facing, std::hypot(here.uncertain, there.uncertain)});
   }
-  if (looks.empty()) return;
-  roughness_ = median(std::move(residuals));
-  testimony_.meets = std::hypot(testimony_.meets, roughness_);
-  testimony_.misses = std::hypot(testimony_.misses, 2 * roughness_);
+  Neighbours all;
+  if (looks.empty()) return all;
+  all.roughness = median(std::move(residuals));
+  const auto surer = [](const Look& a, const Look& b) { return a.uncertain < b.uncertain; };
+  const double least = std::min_element(looks.begin(), looks.end(), surer)->uncertain;
+  all.testimony = all.testimony.of(all.roughness);
   // A sheet is no mirror of the noise on its two sides.
-  moved_tolerance_ = std::hypot(moved_tolerance_, 10 * roughness_);
+  all.moved_tolerance = std::hypot(all.moved_tolerance, 10 * std::hypot(all.roughness, least));
   double sum = 0;
-  for (const Look& look : looks) sum += testimony_(look.residual, look.facing);
-  self_ = sum / static_cast<double>(samples_.size());
+  for (const Look& look : looks)
+    sum += all.testimony.of(look.uncertain)(look.residual, look.facing);
+  const double as_alike = least > 0 ? agreement_apart(noise) : 1;
+  all.explain = as_alike * sum / static_cast<double>(samples_.size());
+  return all;
 }
 
 Explained MirrorScore::explained(const Mirror& mirror) const {
-  if (!(self_ > 0)) return {};
+  const Freedom freedom = freedom_of(mirror.kind());
+  const Neighbours& own = neighbours(freedom.noise);
+  if (!(own.explain > 0)) return {};
   const double size = cloud_.frame.size;
   double moved = 0, sum = 0, exactly = 0;
   struct Moved {
     const Sample* sample;
     double weight;
+    Located from;
+    Vector3 to;  // its image
   };
   std::vector<Moved> asked;
   std::vector<Vector3> images;
   std::optional<MirrorLayers> layers;
-  if (freedom_of(mirror.kind()).anywhere)
-    layers.emplace(0.7 * fine_.spacing() * size, 15 * roughness_ * size, size);
+  if (freedom.anywhere)
+    layers.emplace(0.7 * fine_.spacing() * size, 15 * own.roughness * size, size);
   for (const Sample& s : samples_) {
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
-    if (!image.allFinite()) {
+    const Located from = places_.at(s.position, freedom.noise);
+    const Vector3 place = cloud_.frame.leave(from.place), to = mirror.reflect(place);
+    if (!image.allFinite() || !to.allFinite()) {
       moved += 1;
       continue;
     }
     if (layers) layers->add(x, cloud_.frame.axes * s.surfel->normal, image);
-    const double weight = displaced((image - x).norm() / (2 * size), moved_tolerance_);
+    const double weight = displaced((to - place).norm() / (2 * size), own.moved_tolerance);
     if (weight <= 0) continue;
     moved += weight;
-    asked.push_back({&s, weight});
+    asked.push_back({&s, weight, from, to});
     images.push_back(image);
   }
   const std::vector<Vector3> partners = points_.nearest(images, reach * size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!partners[k].allFinite()) continue;
-    const auto& [s, weight] = asked[k];
-    const Vector3 x = cloud_.frame.leave(s->position), image = images[k];
+    const auto& [s, weight, from, to] = asked[k];
     const Vector3 at = cloud_.frame.enter(partners[k]);
     const Surfel* partner = surfel_at(at);
     if (!partner) continue;
-    const Vector3 normal =
-        image_normal(mirror, x, cloud_.frame.axes * s->surfel->normal, image, 1e-4 * size);
+    if ((cloud_.frame.enter(images[k]) - at).norm() < exact) exactly += weight;
+    const Vector3 normal = image_normal(mirror, cloud_.frame.leave(from.place),
+                                        cloud_.frame.axes * s->surfel->normal, to, 1e-4 * size);
     if (!normal.allFinite()) continue;
-    const Vector3 gap = cloud_.frame.enter(image) - at;
-    if (gap.norm() < exact) exactly += weight;
+    const Located other = places_.at(at, freedom.noise);
+    const Vector3 gap = cloud_.frame.enter(to) - other.place;
     const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s->surfel->flatness,
                               *partner);
-    sum += weight * testimony_(distance_past(gap, *partner, spacing_), agreement.facing);
+    const Testimony testimony = own.testimony.of(std::hypot(from.uncertain, other.uncertain));
+    sum += weight * testimony(distance_past(gap, *partner, spacing_), agreement.facing);
   }
   const double witnesses = std::max(moved, least_moved * static_cast<double>(samples_.size()));
-  return {std::clamp(sum / witnesses / self_, 0.0, 1.0), exactly / witnesses,
+  return {std::clamp(sum / witnesses / own.explain, 0.0, 1.0), exactly / witnesses,
           layers ? layers->single() : 0};
 }
 

@@ -5,6 +5,7 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "nearest_points.h"
 #include "plane/surfels.h"
+#include "sheet_places.h"
 
 namespace symsurf {
 
@@ -22,6 +24,11 @@ namespace symsurf {
 struct Testimony {
   double meets = 0.0015, misses = 0.016;  ///< distances from the surface, over the cloud's size
   double objection = 0.7;                 ///< what a miss counts
+
+  /// The same of a cloud whose points are that far off their surface.
+  Testimony of(double rough) const {
+    return {std::hypot(meets, rough), std::hypot(misses, 2 * rough), objection};
+  }
 
   /// `facing`, 0..1: do the normals mirror each other?
   double operator()(double residual, double facing) const {
@@ -67,8 +74,20 @@ class MirrorScore {
     const Surfel* surfel;
   };
 
+  // What the samples' own nearest neighbours say.
+  struct Neighbours {
+    double roughness = 0;  // how far they miss each other's surface
+    Testimony testimony;
+    double moved_tolerance = 0.01;
+    double explain = 0;
+  };
+
   void take_samples();
   void look_at_neighbours();
+  Neighbours said(const std::vector<Vector3>& nearest, NoiseIs noise) const;
+  const Neighbours& neighbours(NoiseIs noise) const {
+    return neighbours_[static_cast<std::size_t>(noise)];
+  }
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   const Cloud& cloud_;
@@ -76,10 +95,8 @@ class MirrorScore {
   Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet
   std::vector<Sample> samples_;
-  Testimony testimony_;
-  double roughness_ = 0;  // how far neighbours miss each other's surface
-  double moved_tolerance_ = 0.01;
-  double self_ = 0;  // what the points' own neighbours explain
+  SheetPlaces places_;
+  std::array<Neighbours, 3> neighbours_;  // by what becomes of the noise
 };
 
 /// What is left of a share explained after what chance explains, for a kind of mirror.

@@ -6,6 +6,7 @@
 #include <symsurf/sphere.h>
 
 #include <cmath>
+#include <random>
 
 #include "cloud.h"
 #include "random_cloud.h"
@@ -23,6 +24,14 @@ Points mirrored_sheets(std::uint64_t seed) {
     points.row(i) << (i % 2 ? x : -x), y, z;
   }
   return points;
+}
+
+// Noise whose root mean square is that share of the points' diagonal.
+Points gaussian(const Points& points, double share, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  std::normal_distribution<double> normal(0, share * diagonal / std::sqrt(3));
+  return points.unaryExpr([&](double) { return normal(random); });
 }
 
 struct Scored {
@@ -48,6 +57,20 @@ TEST(MirrorScore, IsHighForTheTruthAndLowBesideIt) {
     EXPECT_LT(score(Plane({1, 0, 0}, 0.1)), 0.3) << seed;
     EXPECT_LT(score(Plane(RandomCloud(seed).direction(), 0.2)), 0.5) << seed;
     EXPECT_LT(score(Sphere({-2, 0, 0}, 2)), 0.5) << seed;
+  }
+}
+
+// Noise of 2 % of the diagonal, and sides that are unlike by less.
+TEST(MirrorScore, TellsTheUnlikeFromTheNoisy) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Points alike = mirrored_sheets(seed);
+    Points unlike = alike;
+    for (Index i = 1; i < unlike.rows(); i += 2)
+      unlike(i, 0) += 0.12 * std::sin(5 * unlike(i, 1)) * std::cos(4 * unlike(i, 2));
+    const Points noise = gaussian(alike, 0.02, seed);
+    const Plane plane({1, 0, 0}, 0);
+    EXPECT_GT(Scored(alike + noise)(plane), 0.8) << seed;
+    EXPECT_LT(Scored(unlike + noise)(plane), 0.5) << seed;
   }
 }
 

@@ -49,19 +49,18 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.place < b.place; });
   noise_ = measured_noise();
-  testimony_ = {
-      .meets = std::clamp(noise_, closest, close), .misses = misses, .objection = objection};
-  for (Sample& s : samples_) s.smoothed = smoothed(s.point, *s.surfel);
+  testimony_ = {.meets = std::clamp(noise_.deviation(), closest, close),
+                .misses = misses,
+                .objection = objection};
+  for (Sample& s : samples_) s.smoothed = noise_.smoothed(s.point, *s.surfel);
 }
 
-// From how far neighbours lie off the sheet. Being near, they have much of their noise in common.
-double Refinement::measured_noise() const {
-  constexpr double shown = 0.67;  // of it, in the median
+SheetNoise Refinement::measured_noise() const {
   const Index stride = stride_for(few_samples);
   std::vector<Vector3> places;
   for (std::size_t i = 0; i < samples_.size(); i += stride)
     places.push_back(cloud_.frame.leave(samples_[i].point));
-  if (places.empty()) return 0;
+  if (places.empty()) return {};
   const std::vector<Vector3> neighbours = points_.second_nearest(places);
   std::vector<double> offsets;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -69,18 +68,12 @@ double Refinement::measured_noise() const {
     const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.point;
     offsets.push_back(std::abs(chord.dot(s.surfel->normal)));
   }
-  return median(std::move(offsets)) / shown;
-}
-
-// Noise beyond what curvature between neighbours makes. What spreads little more than the noise, as
-// small patches do across their sheet, is taken for noise as well.
-Vector3 Refinement::smoothed(const Vector3& x, const Surfel& surfel) const {
-  constexpr double noticed = 0.002, width = 2;
-  return noise_ > noticed ? surfel.smoothed(x, width * noise_) : x;
+  return SheetNoise(std::move(offsets));
 }
 
 Vector3 Refinement::smoothed_gap(const UnitPlane& plane, const Match& match) const {
-  return plane.reflect(samples_[match.sample].smoothed) - smoothed(match.partner, *match.surfel);
+  return plane.reflect(samples_[match.sample].smoothed) -
+         noise_.smoothed(match.partner, *match.surfel);
 }
 
 std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, double limit,
@@ -134,7 +127,7 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 // what agrees closely, which nothing beside a hole pulls away.
 PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) const {
   constexpr double wide = 0.01;
-  const double narrow = std::clamp(noise_, 0.003, wide);  // noise agrees no closer
+  const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
   const Index many = stride_for(many_samples), telling = stride_for(telling_samples);
   const UnitPlane rough = fitted(start.plane, wide, many, steps);
@@ -173,7 +166,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
       const Sample& s = samples_[match.sample];
       const double weight = displaced(plane.distance(s.smoothed), tolerance);
       if (weight <= 0) continue;
-      const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_)};
+      const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_.deviation())};
       const Vector3 gap = smoothed_gap(plane, match);
       const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                                 p);

@@ -9,6 +9,7 @@
 #include "../nearest_points.h"
 #include "agreement.h"
 #include "candidates.h"
+#include "sheet_noise.h"
 #include "surfels.h"
 
 namespace symsurf {
@@ -45,8 +46,7 @@ class Refinement {
 
   // Every how manieth sample to look at, for about so many.
   Index stride_for(Index wanted) const;
-  double measured_noise() const;
-  Vector3 smoothed(const Vector3& x, const Surfel& surfel) const;
+  SheetNoise measured_noise() const;
   Vector3 smoothed_gap(const UnitPlane& plane, const Match& match) const;
   PlaneCandidate rated(const UnitPlane& plane, Index stride) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
@@ -61,8 +61,8 @@ class Refinement {
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
-  double spacing_;    // of the points on a sheet
-  double noise_ = 0;  // their standard deviation off it
+  double spacing_;  // of the points on a sheet
+  SheetNoise noise_;
   Testimony testimony_;
   std::vector<Sample> samples_;  // spread evenly over the cloud
 };
