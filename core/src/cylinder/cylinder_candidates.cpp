@@ -15,7 +15,7 @@ constexpr Index pairs_tried = 30000, pairs_kept = 2000;
 constexpr int axes = 6;  // directions over the half circle
 
 // To both sides of the pair. In units of the inverse diagonal.
-constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6};
+constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6, 6.5, 9.0};
 
 }  // namespace
 
@@ -33,8 +33,9 @@ std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const
             add(UnitCylinder{middle + side / curvature * u, axis, 1 / curvature});
     }
   };
-  return best_of(hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
-                 surfels, map, count, context);
+  return best_of_each_size(
+      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
+      [](const UnitCylinder& cylinder) { return cylinder.radius; }, surfels, map, count, context);
 }
 
 }  // namespace symsurf

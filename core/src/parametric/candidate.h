@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "../plane/surfel_map.h"
@@ -55,5 +56,27 @@ void keep_distinct(const Surfels& surfels, std::vector<Candidate<Shape>>& candid
 template <typename Shape>
 std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, const Surfels& surfels,
                                       const SurfelMap& map, Index count, const Context& context);
+
+/// The same of large, middling and small mirrors apart, by `radius(shape)`, in diagonals: of balls
+/// and tubes any plane through the middle, and what is nearly one, explains more than small mirrors
+/// beside the true one do.
+template <typename Shape, typename Radius>
+std::vector<Candidate<Shape>> best_of_each_size(std::vector<Shape> hypotheses, const Radius& radius,
+                                                const Surfels& surfels, const SurfelMap& map,
+                                                Index count, const Context& context) {
+  constexpr std::array least_radii{0.7, 0.3, 0.0};
+  std::vector<Candidate<Shape>> candidates;
+  for (const double least : least_radii) {
+    const auto rest =
+        std::stable_partition(hypotheses.begin(), hypotheses.end(),
+                              [&](const Shape& shape) { return radius(shape) < least; });
+    const std::vector<Shape> chosen(rest, hypotheses.end());
+    hypotheses.erase(rest, hypotheses.end());
+    for (const Candidate<Shape>& candidate :
+         best_of(chosen, surfels, map, count / static_cast<Index>(least_radii.size()), context))
+      candidates.push_back(candidate);
+  }
+  return candidates;
+}
 
 }  // namespace symsurf
