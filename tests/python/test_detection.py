@@ -104,3 +104,20 @@ def test_sample_shapes(shapes):
         symsurf.detect_plane(points).mirror, symsurf.Plane((1, 0, 0), 0), points
     )
     assert angle <= 0.05 and offset <= 1e-4
+
+
+# All around the axis any plane through it explains much, which leaves the cylinder no room among
+# the candidates unless small ones have their own.
+@pytest.mark.parametrize("seed", range(8))
+def test_cylinder_of_a_closed_tube(seed):
+    rng = np.random.default_rng(seed)
+    angle, z = rng.uniform(0, 2 * np.pi, 1000), rng.uniform(-2.5, 2.5, 1000)
+    phases = rng.uniform(0, 2 * np.pi, 3)
+    waves = np.cos([angle + phases[0], 2 * angle + z + phases[1], 2 * z - angle + phases[2]])
+    height = 0.4 + 0.07 * waves.sum(axis=0)
+    around = np.c_[np.cos(angle), np.sin(angle)]
+    sheets = [np.c_[radius[:, None] * around, z] for radius in (1 + height, 1 - height)]
+    rotation = random_rotation(rng)
+    mirror = symsurf.detect(np.vstack(sheets) @ rotation.T, method="cylinder").mirror
+    assert mirror.radius == pytest.approx(1, abs=1e-9)
+    assert abs(mirror.axis @ rotation[:, 2]) == pytest.approx(1, abs=1e-9)
