@@ -52,7 +52,7 @@ Located SheetPlaces::extrapolated(const Vector3& x) const {
   const Projected narrow(x, (*fine_)[fine]);
   if (coarse < 0) return {narrow.place, noise_.deviation()};
   const Projected wide(x, (*coarse_)[coarse]);
-  if (narrow.spread < 0 || wide.spread < 2 * narrow.spread)
+  if (narrow.spread <= 0 || wide.spread < 2 * narrow.spread)
     return {narrow.place, noise_.deviation()};
   const Vector3 further =
       (narrow.place - wide.place) * (narrow.spread / (wide.spread - narrow.spread));
