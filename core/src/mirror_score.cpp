@@ -26,6 +26,8 @@ constexpr double exact = 1e-6;  // of the cloud's size: the rounding of single p
 // since of two mirrors that explain the same the simpler is meant, what its freedom costs.
 struct Freedom {
   double by_chance = 0, cost = 0;
+  // Without it, sheets as near as patches are wide become one: freer kinds, which are theirs, keep
+  // it.
   NoiseIs noise = NoiseIs::kept;
   bool anywhere = false;  // it may have any height over each place
 };
@@ -168,7 +170,8 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   for (const Sample& s : samples_) {
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
     const Located from = places_.at(s.position, freedom.noise);
-    const Vector3 place = cloud_.frame.leave(from.place), to = mirror.reflect(place);
+    const Vector3 place = cloud_.frame.leave(from.place);
+    const Vector3 to = from.uncertain > 0 ? mirror.reflect(place) : image;
     if (!image.allFinite() || !to.allFinite()) {
       moved += 1;
       continue;
