@@ -99,17 +99,13 @@ void MirrorScore::take_samples() {
 
 void MirrorScore::look_at_neighbours() {
   if (samples_.empty()) return;
-  std::vector<Vector3> places;
-  for (const Sample& s : samples_) places.push_back(cloud_.frame.leave(s.position));
-  const std::vector<Vector3> nearest = points_.second_nearest(places);
-  std::vector<double> offsets;
-  for (std::size_t k = 0; k < samples_.size(); ++k) {
-    const Vector3 chord = cloud_.frame.enter(nearest[k]) - samples_[k].position;
-    offsets.push_back(std::abs(chord.dot(samples_[k].surfel->normal)));
-  }
-  places_ = SheetPlaces(coarse_, fine_, SheetNoise(std::move(offsets), fine_), cloud_.total);
-  for (const NoiseIs noise : {NoiseIs::kept, NoiseIs::smoothed, NoiseIs::extrapolated})
-    neighbours_[static_cast<std::size_t>(noise)] = said(nearest, noise);
+  const std::vector<Vector3> nearest = neighbours_of(samples_, cloud_.frame, points_);
+  const SheetNoise noise(samples_, nearest, fine_);
+  places_ = SheetPlaces(coarse_, fine_, noise, cloud_.total);
+  neighbours_.fill(said(nearest, NoiseIs::kept));
+  if (!noise.shows()) return;
+  for (const NoiseIs taken_off : {NoiseIs::smoothed, NoiseIs::extrapolated})
+    neighbours_[static_cast<std::size_t>(taken_off)] = said(nearest, taken_off);
 }
 
 // Neighbours tell how far noise, or curvature between sparse points, takes a point off the surface:
@@ -122,19 +118,20 @@ MirrorScore::Neighbours MirrorScore::said(const std::vector<Vector3>& nearest,
   };
   std::vector<Look> looks;
   std::vector<double> residuals;
+  Neighbours all;
+  for (const OnSheet& s : samples_) all.samples.push_back(places_.at(s.position, noise));
   for (std::size_t k = 0; k < samples_.size(); ++k) {
-    const Sample& s = samples_[k];
-    const Vector3 other = cloud_.frame.enter(nearest[k]);
-    const Surfel* partner = surfel_at(other);
+    const OnSheet& s = samples_[k];
+    const Surfel* partner = surfel_at(nearest[k]);
     if (!partner) continue;
-    const Located here = places_.at(s.position, noise), there = places_.at(other, noise);
+    const Located& here = all.samples[k];
+    const Located there = places_.at(nearest[k], noise);
     const Vector3 gap = here.place - there.place;
     const Agreement agreement(gap, s.surfel->normal, s.surfel->flatness, *partner);
     residuals.push_back(distance_past(gap, *partner, spacing_));
     looks.push_back(
         {residuals.back(), agreement.facing, std::hypot(here.uncertain, there.uncertain)});
   }
-  Neighbours all;
   if (looks.empty()) return all;
   all.roughness = median(std::move(residuals));
   const auto surer = [](const Look& a, const Look& b) { return a.uncertain < b.uncertain; };
@@ -157,9 +154,8 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   const double size = cloud_.frame.size;
   double moved = 0, sum = 0, exactly = 0;
   struct Moved {
-    const Sample* sample;
+    std::size_t sample;
     double weight;
-    Located from;
     Vector3 to;  // its image
   };
   std::vector<Moved> asked;
@@ -167,9 +163,10 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
   std::optional<MirrorLayers> layers;
   if (freedom.anywhere)
     layers.emplace(0.7 * fine_.spacing() * size, 15 * own.roughness * size, size);
-  for (const Sample& s : samples_) {
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const OnSheet& s = samples_[k];
+    const Located& from = own.samples[k];
     const Vector3 x = cloud_.frame.leave(s.position), image = mirror.reflect(x);
-    const Located from = places_.at(s.position, freedom.noise);
     const Vector3 place = cloud_.frame.leave(from.place);
     const Vector3 to = from.uncertain > 0 ? mirror.reflect(place) : image;
     if (!image.allFinite() || !to.allFinite()) {
@@ -180,23 +177,25 @@ Explained MirrorScore::explained(const Mirror& mirror) const {
     const double weight = displaced((to - place).norm() / (2 * size), own.moved_tolerance);
     if (weight <= 0) continue;
     moved += weight;
-    asked.push_back({&s, weight, from, to});
+    asked.push_back({k, weight, to});
     images.push_back(image);
   }
   const std::vector<Vector3> partners = points_.nearest(images, reach * size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!partners[k].allFinite()) continue;
-    const auto& [s, weight, from, to] = asked[k];
+    const auto& [sample, weight, to] = asked[k];
+    const Surfel& surfel = *samples_[sample].surfel;
+    const Located& from = own.samples[sample];
     const Vector3 at = cloud_.frame.enter(partners[k]);
     const Surfel* partner = surfel_at(at);
     if (!partner) continue;
     if ((cloud_.frame.enter(images[k]) - at).norm() < exact) exactly += weight;
     const Vector3 normal = image_normal(mirror, cloud_.frame.leave(from.place),
-                                        cloud_.frame.axes * s->surfel->normal, to, 1e-4 * size);
+                                        cloud_.frame.axes * surfel.normal, to, 1e-4 * size);
     if (!normal.allFinite()) continue;
     const Located other = places_.at(at, freedom.noise);
     const Vector3 gap = cloud_.frame.enter(to) - other.place;
-    const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, s->surfel->flatness,
+    const Agreement agreement(gap, cloud_.frame.axes.transpose() * normal, surfel.flatness,
                               *partner);
     const Testimony testimony = own.testimony.of(std::hypot(from.uncertain, other.uncertain));
     sum += weight * testimony(distance_past(gap, *partner, spacing_), agreement.facing);

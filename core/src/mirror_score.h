@@ -69,13 +69,9 @@ class MirrorScore {
                 Index settled = 0) const;
 
  private:
-  struct Sample {
-    Vector3 position;  // in the principal frame
-    const Surfel* surfel;
-  };
-
-  // What the samples' own nearest neighbours say.
+  // Where the samples lie, and what their own nearest neighbours say.
   struct Neighbours {
+    std::vector<Located> samples;
     double roughness = 0;  // how far they miss each other's surface
     Testimony testimony;
     double moved_tolerance = 0.01;
@@ -94,7 +90,7 @@ class MirrorScore {
   const NearestPoints& points_;
   Surfels coarse_, fine_;
   double spacing_;  // of the points on a sheet
-  std::vector<Sample> samples_;
+  std::vector<OnSheet> samples_;
   SheetPlaces places_;
   std::array<Neighbours, 3> neighbours_;  // by what becomes of the noise
 };

@@ -23,9 +23,9 @@ struct Projected {
 SheetPlaces::SheetPlaces(const Surfels& coarse, const Surfels& fine, const SheetNoise& noise,
                          Index points)
     : coarse_(&coarse), fine_(&fine), noise_(noise) {
-  constexpr double least = 0.14;
+  constexpr double least = 0.14, most = 0.7;
   const double points_a_patch = static_cast<double>(points) / static_cast<double>(coarse.size());
-  left_ = noise.deviation() * std::clamp(1 / std::sqrt(2 * points_a_patch), least, 0.7);
+  left_ = noise.deviation() * std::clamp(1 / std::sqrt(2 * points_a_patch), least, most);
 }
 
 Located SheetPlaces::at(const Vector3& x, NoiseIs noise) const {

@@ -25,7 +25,8 @@ struct Ball {
     for (Index i = 0; i < points.rows(); ++i) points.row(i) *= 1 + normal(random);
     const Cloud cloud = checked_cloud(points, {}, 4, {});
     const Surfels coarse(cloud, 400, {}), fine(cloud, coarse, {});
-    const SheetNoise measured({0.67 * deviation}, fine);
+    const SheetNoise measured({{Vector3::Zero(), &fine[0]}}, {0.67 * deviation * fine[0].normal},
+                              fine);
     const SheetPlaces places(coarse, fine, measured, cloud.total);
     for (Index i = 0; i < points.rows(); ++i) {
       const Vector3 x = cloud.frame.enter(points.row(i).transpose());

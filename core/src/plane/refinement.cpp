@@ -57,18 +57,10 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
 
 SheetNoise Refinement::measured_noise() const {
   const Index stride = stride_for(few_samples);
-  std::vector<Vector3> places;
+  std::vector<OnSheet> asked;
   for (std::size_t i = 0; i < samples_.size(); i += stride)
-    places.push_back(cloud_.frame.leave(samples_[i].point));
-  if (places.empty()) return {};
-  const std::vector<Vector3> neighbours = points_.second_nearest(places);
-  std::vector<double> offsets;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Sample& s = samples_[k * stride];
-    const Vector3 chord = cloud_.frame.enter(neighbours[k]) - s.point;
-    offsets.push_back(std::abs(chord.dot(s.surfel->normal)));
-  }
-  return SheetNoise(std::move(offsets));
+    asked.push_back({samples_[i].point, samples_[i].surfel});
+  return {asked, neighbours_of(asked, cloud_.frame, points_)};
 }
 
 Vector3 Refinement::smoothed_gap(const UnitPlane& plane, const Match& match) const {

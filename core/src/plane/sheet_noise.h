@@ -2,22 +2,34 @@
 
 #include <vector>
 
+#include "../nearest_points.h"
 #include "surfels.h"
 
 namespace symsurf {
+
+/// A point of a cloud and the patch of its sheet, in the principal frame.
+struct OnSheet {
+  Vector3 position;
+  const Surfel* surfel;
+};
+
+/// The points nearest but one to them, in the principal frame. Collective.
+std::vector<Vector3> neighbours_of(const std::vector<OnSheet>& samples, const PrincipalFrame& frame,
+                                   const NearestPoints& points);
 
 /// The noise that takes a cloud's points off its sheets, and points without it.
 class SheetNoise {
  public:
   SheetNoise() = default;
 
-  /// From how far neighbours of at least one sample lie off its sheet. Being near, they have much
-  /// of their noise in common.
-  explicit SheetNoise(std::vector<double> offsets);
+  /// From how far neighbours lie off the samples' sheets; none where there are no samples. Being
+  /// near, they have much of their noise in common.
+  SheetNoise(const std::vector<OnSheet>& samples, const std::vector<Vector3>& neighbours);
 
   /// Where the neighbours show noise, at least as much of it as the thin ones among patches have:
   /// of dense clouds neighbours are so near that they have most of it in common.
-  SheetNoise(std::vector<double> offsets, const Surfels& patches);
+  SheetNoise(const std::vector<OnSheet>& samples, const std::vector<Vector3>& neighbours,
+             const Surfels& patches);
 
   /// Standard deviation, over the cloud's size.
   double deviation() const { return deviation_; }
