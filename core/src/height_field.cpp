@@ -11,7 +11,7 @@
 #include "height_interpolant.h"
 #include "orthogonal_to.h"
 #include "rows_of.h"
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 namespace symsurf {
 
@@ -63,7 +63,8 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
       (object.matrix().rowwise() - origin_.transpose()) * across_;
   const Eigen::RowVector2d centre = flat.colwise().mean();
   flat.rowwise() -= centre;
-  const Eigen::Matrix2d principal = eigen_of(Eigen::Matrix2d(flat.transpose() * flat)).vectors;
+  const Eigen::Matrix2d principal =
+      eigen_of(Eigen::Matrix2d(flat.transpose().lazyProduct(flat))).vectors;
   flat = flat * principal;
   const Eigen::RowVector2d low = flat.colwise().minCoeff(), high = flat.colwise().maxCoeff();
   const auto [columns, rows] = grid_cells(high.x() - low.x(), high.y() - low.y(), resolution);

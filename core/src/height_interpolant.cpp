@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "symmetric_matrix.h"
+#include "semidefinite_solve.h"
 
 namespace symsurf {
 

@@ -7,6 +7,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "semidefinite_solve.h"
+
 namespace symsurf {
 
 namespace {
@@ -17,13 +19,17 @@ bool lie_on(const Mirror& mirror, PointsView points, double limit) {
 
 // |x|^2 = 2 c . x + d by least squares, in the frame, where the numbers are about 1.
 std::shared_ptr<Mirror> fitted_sphere(PointsView points, const PrincipalFrame& frame) {
-  Eigen::MatrixX4d rows(points.size(), 4);
-  for (Index i = 0; i < points.size(); ++i)
-    rows.row(i) << 2 * frame.enter(points[i]).transpose(), 1;
-  const Eigen::VectorXd squares = rows.leftCols<3>().rowwise().squaredNorm() / 4;
-  const Eigen::Vector4d solved = rows.colPivHouseholderQr().solve(squares);
-  const Vector3 centre = solved.head<3>();
-  const double radius = std::sqrt(solved[3] + centre.squaredNorm());
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  for (Index i = 0; i < points.size(); ++i) {
+    const Vector3 x = frame.enter(points[i]);
+    const Eigen::Vector4d row(2 * x.x(), 2 * x.y(), 2 * x.z(), 1);
+    normal += row * row.transpose();
+    right += x.squaredNorm() * row;
+  }
+  const Eigen::Vector4d solution = solved(normal, right);
+  const Vector3 centre = solution.head<3>();
+  const double radius = std::sqrt(solution[3] + centre.squaredNorm());
   if (!std::isfinite(radius) || !(radius > 0)) return nullptr;
   return std::make_shared<Sphere>(frame.leave(centre), frame.size * radius);
 }

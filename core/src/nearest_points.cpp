@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "gathered.h"
+#include "infinity.h"
 
 namespace symsurf {
 
 namespace {
 
 constexpr std::size_t grain = 64;  // queries between two looks at the clock
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace

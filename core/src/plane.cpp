@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grid_mesh.h"
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 namespace symsurf {
 
@@ -39,7 +39,7 @@ Mesh Plane::mesh_over(PointsView object, int resolution) const {
   const Points feet = project(object);
   const Eigen::RowVector3d centre = feet.colwise().mean();
   const Points centred = feet.rowwise() - centre;
-  const Vector3 u = eigen_of(Matrix3(centred.transpose() * centred)).vectors.col(2);
+  const Vector3 u = eigen_of_scatter(centred).vectors.col(2);
   const Vector3 v = normal_.cross(u).normalized();
   const Eigen::VectorXd along_u = centred * u, along_v = centred * v;
   const double u0 = along_u.minCoeff(), v0 = along_v.minCoeff();

@@ -6,7 +6,7 @@
 
 #include "gathered.h"
 #include "parallel.h"
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 namespace symsurf {
 

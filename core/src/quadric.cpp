@@ -3,19 +3,13 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
 
 #include "finite_rows.h"
+#include "infinity.h"
 #include "surface_net.h"
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 namespace symsurf {
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 Quadric::Quadric(const Matrix3& matrix, const Vector3& linear, double constant)
     : Quadric(matrix, Vector3::Zero(), linear, constant) {}

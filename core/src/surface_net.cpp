@@ -10,7 +10,7 @@
 #include "point_tree.h"
 #include "rows_of.h"
 #include "sheet_spacing.h"
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 namespace symsurf {
 
@@ -37,7 +37,7 @@ Grid grid_along(const Points& points, int resolution) {
   Grid grid;
   const Eigen::RowVector3d centre = points.colwise().mean();
   const Points centred = points.rowwise() - centre;
-  grid.axes = eigen_of(Matrix3(centred.transpose() * centred)).vectors;
+  grid.axes = eigen_of_scatter(centred).vectors;
   const Points along = centred * grid.axes;
   const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
   const double longest = (high - low).maxCoeff();

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "../parametric/pair_hypotheses.h"
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

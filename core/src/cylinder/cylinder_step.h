@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 #include "unit_cylinder.h"
 
 namespace symsurf {

@@ -12,10 +12,10 @@ namespace symsurf {
 
 namespace {
 
-constexpr double outlying = 6;     // median residuals: a partner by chance
-constexpr double rounding = 1e-6;  // spacings
-constexpr Index witnesses = 16;    // both ends of a pair share a surface point
-constexpr double near = 2;         // spacings: an image's neighbour
+constexpr double far_residual = 6;     // median residuals: a partner by chance
+constexpr double far_at_least = 1e-6;  // spacings
+constexpr Index witnesses = 16;        // both ends of a pair share a surface point
+constexpr double near = 2;             // spacings: an image's neighbour
 constexpr double one_sided = 0.5;
 
 // Between exact pairs the surface is known; beyond them, as at a hole's rim, it is a guess.
@@ -36,7 +36,7 @@ void keep_credible_pairs(Result& result, double spacing, const Context& context)
   const Eigen::VectorXd& residuals = result.residuals;
   if (residuals.size() == 0) return;
   const double typical = median(std::vector(residuals.begin(), residuals.end()));
-  const double limit = std::max(outlying * typical, rounding * spacing);
+  const double limit = std::max(far_residual * typical, far_at_least * spacing);
   std::vector<Index> credible, doubtful;
   for (Index i = 0; i < residuals.size(); ++i) {
     if (residuals[i] <= limit)

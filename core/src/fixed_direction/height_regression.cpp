@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "../quantile.h"
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 #include "working_cloud.h"
 
 namespace symsurf {

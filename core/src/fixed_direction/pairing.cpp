@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "../orthogonal_to.h"
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 
 namespace symsurf {
 

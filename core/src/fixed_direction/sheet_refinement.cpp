@@ -14,7 +14,7 @@ namespace {
 constexpr double least_displacement = 1.5;  // spacings
 constexpr double reach = 3;                 // spacings from an image to its partner
 constexpr std::size_t least_matches = 12;
-constexpr double outlying = 6;       // median gaps
+constexpr double far_gap = 6;        // median gaps
 constexpr double least_limit = 0.2;  // spacings: patches of sparse sheets are wrong by as much
 constexpr double turn_gain = 3;      // nearest neighbours see only part of a turn
 constexpr double longest_turn = 0.05;
@@ -92,7 +92,7 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
 
   Matches result;
   if (found.size() < least_matches) return result;
-  const double typical = outlying * median(gaps);
+  const double typical = far_gap * median(gaps);
   const Frame frame(v);
   Eigen::Vector2d pull = Eigen::Vector2d::Zero();
   double lever = 0;

@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr Index neighbours = 24, looked_at = 56;
+constexpr Index rim_neighbours = 24, looked_at = 56;
 constexpr double on_the_rim = 0.42;   // lean
 constexpr double least_lean = 0.2;    // chance leans as much inside a sheet
 constexpr double lean_a_reach = 0.5;  // that is lost going inwards
 constexpr double same_sheet = 0.6;    // cosine between normals
 constexpr double thickness = 0.35;    // of a sheet, against the reach
-constexpr double steepest = 0.1;      // sine below which a rim is seen end-on
+constexpr double end_on = 0.1;        // sine below which a rim is seen end-on
 
 constexpr double inside = 0.6;             // reaches, of a point that sees no rim
 constexpr double near_rim = 0.5;           // reaches
@@ -43,7 +43,7 @@ SheetRims::SheetRims(const WorkingCloud& cloud)
         continue;
       sum += d - off * normal;
       reach_[i] = far;
-      if (++count == neighbours) break;
+      if (++count == rim_neighbours) break;
     }
     lean_.row(i) = (sum / std::max<double>(1, count) / reach_[i]).transpose();
   }
@@ -56,11 +56,11 @@ bool SheetRims::seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, 
   const Vector3 inwards = lean / size;
   const Eigen::Vector2d along = across.transpose() * cloud_.normal(i).cross(inwards);
   const double length = along.norm();
-  if (!(length > steepest)) return false;
+  if (!(length > end_on)) return false;
   const Eigen::Vector2d flat = across.transpose() * inwards;
   const Eigen::Vector2d square = flat - along * (along.dot(flat) / (length * length));
   const double shortened = square.norm();
-  if (!(shortened > steepest)) return false;
+  if (!(shortened > end_on)) return false;
   rim.inwards = square / shortened;
   rim.reach = reach_[i] * shortened;
   rim.distance = std::max(0.0, (on_the_rim - size) / lean_a_reach) * rim.reach;

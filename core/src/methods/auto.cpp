@@ -8,7 +8,7 @@ namespace {
 
 // The methods stand in the order of their mirrors' freedom: past a score like this a kind that is
 // freer could only explain the same in more words.
-constexpr double convincing = 0.9;
+constexpr double surely_found = 0.9;
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   std::vector<const Method*> tried;
@@ -19,7 +19,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   std::string runner_up;
   double best_score = -1, second_score = -1;
   Values scores;
-  for (std::size_t i = 0; i < tried.size() && best_score < convincing; ++i) {
+  for (std::size_t i = 0; i < tried.size() && best_score < surely_found; ++i) {
     const double share = 1.0 / static_cast<double>(tried.size());
     const Context part =
         context.stage(static_cast<double>(i) * share, static_cast<double>(i + 1) * share);

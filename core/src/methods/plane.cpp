@@ -12,17 +12,17 @@
 #include "../plane/symmetry_measure.h"
 #include "../shared_matching.h"
 #include "../slabs.h"
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 #include "methods.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr double convincing = 0.05;  // below the best by this share of it: worth the last digits
-constexpr double meagre = 0.3;       // a best that explains less has the margins of one like this
-constexpr double alike = 0.05;       // planes closer than this are one
-constexpr Index measured = 150;      // surfels that the measure is taken over
+constexpr double close_behind = 0.05;  // below the best by this share of it: worth the last digits
+constexpr double meagre = 0.3;         // a best that explains less has the margins of one like this
+constexpr double alike_planes = 0.05;  // planes closer than this are one
+constexpr Index measured = 150;        // surfels that the measure is taken over
 
 struct Effort {
   Search search;
@@ -66,14 +66,14 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
-  keep_distinct(candidates, alike, effort.started);
+  keep_distinct(candidates, alike_planes, effort.started);
   context.report(0.5);
   climb(surfels, map, candidates.front());
   drop_hopeless(candidates, effort.hopeless);
-  keep_distinct(candidates, alike, effort.settled_well);
+  keep_distinct(candidates, alike_planes, effort.settled_well);
   for (PlaneCandidate& candidate : candidates)
     candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
-  keep_distinct(candidates, alike, effort.quickly_fitted);
+  keep_distinct(candidates, alike_planes, effort.quickly_fitted);
   context.report(1);
   return candidates;
 }
@@ -92,11 +92,11 @@ void fit(const Refinement& refinement, const Effort& effort,
          std::vector<PlaneCandidate>& candidates, const Context& context) {
   improve(candidates, context.stage(0, 0.5),
           [&](const PlaneCandidate& c) { return refinement.quick(c); });
-  keep_distinct(candidates, alike, effort.finalists);
+  keep_distinct(candidates, alike_planes, effort.finalists);
   drop_hopeless(candidates, effort.hopeless);
   improve(candidates, context.stage(0.5, 1),
           [&](const PlaneCandidate& c) { return refinement.careful(c); });
-  keep_distinct(candidates, alike, effort.finalists);
+  keep_distinct(candidates, alike_planes, effort.finalists);
 }
 
 // Where the cloud extends most along the mirror: processes look for partners in slabs across it.
@@ -124,15 +124,15 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
         promising_planes(coarse, map, thorough, context.stage(0.42, 0.44));
     fit(refinement, thorough, more, context.stage(0.44, 0.46));
     candidates.insert(candidates.end(), more.begin(), more.end());
-    keep_distinct(candidates, alike, thorough.finalists);
+    keep_distinct(candidates, alike_planes, thorough.finalists);
   }
   improve(candidates, context.stage(0.46, 0.5), [&](const PlaneCandidate& c) {
     constexpr double any = -std::numeric_limits<double>::infinity();
     if (&c == &candidates.front()) return refinement.final(c, any);
-    const double least = below(candidates.front().explained, convincing);
+    const double least = below(candidates.front().explained, close_behind);
     return c.explained < least ? c : refinement.final(c, least);
   });
-  keep_distinct(candidates, alike, 1 + values.integer("max_candidates"));
+  keep_distinct(candidates, alike_planes, 1 + values.integer("max_candidates"));
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const PlaneCandidate& candidate : candidates)

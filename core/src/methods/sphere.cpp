@@ -15,15 +15,15 @@ namespace symsurf {
 
 namespace {
 
-constexpr std::size_t finalists = 8;  // are fitted to the full cloud
-constexpr std::size_t polished = 3;   // and of these, to ever more of it
-constexpr double promising = 0.8;     // and from here on worth sliding
-constexpr double symmetric = 0.35;    // more than what shapes without a mirror explain
-constexpr double on_sheets = 0.97;    // of what it explained before
-constexpr double by_chance = 0.25;    // fewer partners than that prove nothing
-constexpr double least_rest = 0.25;   // of the cloud: worth a search of its own
-constexpr double exact = 0.8;         // partners that need no sheets
-constexpr int slides = 3;             // of one sphere, at the most
+constexpr std::size_t finalists = 8;         // are fitted to the full cloud
+constexpr std::size_t polished_spheres = 3;  // and of these, to ever more of it
+constexpr double promising = 0.8;            // and from here on worth sliding
+constexpr double symmetric = 0.35;           // more than what shapes without a mirror explain
+constexpr double on_sheets = 0.97;           // of what it explained before
+constexpr double by_chance = 0.25;           // fewer partners than that prove nothing
+constexpr double least_rest = 0.25;          // of the cloud: worth a search of its own
+constexpr double exact = 0.8;                // partners that need no sheets
+constexpr int slides = 3;                    // of one sphere, at the most
 
 // Through noise some points meet others by chance: that outweighs no sheet.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
@@ -116,7 +116,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
     }
   drop_chance_partners(candidates);
   keep_distinct(surfels, candidates, alike_spheres, finalists);
-  for (std::size_t i = 0; i < std::min(polished, candidates.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
       candidate = refinement.fitted(candidate, 3000, 3);

@@ -7,7 +7,7 @@
 #include "../plane/agreement.h"
 #include "../quantile.h"
 #include "../sheet_spacing.h"
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 #include "shapes.h"
 
 namespace symsurf {

@@ -16,10 +16,10 @@ constexpr double alike = 0.05;               // mirrors closer than this are one
 constexpr Index few = 600, many = 2000;      // points that planes are bent by
 constexpr std::size_t most_bent = 3;         // to the end
 constexpr double unbent = 0.997;             // flatness of what is a plane still
-constexpr double foot_precision = 1e-6;
+constexpr double bent_foot_precision = 1e-6;
 
 // From a stiff plane that looks far to one that bends and looks near.
-constexpr int stages = 16, glance = 6, steps = 2;
+constexpr int stages = 16, glance = 6, steps_a_stage = 2;
 constexpr double widest = 0.06, narrowest = 0.01, closest = 0.8;  // diagonals; spacings
 constexpr double stiffest = 3e-2, softest = 2e-6;
 constexpr bool is_finer(int stage) { return stage == 4 || stage == 8 || stage == 13; }
@@ -51,7 +51,7 @@ void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& 
     const double part = stage / (stages - 1.0);
     const double tolerance =
         std::max(widest * std::pow(narrowest / widest, part), closest * search.spacing);
-    for (int k = 0; k < steps; ++k)
+    for (int k = 0; k < steps_a_stage; ++k)
       plane.step(tolerance, stiffest * std::pow(softest / stiffest, part), stride);
   }
 }
@@ -87,7 +87,7 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Shee
     bend(search, glance, stages, many, bent[k]);
     Sheet sheet;
     sheet.mirror = bent[k].free_form();
-    match(search, foot_precision, sheet);
+    match(search, bent_foot_precision, sheet);
     if (sheet.carried.size() < 6 || flatness(sheet) > unbent) continue;
     sheet.explained = explained(search, sheet);
     sheet.bent = true;

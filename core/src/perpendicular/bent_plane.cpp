@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
+#include "../symmetric_eigen.h"
 #include "hermite_fit.h"
 
 namespace symsurf::perpendicular {
@@ -137,7 +138,7 @@ void BentPlane::step(double tolerance, double stiffness, Index stride) {
   agreed_ = total / static_cast<double>(looked);
   if (total == 0) return;
   const Eigen::MatrixXd energy = stiffness * energy_;
-  heights_.step(solved<Eigen::Dynamic>(matrix / total + energy,
+  heights_.step(solved(matrix / total + energy,
                                        right / total - energy * heights_.coefficients()));
 }
 

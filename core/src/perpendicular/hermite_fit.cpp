@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "../semidefinite_solve.h"
 #include "../vectorised.h"
 
 namespace symsurf::perpendicular {
@@ -153,9 +154,7 @@ bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<C
     for (int k = 3; k < 6; ++k)
       matrix(k, k) += 1e-3 * total / static_cast<double>(equations.size());
     for (int k = 0; k < 3; ++k) matrix(k, k) += 1e-12 * total;
-    Eigen::LDLT<Normal> solver(matrix);
-    if (solver.info() != Eigen::Success) return false;
-    const Row next = solver.solve(right);
+    const Row next = solved(matrix, right);
     if (!next.allFinite()) return false;
     solution = next;
   }

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "../quantile.h"
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 
 namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr int rounds = 12, steps = 3;
+constexpr int rounds = 12, steps_a_round = 3;
 
 struct System {
   Eigen::MatrixXd matrix;
@@ -58,7 +58,7 @@ void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model
   const double scale = scale_of(cloud, sheet);
   double damping = 1e-9;
   System here = system(cloud, sheet, *model, scale);
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < steps_a_round; ++k) {
     Eigen::MatrixXd damped = here.matrix;
     damped.diagonal().array() += damping * here.matrix.trace() + 1e-300;
     const Eigen::VectorXd by = solved(damped, here.right);

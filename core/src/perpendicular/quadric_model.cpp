@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 #include "parametric.h"
 
 namespace symsurf::perpendicular {
@@ -90,7 +90,7 @@ std::unique_ptr<Model> quadric_model(const Sheet& sheet) {
     right += slope_weight * s.transpose() * c.normal;
   }
   matrix.diagonal().array() += 1e-9 * matrix.trace();
-  const Coefficients q = solved<Eigen::Dynamic>(matrix, right);
+  const Coefficients q = solved(matrix, right);
   if (!q.allFinite() || !(q.head<9>().norm() > 0)) return nullptr;
   return std::make_unique<QuadricModel>(q / q.norm());
 }

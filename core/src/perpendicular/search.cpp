@@ -13,7 +13,7 @@ namespace symsurf::perpendicular {
 namespace {
 
 constexpr std::size_t few_trials = 6;
-constexpr double convincing = 0.85, convincing_exactly = 0.3;  // shares of the points
+constexpr double settled = 0.85, settled_exactly = 0.3;  // shares of the points
 
 // Whether points have exact partners: smoothing would spoil them.
 bool has_exact_partners(const SearchCloud& cloud, const Seeds& seeds) {
@@ -36,7 +36,7 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.75));
   const bool found =
       std::any_of(search.sheets.begin(), search.sheets.end(), [](const Sheet& sheet) {
-        return sheet.explained > (sheet.exact ? convincing_exactly : convincing);
+        return sheet.explained > (sheet.exact ? settled_exactly : settled);
       });
   if (!found) bend_planes(cloud, search.cloud, search.sheets, context.stage(0.75, 0.85));
   search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.85, 1));

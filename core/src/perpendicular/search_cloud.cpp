@@ -10,7 +10,7 @@
 
 #include "../quantile.h"
 #include "../radix_sort.h"
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 
 namespace symsurf::perpendicular {
 

@@ -16,7 +16,7 @@ const double parallel_enough = std::cos(30 * M_PI / 180);
 constexpr double facing = 0.8;          // cosine between chord and normals
 constexpr double shortest_chord = 1.2;  // spacings
 
-double support(const SearchCloud& cloud, std::int32_t i, std::int32_t j) {
+double support_of(const SearchCloud& cloud, std::int32_t i, std::int32_t j) {
   const Vector3 middle = (cloud.point(i) + cloud.point(j)) / 2;
   const Vector3 u = (cloud.point(i) - cloud.point(j)).normalized();
   constexpr int asked = 8;
@@ -83,7 +83,7 @@ Seeds find_seeds(const SearchCloud& cloud, std::uint64_t seed, const Context& co
     const Context half = kind == &seeds.along ? context.stage(0, 0.5) : context.stage(0.5, 1);
     parallel_for(half, static_cast<Index>(kind->size()), 256, [&](Index begin, Index end) {
       for (Index s = begin; s < end; ++s)
-        (*kind)[s].support = support(cloud, (*kind)[s].first, (*kind)[s].second);
+        (*kind)[s].support = support_of(cloud, (*kind)[s].first, (*kind)[s].second);
     });
     std::stable_sort(kind->begin(), kind->end(),
                      [](const Seed& a, const Seed& b) { return a.support > b.support; });

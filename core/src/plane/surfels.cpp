@@ -9,7 +9,7 @@
 
 #include "../gathered.h"
 #include "../point_tree.h"
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../symmetric_matrix.h"
+#include "../semidefinite_solve.h"
 #include "unit_sphere.h"
 
 namespace symsurf {

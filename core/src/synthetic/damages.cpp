@@ -3,11 +3,11 @@
 
 #include <numeric>
 
+#include "../infinity.h"
+
 namespace symsurf {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void add_box(std::vector<Parameter>& parameters) {
   parameters.push_back(Parameter::position(

@@ -1,13 +1,11 @@
 #include <symsurf/errors.h>
 #include <symsurf/synthetic.h>
 
-#include <limits>
+#include "../infinity.h"
 
 namespace symsurf {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Parameter mirror_surface() {
   return Parameter::choice("surface", "f1", surface_names(),

@@ -2,7 +2,7 @@
 #include <symsurf/surface_mirror.h>
 #include <symsurf/synthetic.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cmath>
 #include <functional>
 
@@ -11,6 +11,16 @@
 namespace symsurf {
 
 namespace {
+
+// About the axis across both; v is a unit vector.
+Matrix3 turn_of_z_to(const Vector3& v) {
+  const double x = v.x(), y = v.y(), z = v.z();
+  const double above = z > 0 ? 1 + z : (x * x + y * y) / (1 - z);  // 1 + z, its digits kept
+  if (above == 0) return Vector3(1, -1, -1).asDiagonal();
+  Matrix3 turn;
+  turn << 1 - x * x / above, -x * y / above, x, -x * y / above, 1 - y * y / above, y, -x, -y, z;
+  return turn;
+}
 
 // P, then P', of the points that have an image.
 Sample joined(const std::vector<Vector3>& points, const std::vector<Vector3>& images,
@@ -77,7 +87,7 @@ Sample mirror_fixed(PointsView points, const Surface& surface, double shift,
   if (!std::isfinite(shift))
     throw InvalidParameter("shift is " + to_string(Value(shift)) + "; it must be finite");
   const Vector3 v = direction.normalized();
-  const Matrix3 turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), v).toRotationMatrix();
+  const Matrix3 turn = turn_of_z_to(v);
   const SurfaceMirror standing(surface, Mapping::Fixed);
   std::shared_ptr<const Mirror> truth = standing.transformed(1, turn, Vector3::Zero());
 

@@ -3,9 +3,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <limits>
 
 #include "../grid_mesh.h"
+#include "../infinity.h"
 #include "closest_point.h"
 
 namespace symsurf {
@@ -88,7 +88,6 @@ std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& 
 }
 
 Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::Array2d low = Eigen::Array2d::Constant(infinity), high = -low;
   for (Index i = 0; i < object.size(); ++i) {
     const Vector3 foot = foot_in_frame(enter(object[i]));

@@ -5,7 +5,7 @@
 
 #include "../parallel.h"
 #include "../sheet_spacing.h"
-#include "../symmetric_matrix.h"
+#include "../symmetric_eigen.h"
 
 namespace symsurf {
 

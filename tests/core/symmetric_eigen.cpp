@@ -1,4 +1,4 @@
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "symmetric_matrix.h"
+#include "symmetric_eigen.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -17,6 +16,11 @@ SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric) {
 SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+// Lazily: Eigen's product of matrices of any size is blocked, and takes longer to compile.
+SymmetricEigen<3> eigen_of_scatter(const Points& rows) {
+  return eigen_of(Matrix3(rows.transpose().lazyProduct(rows)));
 }
 
 SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
@@ -82,19 +86,5 @@ LeastEigen least_eigen_of(const Matrix3& matrix) {
   least.next = least.greatest > 0 ? std::max(0.0, product / least.greatest) : 0;
   return least;
 }
-
-template <int n>
-Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
-                                const Eigen::Vector<double, n>& right) {
-  return semidefinite.ldlt().solve(right);
-}
-
-template Eigen::Vector3d solved(const Eigen::Matrix3d&, const Eigen::Vector3d&);
-template Eigen::Vector4d solved(const Eigen::Matrix4d&, const Eigen::Vector4d&);
-template Eigen::Vector<double, 5> solved(const Eigen::Matrix<double, 5, 5>&,
-                                         const Eigen::Vector<double, 5>&);
-template Eigen::Vector<double, 6> solved(const Eigen::Matrix<double, 6, 6>&,
-                                         const Eigen::Vector<double, 6>&);
-template Eigen::VectorXd solved(const Eigen::MatrixXd&, const Eigen::VectorXd&);
 
 }  // namespace symsurf
