@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "binary_unit.h"
+#include "infinity.h"
 #include "k_best.h"
 #include "nearest_first.h"
 #include "parallel.h"
@@ -67,8 +68,7 @@ SYMSURF_VECTORISED void measure(const double* coordinates, Index begin, Index en
 
 // How far a neighbour may be once these are found.
 double limit_of(const std::vector<Neighbour>& found, std::size_t k) {
-  return found.size() == k ? found.back().squared_distance
-                           : std::numeric_limits<double>::infinity();
+  return found.size() == k ? found.back().squared_distance : infinity;
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ SYMSURF_VECTORISED void PointTree::measure_boxes(const Boxes* boxes, const float
 
 std::array<Neighbour, PointTree::block> PointTree::nearest(const Queries& queries, double limit,
                                                            Index& near) const {
-  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double none = infinity;
   std::array<double, 6 * block> lanes;
   double* squared = &lanes[3 * block];
   std::array<float, 3> low, high;
@@ -168,7 +168,6 @@ void PointTree::nearest(const Queries& queries, Index k, Index near, double& rea
     asked.low[axis] = in_boxes(*least);
     asked.high[axis] = in_boxes(*most);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (reach == infinity || !nearest_within(asked, k, reach, found))
     nearest_near(asked, k, near, found);
   // Neighbours of neighbours lie about as far.
@@ -182,7 +181,7 @@ void PointTree::nearest_near(const Block& queries, Index k, Index near,
                              std::array<std::vector<Neighbour>, block>& found) const {
   std::array<double, block * fan> squared;
   std::array<double, block> limits;
-  limits.fill(std::numeric_limits<double>::infinity());
+  limits.fill(infinity);
   for (auto& neighbours : found) neighbours.clear();
   const auto wanted = static_cast<std::size_t>(k);
   const auto scan_leaf = [&](Index leaf) {
@@ -293,7 +292,7 @@ Neighbour PointTree::nearest(const Vector3& query, double limit) const {
 void PointTree::nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const {
   found.clear();
   const auto wanted = static_cast<std::size_t>(k);
-  double limit = std::numeric_limits<double>::infinity();
+  double limit = infinity;
   search(query, limit, [&](Index position, double squared) {
     if (keep_best(found, wanted, Neighbour{order_[position], squared}))
       limit = limit_of(found, wanted);

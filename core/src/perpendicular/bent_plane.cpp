@@ -138,8 +138,7 @@ void BentPlane::step(double tolerance, double stiffness, Index stride) {
   agreed_ = total / static_cast<double>(looked);
   if (total == 0) return;
   const Eigen::MatrixXd energy = stiffness * energy_;
-  heights_.step(solved(matrix / total + energy,
-                                       right / total - energy * heights_.coefficients()));
+  heights_.step(solved(matrix / total + energy, right / total - energy * heights_.coefficients()));
 }
 
 void BentPlane::subdivide() {
