@@ -212,14 +212,18 @@ TEST(SphereMeasure, HasTheGradientItSays) {
 TEST(NearestCells, MatchBruteForceWithinReach) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);
-    const Points points = random.box(80);
+    Points points = random.box(80);
+    if (seed % 2 == 1) points.row(0) *= 1000;  // then cells are wider than the reach
     constexpr double reach = 0.3;
     const NearestCells cells(points, reach);
     for (int k = 0; k < 500; ++k) {
       const Vector3 x = 1.5 * random.in_box();
       const double nearest = (points.rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff();
       if (nearest >= reach * reach) continue;
-      EXPECT_DOUBLE_EQ(cells.squared(x), nearest);
+      const Index cell = cells.cell(x);
+      ASSERT_GE(cell, 0);
+      EXPECT_DOUBLE_EQ(cells.squared(cell, x), nearest);
+      EXPECT_LE(cells.least_squared(cell), nearest);
     }
   }
 }

@@ -2,6 +2,7 @@
 #include <symsurf/errors.h>
 #include <symsurf/sphere.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "../matching.h"
@@ -41,8 +42,14 @@ struct Start {
 /// on either side.
 class CandidateSpheres {
  public:
-  CandidateSpheres(PointsView points, const std::vector<double>& radii)
-      : points_(points), radii_(radii), support_(support(points)), nearest_(points, support_) {}
+  CandidateSpheres(PointsView points, const std::vector<double>& radii, const Context& context)
+      : points_(points),
+        radii_(radii),
+        support_(support(points)),
+        nearest_(points, support_, context) {
+    for (Index cell = 0; cell < nearest_.cell_count(); ++cell)
+      at_most_.push_back(phi(nearest_.least_squared(cell)));
+  }
 
   Index count() const {
     return points_.size() * (points_.size() - 1) * static_cast<Index>(radii_.size());
@@ -52,12 +59,14 @@ class CandidateSpheres {
   Start best(const Context& context) const {
     constexpr Index grain = 4;
     std::vector<Start> parts((points_.size() + grain - 1) / grain);
+    std::atomic<double> greatest = -1;  // so far, in any thread: less is not worth measuring
     parallel_for(context, points_.size(), grain, [&](Index begin, Index end) {
       Start& best = parts[begin / grain];
+      std::vector<Image> images(points_.size() + 1);
       for (Index i = begin; i < end; ++i)
         for (Index j = i + 1; j < points_.size(); ++j) {
           context.check();
-          consider_pair(points_[i], points_[j], best);
+          consider_pair(points_[i], points_[j], images, greatest, best);
         }
     });
     Start best;
@@ -67,27 +76,49 @@ class CandidateSpheres {
   }
 
  private:
-  void consider_pair(const Vector3& a, const Vector3& b, Start& best) const {
+  struct Image {
+    Vector3 place;
+    Index cell;
+  };
+
+  double phi(double squared) const {
+    return squared < support_ * support_ ? wendland(std::sqrt(squared) / support_) : 0;
+  }
+
+  void consider_pair(const Vector3& a, const Vector3& b, std::vector<Image>& images,
+                     std::atomic<double>& greatest, Start& best) const {
     const Vector3 chord = a - b;
     const double length = chord.norm();
     if (!(length > 0)) return;
     for (const double side : {1.0, -1.0})
       for (const double radius : radii_) {
         const Vector3 centre = (a + b) / 2 + side * radius / length * chord;
-        const double measure = measured(centre, radius, best.measure);
+        const double measure = measured(centre, radius, greatest, images);
         if (measure > best.measure) best = {centre, radius, measure};
+        double before = greatest;
+        while (measure > before && !greatest.compare_exchange_weak(before, measure)) continue;
       }
   }
 
-  // Gives up where the rest cannot bring it above `least`.
-  double measured(const Vector3& centre, double radius, double least) const {
-    double sum = 0;
+  // Gives up where what cells allow at most cannot bring it above `least`.
+  double measured(const Vector3& centre, double radius, double least,
+                  std::vector<Image>& images) const {
+    Index count = 0;
+    double most = 1e-9 * static_cast<double>(points_.size());  // what rounding takes
     for (Index i = 0; i < points_.size(); ++i) {
-      if (sum + static_cast<double>(points_.size() - i) < least) return sum;
-      Vector3 image;
-      if (!mirrored(points_[i], centre, radius, image)) continue;
-      const double squared = nearest_.squared(image);
-      if (squared < support_ * support_) sum += wendland(std::sqrt(squared) / support_);
+      Image& image = images[count];
+      mirrored(points_[i], centre, radius, image.place);
+      image.cell = nearest_.cell(image.place);
+      const double at_most = at_most_[image.cell];
+      most += at_most;
+      count += at_most > 0;
+    }
+    double sum = 0;
+    for (Index i = 0; i < count; ++i) {
+      if (most < least) return 0;
+      const double part = phi(nearest_.squared(images[i].cell, images[i].place));
+      sum += part;
+      most -= at_most_[images[i].cell] - part;
     }
     return sum;
   }
@@ -96,6 +127,7 @@ class CandidateSpheres {
   const std::vector<double>& radii_;
   double support_;
   NearestCells nearest_;
+  std::vector<double> at_most_;  // of phi, anywhere in a cell
 };
 
 std::vector<double> tested_radii(double diagonal, const ParameterValues& values) {
@@ -119,7 +151,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
                          const Context& context) {
   const std::vector<double> radii = tested_radii(cloud.diagonal, values);
   const Points simplified = downsample(cloud.points, values.integer("sample_size"), context);
-  const CandidateSpheres candidates(simplified, radii);
+  const CandidateSpheres candidates(simplified, radii, context);
   const Start start = candidates.best(context.stage(0, 0.8));
 
   PointTree tree(cloud.points, context.stage(0.8, 0.8));

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,16 +13,33 @@ namespace symsurf {
 /// points that are nearest to some place inside, as far as `reach`.
 class NearestCells {
  public:
-  NearestCells(PointsView points, double reach);
+  NearestCells(PointsView points, double reach, const Context& context = {});
 
-  /// Squared distance of x from the nearest point; infinite where that may be beyond reach.
-  double squared(const Vector3& x) const;
+  /// The cell where x lies, or one that lists nothing where x is NaN or outside of all.
+  Index cell(const Vector3& x) const {
+    // A branch for what lies outside could not be foretold. NaN is not above 0, and so 0.
+    const Eigen::Array3d at = (x - low_).array() * inverse_cell_;
+    const auto place = [&](int k) {
+      return static_cast<std::int32_t>(std::min(std::max(0.0, at[k]), last_[k]));
+    };
+    return (static_cast<Index>(place(0)) * size_.y() + place(1)) * size_.z() + place(2);
+  }
+
+  Index cell_count() const { return static_cast<Index>(start_.size()) - 1; }
+
+  /// Squared distance of x, which lies in that cell, from the nearest point; infinite where that
+  /// may be beyond reach.
+  double squared(Index cell, const Vector3& x) const;
+
+  /// What `squared` is at the least anywhere in the cell.
+  double least_squared(Index cell) const;
 
  private:
   PointsView points_;
   Vector3 low_;
-  double cell_;
+  double cell_, inverse_cell_;
   Eigen::Array3i size_;
+  Eigen::Array3d last_;  // size_ - 1
   std::vector<std::int32_t> start_, listed_;
 };
 
