@@ -27,7 +27,7 @@ constexpr double prior_difference = 0.02;  // diagonals
 }  // namespace
 
 SheetRims::SheetRims(const WorkingCloud& cloud)
-    : cloud_(cloud), lean_(cloud.size(), 3), reach_(cloud.size()) {
+    : cloud_(cloud), lean_(Points::Zero(cloud.size(), 3)), reach_(cloud.size()) {
   std::vector<Neighbour> near;
   for (Index i = 0; i < cloud.size(); ++i) {
     const Vector3 normal = cloud.normal(i);
@@ -45,7 +45,7 @@ SheetRims::SheetRims(const WorkingCloud& cloud)
       reach_[i] = far;
       if (++count == rim_neighbours) break;
     }
-    lean_.row(i) = (sum / std::max<double>(1, count) / reach_[i]).transpose();
+    if (count > 0) lean_.row(i) = (sum / static_cast<double>(count) / reach_[i]).transpose();
   }
 }
 
