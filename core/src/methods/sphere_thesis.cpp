@@ -33,6 +33,10 @@ bool mirrored(const Vector3& x, const Vector3& centre, double radius, Vector3& i
   return length > 0;
 }
 
+double phi(double squared, double support) {
+  return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
+}
+
 struct Start {
   Vector3 centre = Vector3::Zero();
   double radius = 0, measure = -1;
@@ -48,7 +52,7 @@ class CandidateSpheres {
         support_(support(points)),
         nearest_(points, support_, context) {
     for (Index cell = 0; cell < nearest_.cell_count(); ++cell)
-      at_most_.push_back(phi(nearest_.least_squared(cell)));
+      at_most_.push_back(phi(nearest_.least_squared(cell), support_));
   }
 
   Index count() const {
@@ -81,10 +85,6 @@ class CandidateSpheres {
     Index cell;
   };
 
-  double phi(double squared) const {
-    return squared < support_ * support_ ? wendland(std::sqrt(squared) / support_) : 0;
-  }
-
   void consider_pair(const Vector3& a, const Vector3& b, std::vector<Image>& images,
                      std::atomic<double>& greatest, Start& best) const {
     const Vector3 chord = a - b;
@@ -94,7 +94,8 @@ class CandidateSpheres {
       for (const double radius : radii_) {
         const Vector3 centre = (a + b) / 2 + side * radius / length * chord;
         const double measure = measured(centre, radius, greatest, images);
-        if (measure > best.measure) best = {centre, radius, measure};
+        if (!(measure > best.measure)) continue;
+        best = {centre, radius, measure};
         double before = greatest;
         while (measure > before && !greatest.compare_exchange_weak(before, measure)) continue;
       }
@@ -116,7 +117,7 @@ class CandidateSpheres {
     double sum = 0;
     for (Index i = 0; i < count; ++i) {
       if (most < least) return 0;
-      const double part = phi(nearest_.squared(images[i].cell, images[i].place));
+      const double part = phi(nearest_.squared(images[i].cell, images[i].place), support_);
       sum += part;
       most -= at_most_[images[i].cell] - part;
     }
@@ -171,7 +172,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
         Vector3 image;
         if (!mirrored(cloud.points[tree.order()[p]], s.head<3>(), s[3], image)) continue;
         const Neighbour found = tree.nearest(image, reach * reach);
-        if (found.index >= 0) sum += wendland(std::sqrt(found.squared_distance) / reach);
+        if (found.index >= 0) sum += phi(found.squared_distance, reach);
       }
       return sum;
     });

@@ -13,22 +13,17 @@ namespace {
 // Far from its points a cloud may have one more: cells of a part of the reach would not end.
 constexpr double most_cells = 1 << 21;
 
-double cell_size(PointsView points, double reach) {
-  const Eigen::Array3d extent =
-      (points.matrix().colwise().maxCoeff() - points.matrix().colwise().minCoeff())
-          .transpose()
-          .array();
-  return std::max(reach / 3, std::cbrt((extent + 2 * reach).prod() / most_cells));
-}
-
 }  // namespace
 
 NearestCells::NearestCells(PointsView points, double reach, const Context& context)
-    : points_(points), cell_(cell_size(points, reach)), inverse_cell_(1 / cell_) {
-  const Vector3 margin = Vector3::Constant(reach + 2 * cell_);  // the outermost cells list nothing
-  low_ = Vector3(points.matrix().colwise().minCoeff()) - margin;
-  const Vector3 high = Vector3(points.matrix().colwise().maxCoeff()) + margin;
-  size_ = ((high - low_) / cell_).array().ceil().cast<int>() + 1;
+    : points_(points) {
+  const Vector3 low = points.matrix().colwise().minCoeff();
+  const Vector3 extent = Vector3(points.matrix().colwise().maxCoeff()) - low;
+  cell_ = std::max(reach / 3, std::cbrt((extent.array() + 2 * reach).prod() / most_cells));
+  inverse_cell_ = 1 / cell_;
+  const double margin = reach + 2 * cell_;  // the outermost cells list nothing
+  low_ = low.array() - margin;
+  size_ = ((extent.array() + 2 * margin) / cell_).ceil().cast<int>() + 1;
   last_ = (size_ - 1).cast<double>();
 
   const PointTree tree(points);
