@@ -71,6 +71,11 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   });
 }
 
+void count_unpaired(Result& result, Index points) {
+  const auto unpaired = result.statistics.find("unpaired_points");
+  if (unpaired != result.statistics.end()) unpaired->second = points - result.pairs.rows();
+}
+
 void keep_pairs(Result& result, const std::vector<Index>& rows) {
   result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
   result.residuals = Eigen::VectorXd(result.residuals(rows));

@@ -29,6 +29,9 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
 
+/// Sets what the statistics say of points without a partner, where they do, `points` in all.
+void count_unpaired(Result& result, Index points);
+
 /// Keeps these rows of the result's pairs, residuals and surface points.
 void keep_pairs(Result& result, const std::vector<Index>& rows);
 

@@ -1,37 +1,25 @@
 #include "places.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "matching.h"
 #include "parallel.h"
+#include "point_hash.h"
 #include "radix_sort.h"
 
 namespace symsurf {
 
 namespace {
 
-// The same for copies, all but surely another for others (the finaliser of MurmurHash3).
-std::uint64_t hash(const Vector3& x) {
-  std::uint64_t mixed = 0;
-  for (const double coordinate : {x.x(), x.y(), x.z()}) {
-    mixed = (mixed ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0xff51afd7ed558ccdu;
-    mixed = (mixed ^ mixed >> 33) * 0xc4ceb9fe1a85ec53u;
-    mixed ^= mixed >> 33;
-  }
-  return mixed;
-}
-
 // Of points chosen by their hashes: those in one place are chosen or left out together.
 bool many_copies(PointsView points, const Context& context) {
   constexpr double wanted = 1000, notable = 0.05;
   const double share = std::min(1.0, wanted / static_cast<double>(points.size()));
-  const auto last = static_cast<std::uint64_t>(share * 0xffffffffu);
   std::vector<std::uint64_t> chosen;
   interruptible_for(context, points.size(), [&](Index i) {
-    const std::uint64_t h = hash(points[i]);
-    if (h >> 32 <= last) chosen.push_back(h);
+    const std::uint64_t hash = hash_of(points[i]);
+    if (is_chosen(hash, share)) chosen.push_back(hash);
   });
   std::sort(chosen.begin(), chosen.end());
   const auto distinct = std::unique(chosen.begin(), chosen.end()) - chosen.begin();
@@ -48,7 +36,7 @@ std::optional<Places> Places::where_copied(PointsView points, const Context& con
 
 Places::Places(PointsView points, const Context& context) : place_(points.size()) {
   std::vector<std::uint64_t> hashes(points.size());
-  interruptible_for(context, points.size(), [&](Index i) { hashes[i] = hash(points[i]); });
+  interruptible_for(context, points.size(), [&](Index i) { hashes[i] = hash_of(points[i]); });
   std::vector<std::int32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   radix_sort(hashes, order, context);
@@ -88,8 +76,7 @@ void Places::hand_on(Result& result) const {
   keep_pairs(result, rows);
   for (Index row = 0; row < result.pairs.rows(); ++row)
     result.pairs.row(row) << paired[row], first_[result.pairs(row, 1)];
-  const auto unpaired = result.statistics.find("unpaired_points");
-  if (unpaired != result.statistics.end()) unpaired->second = points - result.pairs.rows();
+  count_unpaired(result, points);
 }
 
 }  // namespace symsurf

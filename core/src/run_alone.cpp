@@ -6,6 +6,7 @@
 #include "outline.h"
 #include "places.h"
 #include "run_on.h"
+#include "skin.h"
 #include "strays.h"
 
 namespace symsurf {
@@ -19,11 +20,16 @@ Result run_alone(PointsView points, PointsView normals, std::uint64_t seed, cons
   context.report(0);
 
   const auto run = [&](const Cloud& cloud) { return method.run(cloud, values, context); };
+  const auto run_on_skin = [&](const Cloud& cloud) {
+    const auto skin = Skin::where_filled(cloud, method, values, unreported);
+    return skin ? run_on(*skin, cloud, least, context, run) : run(cloud);
+  };
   const auto run_on_places = [&](const Cloud& cloud) {
     std::optional<Places> places;
     if (!method.sees_copies) places = Places::where_copied(cloud.points, unreported);
-    Result result = places && places->size() >= least ? run_on(*places, cloud, least, context, run)
-                                                      : run(cloud);
+    Result result = places && places->size() >= least
+                        ? run_on(*places, cloud, least, context, run_on_skin)
+                        : run_on_skin(cloud);
     set_footprint(result, outline(cloud.points, context));
     return result;
   };

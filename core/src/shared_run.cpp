@@ -11,6 +11,7 @@
 #include "outline.h"
 #include "run_alone.h"
 #include "shared_cloud.h"
+#include "skin.h"
 #include "strays.h"
 
 namespace symsurf {
@@ -107,6 +108,8 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
     rest = strays->rows(own);
     cloud = checked_shared_cloud(rest, method.minimum_points, unreported);
   }
+  if (!method.sees_inside && fills_bodies(cloud, unreported))
+    return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
   cloud.seed = options.seed;
   Result result = method.run(cloud, values, shared);
   set_footprint(result, outline(cloud.points, shared));

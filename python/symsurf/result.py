@@ -41,7 +41,8 @@ class Result:
     """Every parameter of the method, as used."""
     statistics: dict[str, Any] = field(repr=False)
     """Whatever else the method reports, and "stray_points" where some points lie so far off that
-    they were left out: how many. They have no partners."""
+    they were left out: how many. They have no partners. "skin_points" where the points fill a
+    body, and the mirror and the score are those of its skin: how many it has."""
     seconds: float
     points: NDArray[np.float64] | None = field(default=None, repr=False)
     """(n, 3) the input: the caller's own array where it could be read in place."""

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "process_threads.h"
+#include "random_cloud.h"
 
 namespace symsurf {
 
@@ -124,6 +125,27 @@ TEST_P(SharedPoints, GiveEveryProcessTheSameBits) {
     EXPECT_EQ(result.score, results.front().score);
     EXPECT_EQ(result.statistics, results.front().statistics);
   }
+}
+
+// Where points fill a body, every process looks at the skin of the whole.
+TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
+  RandomCloud random(5);
+  Points points = random.sphere(10000);
+  for (auto x : points.rowwise())
+    x *= std::cbrt(random.uniform(0, 1)) * (1 + 0.4 * std::sin(3 * x.y() + 1) * x.z());
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  Options options;
+  options.method = "plane";
+  const Result whole = detect(joined(points, rows), options, Context({}, 1));
+  EXPECT_EQ(whole.statistics.count("skin_points"), 1u);
+  Index row = 0;
+  for (const Result& result : detected(points, rows, options)) {
+    EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
+    EXPECT_EQ(result.statistics, whole.statistics);
+    EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
+    row += result.pairs.rows();
+  }
+  EXPECT_EQ(row, whole.pairs.rows());
 }
 
 // Methods that do not take shares get the whole.

@@ -36,6 +36,7 @@ struct Method {
   bool takes_shares = false;  ///< run can do with a share of the points; else each gets all
   bool sees_copies = false;   ///< run gets points that are copies of others; else their places
   bool sees_strays = false;   ///< run gets the few points far off all others; else the rest
+  bool sees_inside = false;   ///< run gets all points of bodies filled with them; else their skin
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };
 

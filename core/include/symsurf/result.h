@@ -24,7 +24,8 @@ struct Result {
   std::vector<Result> candidates;
   Values parameters;  ///< as used
   /// Whatever the method reports, and "stray_points" where some points lie so far off that they
-  /// were left out: how many. They have no partners.
+  /// were left out: how many. They have no partners. "skin_points" where the points fill a body,
+  /// and the mirror and the score are those of its skin: how many it has.
   Values statistics;
   double seconds = 0;
 };

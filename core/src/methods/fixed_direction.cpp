@@ -65,6 +65,7 @@ Method fixed_direction_method() {
                       "partner."),
   };
   method.minimum_points = 20;
+  method.sees_inside = true;
   method.run = run_fixed_direction;
   return method;
 }

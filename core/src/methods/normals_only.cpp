@@ -30,6 +30,7 @@ Method normals_only_method() {
   method.parameters = normal_parameters();
   method.sees_copies = true;
   method.sees_strays = true;
+  method.sees_inside = true;
   method.run = run_normals_only;
   return method;
 }

@@ -15,8 +15,7 @@ std::shared_ptr<Mirror> in_input_units(const perpendicular::SearchCloud& cloud,
   return sheet.mirror->transformed(cloud.diagonal, Matrix3::Identity(), cloud.centroid);
 }
 
-Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
-                         const Context& context) {
+Result find_free_form(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const perpendicular::Search search =
       perpendicular::search(cloud, values.integer("sample_size"), context.stage(0, 0.7));
   Result result;
@@ -45,6 +44,14 @@ Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
   return result;
 }
 
+Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
+                         const Context& context) {
+  const auto find = [&](const Cloud& cloud, const Context& context) {
+    return find_free_form(cloud, values, context);
+  };
+  return perpendicular::run_on_what_tells(cloud, values, context, find);
+}
+
 }  // namespace
 
 Method perpendicular_method() {
@@ -55,7 +62,8 @@ Method perpendicular_method() {
       "Finds a curved mirror of any shape that maps points along its normals, by growing sheets of "
       "oriented midpoints and by bending planes.";
   method.parameters = perpendicular::search_parameters();
-  method.minimum_points = 12;
+  method.minimum_points = perpendicular::least_points;
+  method.sees_inside = true;
   method.automatic = true;
   method.run = run_perpendicular;
   return method;

@@ -1,6 +1,7 @@
 #include <symsurf/quadric.h>
 
 #include "../perpendicular/parametric_method.h"
+#include "../perpendicular/search.h"
 #include "methods.h"
 
 namespace symsurf {
@@ -8,8 +9,11 @@ namespace symsurf {
 namespace {
 
 Result run_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
-                                        context);
+  const auto find = [&](const Cloud& cloud, const Context& context) {
+    return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
+                                          context);
+  };
+  return perpendicular::run_on_what_tells(cloud, values, context, find);
 }
 
 }  // namespace
@@ -23,7 +27,8 @@ Method quadric_method() {
       "its"
       " normals.";
   method.parameters = perpendicular::search_parameters();
-  method.minimum_points = 12;
+  method.minimum_points = perpendicular::least_points;
+  method.sees_inside = true;
   method.run = run_quadric;
   return method;
 }

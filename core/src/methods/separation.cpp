@@ -32,6 +32,7 @@ Method separation_method() {
   method.parameters = {direction_steps()};
   method.sees_copies = true;
   method.sees_strays = true;
+  method.sees_inside = true;
   method.run = run_separation;
   return method;
 }

@@ -34,6 +34,7 @@ Method separation_normals_method() {
   method.parameters.insert(method.parameters.begin(), direction_steps());
   method.sees_copies = true;
   method.sees_strays = true;
+  method.sees_inside = true;
   method.run = run_separation_normals;
   return method;
 }

@@ -225,6 +225,7 @@ Method sphere_thesis_method() {
   method.minimum_points = 5;
   method.sees_copies = true;
   method.sees_strays = true;
+  method.sees_inside = true;
   method.run = run_sphere_thesis;
   return method;
 }

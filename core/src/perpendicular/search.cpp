@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "../run_on.h"
+#include "../skin.h"
 #include "assembly.h"
 #include "bending.h"
 #include "exploration.h"
@@ -41,6 +43,18 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   if (!found) bend_planes(cloud, search.cloud, search.sheets, context.stage(0.75, 0.85));
   search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.85, 1));
   return search;
+}
+
+Result run_on_what_tells(const Cloud& cloud, const ParameterValues& values, const Context& context,
+                         const std::function<Result(const Cloud&, const Context&)>& run) {
+  const auto skin = Skin::where_filled(cloud, least_points, values, context.stage(0, 0));
+  if (!skin) return run(cloud, context);
+  const Context rest = context.stage(0.2, 1);
+  const SearchCloud all(cloud, values.integer("sample_size"), context.stage(0, 0.1));
+  if (has_exact_partners(all, find_seeds(all, cloud.seed, context.stage(0.1, 0.2))))
+    return run(cloud, rest);
+  return run_on(*skin, cloud, least_points, rest,
+                [&](const Cloud& of_skin) { return run(of_skin, rest); });
 }
 
 }  // namespace symsurf::perpendicular

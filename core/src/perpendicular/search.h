@@ -1,5 +1,8 @@
 #pragma once
 
+#include <symsurf/result.h>
+
+#include <functional>
 #include <vector>
 
 #include "refinement.h"
@@ -14,5 +17,14 @@ struct Search {
 };
 
 Search search(const Cloud& cloud, Index sample_size, const Context& context);
+
+/// run(cloud, context), on the skin alone where the cloud fills bodies: unless points have exact
+/// partners, of which those inside have as many.
+Result run_on_what_tells(
+    const Cloud& cloud, const ParameterValues& values, const Context& context,
+    const std::function<Result(const Cloud& cloud, const Context& context)>& run);
+
+/// Of methods that search in this way.
+constexpr Index least_points = 12;
 
 }  // namespace symsurf::perpendicular
