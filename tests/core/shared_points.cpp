@@ -127,42 +127,36 @@ TEST_P(SharedPoints, GiveEveryProcessTheSameBits) {
   }
 }
 
+// Detects on the processes what is the same, to the bit, as on all points, and returns that.
+Result found_by_all_alike(const Points& points, const Case& shared, const std::string& method) {
+  const auto rows = shared_out(points, shared.processes, shared.owner);
+  Options options;
+  options.method = method;
+  Result whole = detect(joined(points, rows), options, Context({}, 1));
+  Index row = 0;
+  for (const Result& result : detected(points, rows, options)) {
+    EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
+    EXPECT_EQ(result.statistics, whole.statistics);
+    EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
+    row += result.pairs.rows();
+  }
+  EXPECT_EQ(row, whole.pairs.rows());
+  return whole;
+}
+
 // Where points fill a body, every process looks at the skin of the whole.
 TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
   RandomCloud random(5);
   Points points = random.sphere(10000);
   for (auto x : points.rowwise())
     x *= std::cbrt(random.uniform(0, 1)) * (1 + 0.4 * std::sin(3 * x.y() + 1) * x.z());
-  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
-  Options options;
-  options.method = "plane";
-  const Result whole = detect(joined(points, rows), options, Context({}, 1));
+  const Result whole = found_by_all_alike(points, GetParam(), "plane");
   EXPECT_EQ(whole.statistics.count("skin_points"), 1u);
-  Index row = 0;
-  for (const Result& result : detected(points, rows, options)) {
-    EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
-    EXPECT_EQ(result.statistics, whole.statistics);
-    EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
-    row += result.pairs.rows();
-  }
-  EXPECT_EQ(row, whole.pairs.rows());
 }
 
 // Methods that do not take shares get the whole.
 TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
-  const Points points = scan(4).topRows(1000);
-  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
-  Options options;
-  options.method = "sphere";
-  const Result whole = detect(joined(points, rows), options, Context({}, 1));
-  Index row = 0;
-  for (const Result& result : detected(points, rows, options)) {
-    EXPECT_EQ(result.mirror->numbers(), whole.mirror->numbers());
-    EXPECT_EQ(result.statistics, whole.statistics);
-    EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
-    row += result.pairs.rows();
-  }
-  EXPECT_EQ(row, whole.pairs.rows());
+  found_by_all_alike(scan(4).topRows(1000), GetParam(), "sphere");
 }
 
 TEST_P(SharedPoints, AreRefusedByAllAlike) {
