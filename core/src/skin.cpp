@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "cells.h"
 #include "gathered.h"
 #include "matching.h"
 #include "parallel.h"
@@ -35,8 +38,8 @@ constexpr double closely_round = 0.17;
 constexpr double aside = 0.25, thin = 0.3, abrupt = 0.235;
 constexpr double vicinity = 0.08;  // of the cloud's size: what density is compared in
 
-// The same of each point, by more others: by chance a point inside has as much on one side once in
-// some hundred times.
+// What makes a point one of the skin, by more others: of those inside hardly one in a hundred has
+// as many on one side.
 constexpr Index around_skin = 48;
 constexpr double at_skin = 0.21;
 
@@ -110,9 +113,10 @@ class Sample {
   // value(surroundings) of about as many points as wanted, along the tree's curve.
   template <typename T, typename Value>
   std::vector<T> of_surroundings(Index k, Index wanted, const Value& value) const {
-    const Index step = stride(wanted);
-    std::vector<T> values(points_.rows() / step);
-    visit_surroundings(points_, tree_, k, static_cast<Index>(values.size()), step, context_,
+    std::vector<Index> places;
+    for (Index place = 0; place < points_.rows(); place += stride(wanted)) places.push_back(place);
+    std::vector<T> values(places.size());
+    visit_surroundings(points_, tree_, k, places, context_,
                        [&](Index v, const Surroundings& around) { values[v] = value(around); });
     return values;
   }
@@ -123,6 +127,38 @@ class Sample {
   const Context& context_;
   PointTree tree_;
 };
+
+// Places along the tree's curve of the points that may be skin: of a large cloud not those of cells
+// among others that hold as many as most.
+std::vector<Index> outer_places(const Cloud& cloud, const PointTree& tree, const Context& context) {
+  constexpr Index large = 20000;
+  constexpr double in_cell = 16, full = 0.5;  // of the median cell
+  std::vector<Index> places(cloud.points.size());
+  std::iota(places.begin(), places.end(), 0);
+  if (cloud.points.size() < large) return places;
+
+  const PrincipalFrame& frame = cloud.frame;
+  const double volume = (frame.high - frame.low).prod() / static_cast<double>(places.size());
+  const Cells cells(frame.low, frame.high, std::cbrt(in_cell * volume));
+  const auto cell_of = [&](Index i) { return cells.cell_of(frame.enter(cloud.points[i])); };
+  std::vector<Index> held(cells.count()), occupied;
+  interruptible_for(context, cloud.points.size(),
+                    [&](Index i) { ++held[cells.number(cell_of(i))]; });
+  std::copy_if(held.begin(), held.end(), std::back_inserter(occupied),
+               [](Index n) { return n > 0; });
+  const double least = full * static_cast<double>(median(std::move(occupied)));
+  std::vector<char> deep(cells.count());
+  interruptible_for(context, cells.count(), [&](Index number) {
+    int around = 0;
+    cells.for_each_row_touching(cells.numbered(number), [&](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k) around += static_cast<double>(held[k]) >= least;
+    });
+    deep[number] = around == 27;
+  });
+  std::erase_if(places,
+                [&](Index place) { return deep[cells.number(cell_of(tree.order()[place]))]; });
+  return places;
+}
 
 // The methods that find such mirrors project surface points onto them.
 bool has_any_shape(const Mirror& mirror) {
@@ -165,13 +201,14 @@ std::optional<Skin> Skin::where_filled(const Cloud& cloud, const Method& method,
 Skin::Skin(const Cloud& cloud, const ParameterValues& values, const Context& context)
     : cloud_(cloud), values_(values), context_(context) {
   const PointTree tree(cloud.points, context);
-  std::vector<char> is_skin(cloud.points.size());
-  visit_surroundings(cloud.points, tree, around_skin, cloud.points.size(), 1, context,
-                     [&](Index v, const Surroundings& around) {
-                       is_skin[tree.order()[v]] = around.one_sided() > at_skin;
-                     });
-  for (Index i = 0; i < cloud.points.size(); ++i)
-    if (is_skin[i]) points_.push_back(i);
+  const std::vector<Index> places = outer_places(cloud, tree, context);
+  std::vector<char> is_skin(places.size());
+  visit_surroundings(
+      cloud.points, tree, around_skin, places, context,
+      [&](Index v, const Surroundings& around) { is_skin[v] = around.one_sided() > at_skin; });
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (is_skin[v]) points_.push_back(tree.order()[places[v]]);
+  std::sort(points_.begin(), points_.end());
 }
 
 Points Skin::rows(PointsView all) const { return all.matrix()(points_, Eigen::indexing::all); }

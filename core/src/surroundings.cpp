@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "infinity.h"
@@ -33,20 +34,20 @@ Surroundings surroundings_of(const Vector3& x, PointsView points,
 
 }  // namespace
 
-void visit_surroundings(PointsView points, const PointTree& tree, Index k, Index count, Index step,
-                        const Context& context,
+void visit_surroundings(PointsView points, const PointTree& tree, Index k,
+                        const std::vector<Index>& places, const Context& context,
                         const std::function<void(Index, const Surroundings&)>& visit) {
   constexpr Index grain = 1024;
-  parallel_for(context, count, grain, [&](Index begin, Index end) {
+  parallel_for(context, static_cast<Index>(places.size()), grain, [&](Index begin, Index end) {
     std::array<std::vector<Neighbour>, PointTree::block> found;
     double reach = infinity;
     for (Index v = begin; v < end; v += PointTree::block) {
       const auto at = [&](Index lane) {
-        return points[tree.order()[std::min(v + lane, end - 1) * step]];
+        return points[tree.order()[places[std::min(v + lane, end - 1)]]];
       };
       PointTree::Queries queries;
       for (Index lane = 0; lane < PointTree::block; ++lane) queries.col(lane) = at(lane);
-      tree.nearest(queries, k + 1, v * step, reach, found);  // the point itself is the nearest
+      tree.nearest(queries, k + 1, places[v], reach, found);  // the point itself is the nearest
       for (Index lane = 0; lane < PointTree::block && v + lane < end; ++lane)
         visit(v + lane, surroundings_of(at(lane), points, found[lane]));
     }

@@ -4,6 +4,7 @@
 #include <symsurf/points_view.h>
 
 #include <functional>
+#include <vector>
 
 #include "point_tree.h"
 
@@ -20,10 +21,10 @@ struct Surroundings {
   double one_sided() const { return mean.norm(); }
 };
 
-/// Calls visit(v, surroundings by the k nearest others) for v of 0 up to `count`, on several
-/// threads at once: of every `step`-th point along the tree's curve, tree.order()[v * step].
-void visit_surroundings(PointsView points, const PointTree& tree, Index k, Index count, Index step,
-                        const Context& context,
+/// Calls visit(v, surroundings by the k nearest others of the point tree.order()[places[v]]) for
+/// all of the places, on several threads at once; fastest where they ascend.
+void visit_surroundings(PointsView points, const PointTree& tree, Index k,
+                        const std::vector<Index>& places, const Context& context,
                         const std::function<void(Index v, const Surroundings& around)>& visit);
 
 }  // namespace symsurf

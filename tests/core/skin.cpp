@@ -79,9 +79,10 @@ TEST(Skin, SurroundingsAreTheWeightedMomentsOfTheNearest) {
   RandomCloud random(1);
   const Points points = random.box(300);
   const PointTree tree(points);
-  constexpr Index k = 20, step = 7, count = 300 / step;
-  visit_surroundings(points, tree, k, count, step, {}, [&](Index v, const Surroundings& around) {
-    const Vector3 x = points.row(tree.order()[v * step]);
+  constexpr Index k = 20;
+  const std::vector<Index> places{0, 7, 8, 50, 51, 52, 53, 120, 200, 299};
+  visit_surroundings(points, tree, k, places, {}, [&](Index v, const Surroundings& around) {
+    const Vector3 x = points.row(tree.order()[places[v]]);
     std::vector<double> squared;
     for (Index i = 0; i < points.rows(); ++i)
       squared.push_back((points.row(i).transpose() - x).squaredNorm());
@@ -118,6 +119,28 @@ TEST(Skin, BodiesAreToldFromSurfacesHoweverNoisy) {
         surface = surface.unaryExpr([&](double x) { return x + normal(generator); });
         EXPECT_FALSE(fills(surface)) << seed << ", noise " << noise << ", " << count;
       }
+  }
+}
+
+// Large clouds are not asked point by point: the skin of a ball is a shell all the same.
+TEST(Skin, LiesAlongTheFaceOfABody) {
+  for (const Index count : {5000, 50000, 200000}) {
+    RandomCloud random(1);
+    Points ball = random.sphere(count);
+    for (auto x : ball.rowwise()) x *= std::cbrt(random.uniform(0, 1));
+    const Cloud cloud = checked_cloud(ball, {}, 4, {});
+
+    const ParameterValues values("plane", method("plane").parameters, {});
+    const auto skin = Skin::where_filled(cloud, 4, values, {});
+    ASSERT_TRUE(skin) << count;
+    const Eigen::VectorXd depth = 1 - skin->rows(ball).rowwise().norm().array();
+    const double spacing = std::cbrt(4.19 / static_cast<double>(count));
+    Index at_face = 0, near_face = 0;
+    for (const auto& x : ball.rowwise()) at_face += 1 - x.norm() < 0.4 * spacing;
+    for (const double d : depth) near_face += d < 0.4 * spacing;
+    EXPECT_GE(static_cast<double>(near_face), 0.9 * static_cast<double>(at_face)) << count;
+    EXPECT_LE((depth.array() > 3 * spacing).count(), 0.08 * static_cast<double>(depth.size()))
+        << count;
   }
 }
 
