@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "cloud.h"
+#include "fills_bodies.h"
 #include "gathered.h"
 #include "matching.h"
 #include "outline.h"
 #include "run_alone.h"
 #include "shared_cloud.h"
-#include "skin.h"
 #include "strays.h"
 
 namespace symsurf {

@@ -9,21 +9,18 @@
 
 namespace symsurf {
 
-/// Do the points fill bodies, as the voxels of a mask do, in place of lying on surfaces? Collective
-/// where several processes share them out: the same answer as one gets of all.
-bool fills_bodies(const Cloud& cloud, const Context& context);
-
 /// The skin of bodies that a cloud fills: the points that have others on one side only. It alone
 /// tells of a mirror, as the image of what is inside mostly comes to lie inside, whatever mirrors.
 class Skin {
  public:
-  /// None where the cloud fills no bodies, or its skin has fewer points than needed. The cloud and
-  /// the values of the method's parameters must outlive it.
-  static std::optional<Skin> where_filled(const Cloud& cloud, Index needed,
-                                          const ParameterValues& values, const Context& context);
-  /// Nor where the method sees the inside.
+  /// Of a cloud that fills bodies. The cloud and the values of the method's parameters must outlive
+  /// the skin.
+  Skin(const Cloud& cloud, const ParameterValues& values, const Context& context);
+  /// None where it fills none, the method sees the inside or needs more points than the skin has.
   static std::optional<Skin> where_filled(const Cloud& cloud, const Method& method,
                                           const ParameterValues& values, const Context& context);
+
+  Index size() const { return static_cast<Index>(points_.size()); }
 
   /// Of these rows, one a point of the cloud, those of the skin.
   Points rows(PointsView all) const;
@@ -33,8 +30,6 @@ class Skin {
   void hand_on(Result& result) const;
 
  private:
-  Skin(const Cloud& cloud, const ParameterValues& values, const Context& context);
-
   const Cloud& cloud_;
   const ParameterValues& values_;
   Context context_;

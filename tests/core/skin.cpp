@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cloud.h"
+#include "fills_bodies.h"
 #include "point_tree.h"
 #include "random_cloud.h"
 #include "surroundings.h"
@@ -129,9 +130,9 @@ TEST(Skin, LiesAlongTheFaceOfABody) {
     Points ball = random.sphere(count);
     for (auto x : ball.rowwise()) x *= std::cbrt(random.uniform(0, 1));
     const Cloud cloud = checked_cloud(ball, {}, 4, {});
-
-    const ParameterValues values("plane", method("plane").parameters, {});
-    const auto skin = Skin::where_filled(cloud, 4, values, {});
+    const Method& plane = method("plane");
+    const ParameterValues values(plane.name, plane.parameters, {});
+    const auto skin = Skin::where_filled(cloud, plane, values, {});
     ASSERT_TRUE(skin) << count;
     const Eigen::VectorXd depth = 1 - skin->rows(ball).rowwise().norm().array();
     const double spacing = std::cbrt(4.19 / static_cast<double>(count));

@@ -46,10 +46,7 @@ Result find_free_form(const Cloud& cloud, const ParameterValues& values, const C
 
 Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
                          const Context& context) {
-  const auto find = [&](const Cloud& cloud, const Context& context) {
-    return find_free_form(cloud, values, context);
-  };
-  return perpendicular::run_on_what_tells(cloud, values, context, find);
+  return perpendicular::run_on_what_tells(cloud, values, context, find_free_form);
 }
 
 }  // namespace

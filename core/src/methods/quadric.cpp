@@ -8,12 +8,13 @@ namespace symsurf {
 
 namespace {
 
+Result find_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
+                                        context);
+}
+
 Result run_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  const auto find = [&](const Cloud& cloud, const Context& context) {
-    return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
-                                          context);
-  };
-  return perpendicular::run_on_what_tells(cloud, values, context, find);
+  return perpendicular::run_on_what_tells(cloud, values, context, find_quadric);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "../fills_bodies.h"
 #include "../run_on.h"
 #include "../skin.h"
 #include "assembly.h"
@@ -46,15 +47,16 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
 }
 
 Result run_on_what_tells(const Cloud& cloud, const ParameterValues& values, const Context& context,
-                         const std::function<Result(const Cloud&, const Context&)>& run) {
-  const auto skin = Skin::where_filled(cloud, least_points, values, context.stage(0, 0));
-  if (!skin) return run(cloud, context);
-  const Context rest = context.stage(0.2, 1);
+                         Result (*run)(const Cloud&, const ParameterValues&, const Context&)) {
+  const Context unreported = context.stage(0, 0), rest = context.stage(0.2, 1);
+  if (!fills_bodies(cloud, unreported)) return run(cloud, values, context);
   const SearchCloud all(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   if (has_exact_partners(all, find_seeds(all, cloud.seed, context.stage(0.1, 0.2))))
-    return run(cloud, rest);
-  return run_on(*skin, cloud, least_points, rest,
-                [&](const Cloud& of_skin) { return run(of_skin, rest); });
+    return run(cloud, values, rest);
+  const Skin skin(cloud, values, unreported);
+  if (skin.size() < least_points) return run(cloud, values, rest);
+  return run_on(skin, cloud, least_points, rest,
+                [&](const Cloud& of_skin) { return run(of_skin, values, rest); });
 }
 
 }  // namespace symsurf::perpendicular

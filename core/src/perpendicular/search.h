@@ -2,7 +2,6 @@
 
 #include <symsurf/result.h>
 
-#include <functional>
 #include <vector>
 
 #include "refinement.h"
@@ -18,11 +17,10 @@ struct Search {
 
 Search search(const Cloud& cloud, Index sample_size, const Context& context);
 
-/// run(cloud, context), on the skin alone where the cloud fills bodies: unless points have exact
-/// partners, of which those inside have as many.
-Result run_on_what_tells(
-    const Cloud& cloud, const ParameterValues& values, const Context& context,
-    const std::function<Result(const Cloud& cloud, const Context& context)>& run);
+/// run(cloud, values, context), on the skin alone where the cloud fills bodies: unless points have
+/// exact partners, of which those inside have as many.
+Result run_on_what_tells(const Cloud& cloud, const ParameterValues& values, const Context& context,
+                         Result (*run)(const Cloud&, const ParameterValues&, const Context&));
 
 /// Of methods that search in this way.
 constexpr Index least_points = 12;
