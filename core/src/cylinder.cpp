@@ -8,11 +8,12 @@
 #include <numbers>
 
 #include "grid_mesh.h"
+#include "unit_length.h"
 
 namespace symsurf {
 
 Cylinder::Cylinder(const Vector3& point, const Vector3& axis, double radius)
-    : point_(point), axis_(axis.normalized()), radius_(radius) {
+    : point_(point), axis_(axis / length_of(axis)), radius_(radius) {
   if (!point.allFinite() || !axis.allFinite() || !(axis.norm() > 0) || !(radius > 0) ||
       !std::isfinite(radius))
     throw InvalidInput(

@@ -12,6 +12,7 @@
 #include "orthogonal_to.h"
 #include "rows_of.h"
 #include "symmetric_eigen.h"
+#include "unit_length.h"
 
 namespace symsurf {
 
@@ -22,7 +23,7 @@ constexpr double footprint_margin = 1.5;  // cells around the object's points
 }  // namespace
 
 HeightField::HeightField(const Vector3& direction, Points nodes) {
-  const double length = direction.norm();
+  const double length = length_of(direction);
   if (!(length > 0) || !std::isfinite(length))
     throw InvalidInput("a height field needs a direction of finite length above 0; given " +
                        to_string(Value(direction)));

@@ -6,11 +6,12 @@
 
 #include "grid_mesh.h"
 #include "symmetric_eigen.h"
+#include "unit_length.h"
 
 namespace symsurf {
 
 Plane::Plane(const Vector3& normal, double offset) {
-  const double length = normal.norm();
+  const double length = length_of(normal);
   if (!(length > 0) || !std::isfinite(length) || !std::isfinite(offset))
     throw InvalidInput(
         "a plane needs a normal of finite length above 0 and a finite offset; given " +

@@ -3,14 +3,14 @@
 #include <symsurf/communicator.h>
 #include <symsurf/errors.h>
 
-#include <algorithm>
+#include <vector>
 
 #include "cloud.h"
 #include "fills_bodies.h"
 #include "gathered.h"
-#include "matching.h"
 #include "outline.h"
 #include "run_alone.h"
+#include "run_on_first.h"
 #include "shared_cloud.h"
 #include "strays.h"
 
@@ -18,7 +18,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index small_cloud = 8192;  // that every process may have whole
+constexpr Index small_cloud = 8192;  // that takes longer to share out than to search
 
 // Where one process is told to stop, all stop, the next time they gather: one that left alone would
 // keep the others waiting for ever.
@@ -65,30 +65,14 @@ class StoppingTogether : public Communicator {
   mutable bool stopped_ = false;
 };
 
-Points whole(PointsView own, const Context& context) {
-  const std::span coordinates(own.data(), static_cast<std::size_t>(3 * own.size()));
-  const auto parts = context.communicator()->gather(std::as_bytes(coordinates));
-  Points all(share_of(context, own.size()).total, 3);
-  std::byte* end = reinterpret_cast<std::byte*>(all.data());
-  for (const Communicator::Bytes& part : parts) end = std::copy(part.begin(), part.end(), end);
-  return all;
-}
-
-void keep_pairs_of(Result& result, Index first, Index size) {
-  std::vector<Index> kept;
-  for (Index row = 0; row < result.pairs.rows(); ++row)
-    if (result.pairs(row, 0) >= first && result.pairs(row, 0) < first + size) kept.push_back(row);
-  keep_pairs(result, kept);
-}
-
-// With nobody to wait for once all points are here.
+// What all of them would find alike: the others leave the first the processors.
 Result run_on_whole(PointsView own, const Options& options, const Method& method,
-                    const ParameterValues& values, const Context& shared, const Context& alone) {
-  const Share share = share_of(shared, own.size());
-  const Points points = whole(own, shared), normals = whole(options.normals, shared);
-  Result result = run_alone(points, normals, options.seed, method, values, alone);
-  keep_pairs_of(result, share.first, own.size());
-  return result;
+                    const ParameterValues& values, const Context& context) {
+  const Context alone = context.sharing(nullptr);
+  return run_on_first(own, options.normals, *context.communicator(),
+                      [&](PointsView points, PointsView normals) {
+                        return run_alone(points, normals, options.seed, method, values, alone);
+                      });
 }
 
 }  // namespace
@@ -99,7 +83,7 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
   const Context shared = together.context();
   const Index normals = share_of(shared, options.normals.size()).total;
   if (!method.takes_shares || normals > 0 || share_of(shared, own.size()).total <= small_cloud)
-    return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
+    return run_on_whole(own, options, method, values, context);
   const Context unreported = shared.stage(0, 0);
   Cloud cloud = checked_shared_cloud(own, method.minimum_points, unreported);
   const auto strays = Strays::where_any(cloud, method, unreported);
@@ -109,7 +93,7 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
     cloud = checked_shared_cloud(rest, method.minimum_points, unreported);
   }
   if (!method.sees_inside && fills_bodies(cloud, unreported))
-    return run_on_whole(own, options, method, values, shared, context.sharing(nullptr));
+    return run_on_whole(own, options, method, values, context);
   cloud.seed = options.seed;
   Result result = method.run(cloud, values, shared);
   set_footprint(result, outline(cloud.points, shared));

@@ -144,7 +144,7 @@ Result found_by_all_alike(const Points& points, const Case& shared, const std::s
   return whole;
 }
 
-// Where points fill a body, every process looks at the skin of the whole.
+// Where points fill a body, one process looks at the skin of the whole.
 TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
   RandomCloud random(5);
   Points points = random.sphere(10000);
@@ -154,7 +154,7 @@ TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
   EXPECT_EQ(whole.statistics.count("skin_points"), 1u);
 }
 
-// Methods that do not take shares get the whole.
+// Methods that do not take shares get the whole, on one process.
 TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
   found_by_all_alike(scan(4).topRows(1000), GetParam(), "sphere");
 }

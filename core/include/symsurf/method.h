@@ -32,11 +32,12 @@ struct Method {
   std::string summary;  ///< one sentence
   std::vector<Parameter> parameters;
   Index minimum_points = 4;
-  bool automatic = false;     ///< one of those that "auto" tries
-  bool takes_shares = false;  ///< run can do with a share of the points; else each gets all
-  bool sees_copies = false;   ///< run gets points that are copies of others; else their places
-  bool sees_strays = false;   ///< run gets the few points far off all others; else the rest
-  bool sees_inside = false;   ///< run gets all points of bodies filled with them; else their skin
+  bool automatic = false;  ///< one of those that "auto" tries
+  bool takes_shares =
+      false;  ///< run can do with a share of the points; else the first process gets all
+  bool sees_copies = false;  ///< run gets points that are copies of others; else their places
+  bool sees_strays = false;  ///< run gets the few points far off all others; else the rest
+  bool sees_inside = false;  ///< run gets all points of bodies filled with them; else their skin
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };
 
