@@ -147,7 +147,7 @@ TEST(Auto, PrefersTheCylinderForTheBent) {
     const Result bent = detect(bent_object(seed, Cylinder({-2.5, 0, 0}, {0, 1, 0}, 2.5)));
     ASSERT_TRUE(bent.mirror) << seed;
     EXPECT_EQ(bent.mirror->kind(), "cylinder") << seed;
-    EXPECT_EQ(std::get<std::string>(bent.statistics.at("verdict")), "found") << seed;
+    EXPECT_EQ(bent.verdict(), "found") << seed;
   }
 }
 

@@ -169,8 +169,8 @@ TEST(Skin, NoMirrorIsFoundWhereABodyHasNone) {
     const Matrix3 turn = random.rotation();
     const Result result =
         detect(Points(filled_dented_ball(random, 6000) * turn), {.method = "auto"});
-    EXPECT_EQ(std::get<std::string>(result.statistics.at("verdict")), "none")
-        << seed << ": " << std::get<std::string>(result.statistics.at("reason"));
+    EXPECT_EQ(result.verdict(), "none")
+        << seed << ": " << result.reason();
   }
 }
 

@@ -23,11 +23,17 @@ struct Result {
   /// score: one may score more than the result.
   std::vector<Result> candidates;
   Values parameters;  ///< as used
-  /// Whatever the method reports, and "stray_points" where some points lie so far off that they
+  /// "verdict", "found" or "none"; "reason", a sentence that says why; whatever else the method
+  /// reports; and "stray_points" where some points lie so far off that they
   /// were left out: how many. They have no partners. "skin_points" where the points fill a body,
   /// and the mirror and the score are those of its skin: how many it has.
   Values statistics;
   double seconds = 0;
+
+  /// "found" where there is a mirror whose score is at least `minimum_score`, else "none".
+  const std::string& verdict() const { return std::get<std::string>(statistics.at("verdict")); }
+  /// Why, in a sentence.
+  const std::string& reason() const { return std::get<std::string>(statistics.at("reason")); }
 };
 
 }  // namespace symsurf

@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "methods.h"
 
 namespace symsurf {
@@ -16,8 +14,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     if (method.automatic && cloud.points.size() >= method.minimum_points) tried.push_back(&method);
 
   Result best;
-  std::string runner_up;
-  double best_score = -1, second_score = -1;
+  double best_score = -1;
   Values scores;
   for (std::size_t i = 0; i < tried.size() && best_score < surely_found; ++i) {
     const double share = 1.0 / static_cast<double>(tried.size());
@@ -29,23 +26,12 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     const double score = result.score;
     scores["score_" + tried[i]->name] = score;
     if (score > best_score) {
-      second_score = std::exchange(best_score, score);
-      runner_up = best.method;
+      best_score = score;
       best = std::move(result);
-    } else if (score > second_score) {
-      second_score = score;
-      runner_up = tried[i]->name;
     }
   }
-  best.score = best_score;
-  const double least = values.real("minimum_score");
-  scores["verdict"] = std::string(best_score >= least ? "found" : "none");
-  scores["reason"] = best.method + " scores " + to_string(Value(best_score)) +
-                     (runner_up.empty() ? std::string()
-                                        : ", " + runner_up + " " + to_string(Value(second_score))) +
-                     "; the least that counts is " + to_string(Value(least));
-  scores["minimum_score"] = least;
   best.statistics.merge(scores);
+  best.parameters["minimum_score"] = values.real("minimum_score");
   return best;
 }
 
@@ -58,11 +44,6 @@ Method auto_method() {
   method.summary =
       "Tries kinds of mirror, simple ones first, until one convinces, keeps the one with the best "
       "score, discounted for its freedom, and says whether it is one.";
-  method.parameters = {
-      Parameter::real("minimum_score", 0.3, 0, 1, "",
-                      "Below it the verdict in the statistics is \"none\": the best found is no "
-                      "symmetry of the shape."),
-  };
   method.run = run_auto;
   return method;
 }
