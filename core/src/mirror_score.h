@@ -5,97 +5,90 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
-#include <array>
-#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "nearest_points.h"
 #include "plane/surfels.h"
-#include "sheet_places.h"
+#include "point_tree.h"
 
 namespace symsurf {
 
-/// What an image says for or against a mirror: 1 where it meets the cloud's surface, minus the
-/// objection where it just misses it, 0 far from it. A true mirror of a shape with a piece missing
-/// sends images into the void, a wrong one sends them past the surface everywhere.
-struct Testimony {
-  double meets = 0.0015, misses = 0.016;  ///< distances from the surface, over the cloud's size
-  double objection = 0.7;                 ///< what a miss counts
-
-  /// The same of a cloud whose points are that far off their surface.
-  Testimony of(double rough) const {
-    return {std::hypot(meets, rough), std::hypot(misses, 2 * rough), objection};
-  }
-
-  /// `facing`, 0..1: do the normals mirror each other?
-  double operator()(double residual, double facing) const {
-    const double near = residual / meets, past = residual / misses;
-    return facing / (1 + near * near) - objection * past * past * std::exp(1 - past * past);
-  }
-};
-
-/// How far an image is from the cloud's surface, `gap` from its partner. Along a sheet, or inside a
-/// blob, a partner is as near as the points' spacing allows: only what exceeds it counts.
-double distance_past(const Vector3& gap, const Facet& partner, double spacing);
-
-/// What a mirror explains of a cloud, before the discount for its freedom; both in [0, 1].
-struct Explained {
-  double share = 0;
-  double exactly = 0;       ///< share of what the mirror moves whose image is a point, to rounding
+/// How well a mirror maps a cloud onto itself.
+struct MirrorFit {
+  double share = 0;         ///< mean support of the points that the mirror moves, at most 1
+  double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
 };
 
-/// The one score of all kinds of mirror: the mean testimony of the points that the mirror moves (at
-/// least 35 % of all), over that of the points about their own nearest neighbours, since a perfect
-/// mirror maps the cloud onto another sample of the same sheets. From that is taken what a mirror
-/// of the same freedom explains of random clouds, which have no exact partners; and of a mirror
-/// that may have any shape what speaks for nothing, as it fits every cloud of a single layer.
+/// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
+///
+/// A point whose image is a point of the cloud has support 1. For any other the points in a ball
+/// around it are mirrored and compared with those in a ball around its image. With r the distance
+/// of their means across the surface and c = (n . n')^2 the agreement of their normals,
+///
+///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
+///
+/// near 1 where the image lies on the surface, negative where it just misses it, 0 in the void. The
+/// balls have a fixed size, and the cloud is thinned to a fixed number of points: the score depends
+/// neither on the sampling nor, as means lose noise, much on noise. Inside a volume, where any image
+/// has neighbours, only a partner nearer than chance would put it counts.
 class MirrorScore {
  public:
-  /// The cloud and its points must outlive the score.
+  /// The cloud and its points must outlive the score. Collective, as all that follows.
   MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
-  Explained explained(const Mirror& mirror) const;
+  MirrorFit fit(const Mirror& mirror) const;
 
   /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
 
-  /// The result with the best of at least one mirror, the others its candidates, best first. The
-  /// first `settled` of them stay in front as they are.
-  Result ranked(const std::string& method, const std::vector<std::shared_ptr<Mirror>>& mirrors,
-                Index settled = 0) const;
+  /// The result with the best of at least one mirror, the others its candidates, best first.
+  Result ranked(const std::string& method,
+                const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
 
  private:
-  // Where the samples lie, and what their own nearest neighbours say.
-  struct Neighbours {
-    std::vector<Located> samples;
-    double roughness = 0;  // how far they miss each other's surface
-    Testimony testimony;
-    double moved_tolerance = 0.01;
-    double explain = 0;
+  // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
+  struct Ball {
+    Index count = 0;
+    double effective = 0;  // how many points of equal weight tell as much
+    Vector3 mean = Vector3::Zero();  // from the centre
+    Matrix3 covariance = Matrix3::Zero();
+  };
+  // How a ball's points spread along their principal axes.
+  struct Spread {
+    Vector3 variances;  // ascending
+    Matrix3 axes;
+    Vector3 thinness;      // 0..1: 1 where they spread as little as a surface's, 0 as a volume's
+    double flatness;       // 0..1: do they have a normal?
+
+    Spread(const Matrix3& covariance, double radius);
+    double surface() const { return thinness.maxCoeff(); }
+  };
+  struct Sample {
+    Vector3 position;
+    Ball ball;
+    double surface;  // 0..1: does the ball tell where the surface lies?
   };
 
-  void take_samples();
-  void look_at_neighbours();
-  Neighbours said(const std::vector<Vector3>& nearest, NoiseIs noise) const;
-  const Neighbours& neighbours(NoiseIs noise) const {
-    return neighbours_[static_cast<std::size_t>(noise)];
-  }
-  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
+  void choose_radius();
+  Ball ball_at(const Vector3& x) const;
+  double supported(const Sample& sample, const Mirror& mirror, const Vector3& x,
+                   const Vector3& image, double& surface) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
   Surfels coarse_, fine_;
-  double spacing_;  // of the points on a sheet
-  std::vector<OnSheet> samples_;
-  SheetPlaces places_;
-  std::array<Neighbours, 3> neighbours_;  // by what becomes of the noise
+  Points thinned_;  // the means of fine cells
+  PointTree tree_;  // of these
+  double radius_;   // of the balls
+  std::vector<Sample> samples_;
 };
 
-/// What is left of a share explained after what chance explains, for a kind of mirror.
-double discounted(const Explained& explained, std::string_view kind);
+/// The score: what is left of a fit after what mirrors of its kind fit by chance.
+double score_of(const MirrorFit& fit, std::string_view kind);
 
 }  // namespace symsurf

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import argparse
 import os
+import time
 from concurrent.futures import ProcessPoolExecutor
 
-from . import curved, deformed, kinds, planes
-from .case import Figures
+from . import cad_planes, candidates, curved, deformed, exact, kinds, planes, scores
+from . import without_mirror
+from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-CASES = {case.name: case for case in curved.CASES + deformed.CASES + kinds.CASES + planes.CASES}
+MODULES = (curved, deformed, kinds, planes, cad_planes, candidates, exact, scores, without_mirror)
+CASES = {case.name: case for module in MODULES for case in module.CASES}
+
+FRACTION = 5
+"""One of so many trials is run by default: all cases in a quarter of an hour on two cores."""
+
+
+def _seeds(case: Case, options: argparse.Namespace) -> range:
+    fraction = 1 if options.all else FRACTION
+    count = options.seeds or -(-case.trials // fraction)
+    return range(options.first_seed, options.first_seed + count)
 
 
 def _trial(task: tuple[str, str, int]) -> Figures:
@@ -25,7 +37,9 @@ def main() -> None:
                         help="cases whose name contains one of these")  # fmt: skip
     parser.add_argument("--subjects", nargs="+", default=[""], metavar="TEXT",
                         help="shapes whose name contains one of these")  # fmt: skip
-    parser.add_argument("--seeds", type=int, default=20, help="trials a shape")
+    parser.add_argument("--seeds", type=int,
+                        help=f"trials a shape; by default one of {FRACTION} that --all runs")  # fmt: skip
+    parser.add_argument("--all", action="store_true", help="all trials that figures should rest on")
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--by-subject", action="store_true", help="a row for each shape too")
@@ -42,11 +56,12 @@ def main() -> None:
         names, files = ", ".join(left_out), ", ".join(sum(left_out.values(), []))
         print(f"left out {names}: the folder SYMSURF_SHAPES, {FOLDER}, has no {files}")
     print(line(COLUMNS), flush=True)
-    seeds = range(options.first_seed, options.first_seed + options.seeds)
+    start = time.monotonic()
     with ProcessPoolExecutor(options.jobs) as pool:
         for case in chosen:
             subjects = [s for s in case.subjects if s not in left_out]
             subjects = [s for s in subjects if any(text in s for text in options.subjects)]
+            seeds = _seeds(case, options)
             tasks = [(case.name, subject, seed) for subject in subjects for seed in seeds]
             trials = list(pool.map(_trial, tasks))
             if options.by_subject:
@@ -55,6 +70,7 @@ def main() -> None:
                     print(*rows(case, f"  {subject}", own), sep="\n", flush=True)
             if trials:
                 print(*rows(case, case.name, trials), sep="\n", flush=True)
+    print(f"{(time.monotonic() - start) / 60:.1f} minutes, {options.jobs} processes")
 
 
 if __name__ == "__main__":

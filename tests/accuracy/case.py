@@ -39,6 +39,8 @@ class Case:
     run: Callable[[str, np.random.Generator], Figures]
     """One trial on one of the subjects."""
     bars: Mapping[str, Bar] = field(default_factory=dict)
+    trials: int = 20
+    """Of each subject, for figures to rely on."""
 
     def trial(self, subject: str, seed: int) -> Figures:
         key = zlib.crc32(f"{self.name}/{subject}".encode())

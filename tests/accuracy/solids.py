@@ -25,13 +25,15 @@ FILES = {
     "fox": ("fox.ply",),
     "bent cow": ("bent_spot.ply",),
     "bent capsule": ("bent_capsule.ply",),
+    "skull": ("skulls/A_J.ply",),
 }
-"""Of the subjects that are neither made here nor come with PyVista."""
+"""Of the shapes that are neither made here nor come with PyVista."""
 
 
 def lacking(subject: str) -> list[str]:
-    """Which of its files are not in the folder."""
-    return [file for file in FILES.get(subject, ()) if not (FOLDER / file).exists()]
+    """Which files of its shape are not in the folder; a subject's name begins with the shape's."""
+    needed = [files for shape, files in FILES.items() if f"{subject} ".startswith(f"{shape} ")]
+    return [file for file in sum(needed, ()) if not (FOLDER / file).exists()]
 
 
 def sampled(points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator) -> Points:
@@ -92,11 +94,24 @@ def asymmetric(kind: str, count: int, rng: np.random.Generator) -> Points:
         return _lumps(count, rng)
     if kind == "sheet":
         return _sheet(count, rng)
-    directions = rng.normal(size=(12 * count, 3))
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    radius = (_bumps if kind == "bumpy" else _facets)(directions, rng)
+    directions, radius = _radii(kind, 12 * count, rng)
     kept = rng.random(len(radius)) < (radius / radius.max()) ** 2
     return (directions * radius[:, None])[kept][:count]
+
+
+def filled(kind: str, count: int, rng: np.random.Generator) -> Points:
+    """Points all over the inside of a random solid without a mirror: a "bumpy" ball or "facets"."""
+    directions, radius = _radii(kind, 30 * count, rng)
+    kept = rng.random(len(radius)) < (radius / radius.max()) ** 3
+    depth = rng.random(len(radius)) ** (1 / 3)
+    return (directions * (radius * depth)[:, None])[kept][:count]
+
+
+def _radii(kind: str, count: int, rng: np.random.Generator) -> tuple[Points, NDArray[np.float64]]:
+    """Random directions, and how far the solid reaches there."""
+    directions = rng.normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return directions, (_bumps if kind == "bumpy" else _facets)(directions, rng)
 
 
 def _bumps(directions: Points, rng: np.random.Generator) -> NDArray[np.float64]:

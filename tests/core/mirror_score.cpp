@@ -41,7 +41,7 @@ struct Scored {
         nearest(points, tree, {}),
         score(cloud, nearest, {}) {}
   double operator()(const Mirror& mirror) const {
-    return discounted(score.explained(mirror), mirror.kind());
+    return score_of(score.fit(mirror), mirror.kind());
   }
   Cloud cloud;
   PointTree tree;

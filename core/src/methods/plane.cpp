@@ -137,8 +137,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const PlaneCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame)));
-  // The refinement has looked closer than the score does: what it puts first stays there.
-  Result best = MirrorScore(cloud, points, context.stage(0.5, 0.55)).ranked("plane", mirrors, 1);
+  Result best = MirrorScore(cloud, points, context.stage(0.5, 0.55)).ranked("plane", mirrors);
   add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
                    values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
   const Index pairs = summed(context, best.pairs.rows());

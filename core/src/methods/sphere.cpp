@@ -142,7 +142,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
-  best = score.ranked("sphere", mirrors, loose - candidates.begin());
+  best = score.ranked("sphere", mirrors);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
   best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();

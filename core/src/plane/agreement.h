@@ -67,6 +67,32 @@ struct Agreement {
   }
 };
 
+/// How far an image is from the cloud's surface, `gap` from its partner. Along a surface, or inside
+/// a volume, a partner is as near as the points' spacing allows: only what exceeds it counts.
+inline double distance_past(const Vector3& gap, const Facet& partner, double spacing) {
+  const auto squared = [](double x) { return x * x; };
+  const double length = gap.norm(), off_surface = gap.dot(partner.normal);
+  const double along = std::sqrt(std::max(0.0, squared(length) - squared(off_surface)));
+  const double surface = squared(off_surface) + squared(0.3 * std::max(0.0, along - spacing));
+  const double volume = squared(0.6 * std::max(0.0, length - spacing));
+  const double flat = squared(partner.flatness), round = squared(1 - partner.flatness);
+  return std::min(std::sqrt(flat * surface + round * volume), 3 * length);
+}
+
+/// A robust kernel with a negative lobe: 1 where an image meets the cloud's surface, minus the
+/// penalty where it just misses it, 0 far from it. A true mirror of a shape with a piece missing
+/// sends images into the void, a wrong one sends them past the surface everywhere.
+struct NearMissKernel {
+  double meets, misses;  ///< distances from the surface, over the cloud's size
+  double penalty;        ///< what a miss counts
+
+  /// `facing`, 0..1: do the normals mirror each other?
+  double operator()(double residual, double facing) const {
+    const double near = residual / meets, past = residual / misses;
+    return facing / (1 + near * near) - penalty * past * past * std::exp(1 - past * past);
+  }
+};
+
 /// 0 for points that the mirror hardly moves, whose symmetry is trivial, to 1.
 inline double displaced(double distance, double tolerance) {
   return std::clamp(2 * std::abs(distance) / tolerance - 1, 0.0, 1.0);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "../mirror_score.h"
 #include "../quantile.h"
 #include "agreement.h"
 #include "plane_step.h"
@@ -20,7 +19,7 @@ constexpr double score_tolerance = 0.015;
 // Stricter than the score: where much is missing, it is how close the rest comes that tells a false
 // plane from the true. As close as the noise lets it.
 constexpr double closest = 0.0003, close = 0.001;
-constexpr double misses = 0.016, objection = 0.4;
+constexpr double misses = 0.016, penalty = 0.4;
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
@@ -49,9 +48,9 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.place < b.place; });
   noise_ = measured_noise();
-  testimony_ = {.meets = std::clamp(noise_.deviation(), closest, close),
-                .misses = misses,
-                .objection = objection};
+  kernel_ = {.meets = std::clamp(noise_.deviation(), closest, close),
+             .misses = misses,
+             .penalty = penalty};
   for (Sample& s : samples_) s.smoothed = noise_.smoothed(s.point, *s.surfel);
 }
 
@@ -97,7 +96,7 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Vector3 gap = smoothed_gap(plane, match);
     const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
                               *match.surfel);
-    explained += weight * testimony_(distance_past(gap, *match.surfel, spacing_), agreement.facing);
+    explained += weight * kernel_(distance_past(gap, *match.surfel, spacing_), agreement.facing);
   }
   return explained / std::max(moved, 0.35 * static_cast<double>(looked));
 }

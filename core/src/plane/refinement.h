@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "../mirror_score.h"
 #include "../nearest_points.h"
 #include "agreement.h"
 #include "candidates.h"
@@ -63,7 +62,7 @@ class Refinement {
   const Surfels &coarse_, &fine_;
   double spacing_;  // of the points on a sheet
   SheetNoise noise_;
-  Testimony testimony_;
+  NearMissKernel kernel_;
   std::vector<Sample> samples_;  // spread evenly over the cloud
 };
 
