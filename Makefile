@@ -24,9 +24,10 @@ bench:
 	@cmake --build build/benchmarks --target bench
 	@tests/benchmarks/vtk/run.sh
 
-# OPTIONS="--cases fixed --seeds 5" asks for less; OPTIONS=--help tells what there is.
+# A quarter of an hour on two cores; OPTIONS=--all runs five times as many trials, OPTIONS="--cases
+# fixed --seeds 2" asks for less, OPTIONS=--help tells what there is.
 accuracy:
-	@.ci/setup python
+	@.ci/setup accuracy
 	@cd tests && ../build/venv/bin/python -m accuracy $(OPTIONS)
 
 meshlab:

@@ -10,6 +10,7 @@
 #include "mirror_layers.h"
 #include "parallel.h"
 #include "plane/agreement.h"
+#include "plane/sheet_noise.h"
 #include "quantile.h"
 
 namespace symsurf {
@@ -26,8 +27,8 @@ constexpr double near = 0.004, far = 0.018, penalty = 1.2;
 constexpr double unsure = 0.006;      // standard error of a mean: it tells half as much
 constexpr double in_volume = 0.4;     // weight of a point inside a volume, on a surface 1
 constexpr double by_chance = 0.1;     // probability of a neighbour: farther ones do not count
-constexpr double moved = 0.01;        // displacement from which on a point counts in full
-constexpr double least_moved = 0.35;  // share of all points that the mean is taken over at least
+constexpr double least_moved = 0.01, moved_by_noise = 5;  // displacement that counts in full
+constexpr double least_share = 0.35;  // of all points, that the mean is taken over
 constexpr double rounding = 1e-6;     // single precision
 
 // What the best mirror of a kind fits of random solids, less what the best plane does; and, since
@@ -73,11 +74,19 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       tree_(thinned_) {
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0});
   choose_radius();
+  // A surface is no mirror of the noise on its two sides.
+  moved_ = std::max(least_moved, moved_by_noise * noise());
   for (Sample& sample : samples_) {
     const Spread spread(sample.ball.covariance, radius_);
     const double error = spread.variances[0] * 2 / std::max(1.0, sample.ball.effective);
     sample.surface = spread.surface() / (1 + error / squared(unsure));
   }
+}
+
+double MirrorScore::noise() const {
+  std::vector<OnSheet> samples;
+  for (Index k = 0; k < coarse_.size(); ++k) samples.push_back({coarse_[k].sampled, &coarse_[k]});
+  return SheetNoise(samples, neighbours_of(samples, cloud_.frame, points_)).deviation();
 }
 
 void MirrorScore::choose_radius() {
@@ -188,7 +197,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
       support += weight;
       continue;
     }
-    const double displacement = displaced(distance, moved);
+    const double displacement = displaced(distance, moved_);
     if (displacement <= 0) continue;
     double surface = sample->surface;
     const double on_surface = supported(*sample, mirror, x, image, surface);
@@ -204,7 +213,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
   }
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;
-  const double least = least_moved * (1 - exact_share) * all;
+  const double least = least_share * (1 - exact_share) * all;
   return {std::clamp(support / std::max(weights, least), 0.0, 1.0), exact_share,
           layers ? layers->single() : 0};
 }

@@ -75,6 +75,7 @@ class MirrorScore {
   };
 
   void choose_radius();
+  double noise() const;
   Ball ball_at(const Vector3& x) const;
   double supported(const Sample& sample, const Mirror& mirror, const Vector3& x,
                    const Vector3& image, double& surface) const;
@@ -85,6 +86,7 @@ class MirrorScore {
   Points thinned_;  // the means of fine cells
   PointTree tree_;  // of these
   double radius_;   // of the balls
+  double moved_;    // displacement from which on a point counts in full
   std::vector<Sample> samples_;
 };
 

@@ -59,6 +59,13 @@ bool has_any_shape(const Mirror& mirror) {
   return mirror.kind() == "free-form" || mirror.kind() == "quadric";
 }
 
+// Share of the points whose partner is their image, to the rounding of single precision.
+double exactly_paired(const Result& result, const Cloud& cloud) {
+  constexpr double rounding = 1e-6;
+  const Index exact = (result.residuals.array() < rounding * cloud.diagonal).count();
+  return static_cast<double>(exact) / static_cast<double>(cloud.points.size());
+}
+
 void put_on_mirror(Result& result, const Context& context) {
   result.surface_points = result.mirror->project(result.surface_points, context);
   std::vector<Index> reached;
@@ -101,6 +108,7 @@ void Skin::hand_on(Result& result) const {
             pair_distance * cloud_.diagonal, context_);
   if (has_any_shape(*result.mirror)) put_on_mirror(result, context_);
   count_unpaired(result, cloud_.points.size());
+  result.score = std::max(result.score, exactly_paired(result, cloud_));
   const auto mean = result.statistics.find("mean_residual");
   if (mean != result.statistics.end())
     mean->second = result.residuals.size() > 0 ? result.residuals.mean() : 0.0;

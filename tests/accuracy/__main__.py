@@ -7,8 +7,7 @@ import os
 import time
 from concurrent.futures import ProcessPoolExecutor
 
-from . import cad_planes, candidates, curved, deformed, exact, kinds, planes, scores
-from . import without_mirror
+from . import cad_planes, candidates, curved, deformed, exact, kinds, planes, scores, without_mirror
 from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
@@ -38,7 +37,7 @@ def main() -> None:
     parser.add_argument("--subjects", nargs="+", default=[""], metavar="TEXT",
                         help="shapes whose name contains one of these")  # fmt: skip
     parser.add_argument("--seeds", type=int,
-                        help=f"trials a shape; by default one of {FRACTION} that --all runs")  # fmt: skip
+                        help=f"trials a shape; without it a {FRACTION}th of --all")  # fmt: skip
     parser.add_argument("--all", action="store_true", help="all trials that figures should rest on")
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
@@ -53,7 +52,7 @@ def main() -> None:
         return
     left_out = {s: lacking(s) for case in chosen for s in case.subjects if lacking(s)}
     if left_out:
-        names, files = ", ".join(left_out), ", ".join(sum(left_out.values(), []))
+        names, files = ", ".join(left_out), ", ".join(dict.fromkeys(sum(left_out.values(), [])))
         print(f"left out {names}: the folder SYMSURF_SHAPES, {FOLDER}, has no {files}")
     print(line(COLUMNS), flush=True)
     start = time.monotonic()

@@ -1,7 +1,7 @@
 """Symmetric triangle meshes as in libraries of CAD models: furniture, vehicles, tools.
 
-They are joined of closed pieces, which reach into each other, in random proportions. Each is its own
-image in x = 0; tables, bottles and some others are so in further planes.
+They are joined of closed pieces, which reach into each other, in random proportions. Each is its
+own image in x = 0; tables, bottles and some others are so in further planes.
 """
 
 from __future__ import annotations
@@ -169,14 +169,15 @@ def rifle(rng: Rng) -> Pieces:
     pieces.append(plate(grip, grip + [0.04, 0], 0.7 * thick))
     pieces.append(tube(bow((rear + 0.08, -high / 2), 0.03, 180, 360), 0.004, 6))
     if rng.random() < 0.7:
-        long = rng.uniform(0.05, 0.18)
-        magazine = np.array([[0.2 * body, 0], [0.2 * body + rng.uniform(0, 0.05), -high / 2 - long]])
+        lean, long = rng.uniform((0, 0.05), (0.05, 0.18))
+        magazine = np.array([[0.2 * body, 0], [0.2 * body + lean, -high / 2 - long]])
         pieces.append(plate(magazine, magazine + [0.06, 0], 0.6 * thick))
     if rng.random() < 0.5:
         up, scope = high / 2 + 0.025, rng.uniform(0.06, 0.12)
         ends = np.array([[0, -scope, up], [0, -scope / 2, up], [0, scope / 2, up], [0, scope, up]])
         pieces += [tube(ends, np.array([0.016, 0.01, 0.01, 0.02]), 14)]
-        pieces += [box((0, y, up - 0.012), (0.01, 0.015, 0.03)) for y in (-0.4 * scope, 0.4 * scope)]
+        for y in (-0.4 * scope, 0.4 * scope):
+            pieces.append(box((0, y, up - 0.012), (0.01, 0.015, 0.03)))
     pieces.append(box((0, front + 0.97 * barrel, line + 2 * bore), (0.3 * bore, 0.01, 3 * bore)))
     if rng.random() < 0.25:
         hinge = (0, front + 0.7 * barrel, line)
@@ -196,7 +197,8 @@ def aircraft(rng: Rng) -> Pieces:
     height = rng.uniform(-0.7, 0.8) * radius
 
     def surface(reach: float, front: float, deep: float, z: float) -> Mesh:
-        tip = (reach, front + sweep * reach, taper * deep, z + dihedral * reach, thick * deep * taper)
+        end = taper * deep
+        tip = (reach, front + sweep * reach, end, z + dihedral * reach, thick * end)
         return wing([(0, front, deep, z, thick * deep), tip])
 
     pieces += twins(surface(span, start, chord, height))
@@ -254,24 +256,25 @@ def tool(rng: Rng) -> Pieces:
         return [*pieces, plate(claw[[0, -1]] * [1, 0], claw[[0, -1]] * [1, 0] + [0, thick], thick)]
     if style == "screwdriver":
         long, blade = rng.uniform(0.3, 0.7), 0.3 * grip
-        pieces = [turned_body([(grip, -0.35), (1.3 * grip, -0.2), (0.8 * grip, 0), (grip, 0.02)], 12)]
-        pieces.append(rod((0, 0, 0), (0, 0, long), blade))
-        return [*pieces, box((0, 0, long), (4 * blade, 0.8 * blade, 0.06))]
+        handle = [(grip, -0.35), (1.3 * grip, -0.2), (0.8 * grip, 0), (grip, 0.02)]
+        tip = box((0, 0, long), (4 * blade, 0.8 * blade, 0.06))
+        return [turned_body(handle, 12), rod((0, 0, 0), (0, 0, long), blade), tip]
     if style == "wrench":
         angle = np.linspace(0.2 * np.pi, 1.8 * np.pi, 14) + rng.uniform(-0.3, 0.3)
         ring = np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(0.06, 0.12)
         jaw = plate(0.5 * ring + [1, 0], ring + [1, 0], 1.5 * thick)
         shaft = np.array([[0, -0.7 * grip], [0.95, -grip]])
-        return [jaw, plate(shaft, -shaft * [-1, 1], thick), rod((-thick, 0, 0), (thick, 0, 0), 3 * grip)]
+        eye = rod((-thick, 0, 0), (thick, 0, 0), 3 * grip)
+        return [jaw, eye, plate(shaft, shaft * [1, -1], thick)]
     if style == "saw":
         y, deep = np.linspace(0, 0.7, 29), rng.uniform(0.06, 0.15)
         teeth = np.column_stack([y, -deep * (1 - 0.5 * y) + 0.015 * (np.arange(29) % 2)])
         back = np.column_stack([y, np.full(29, 0.0)])
         loop = bow((-0.08, -0.4 * deep), 0.07, 0, 360)
         return [plate(teeth, back, 0.3 * thick), tube(loop, 0.9 * thick, 8)]
-    spread = rng.uniform(0.02, 0.08)
+    spread, long = rng.uniform((0.02, 0.1), (0.08, 0.35))
     handle = tube([(spread, -0.6, 0), (1.2 * spread, -0.3, 0), (0, 0, 0)], (grip, grip, 0.8 * grip))
-    nose = rod((0.5 * thick, -0.02, 0), (0.3 * thick, rng.uniform(0.1, 0.35), 0), (2 * thick, thick))
+    nose = rod((0.5 * thick, -0.02, 0), (0.3 * thick, long, 0), (2 * thick, thick))
     return [*twins(handle), *twins(nose), box((0, 0, 0), (3 * thick, 4 * thick, 3 * grip))]
 
 

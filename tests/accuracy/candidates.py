@@ -12,14 +12,14 @@ from .planes import difference
 from .poses import Points, random_rotation
 
 Body = tuple[Points, Points]
-"""Points, and the normals of their planes of symmetry, which all pass through their centroid."""
+"""Points, and the normals of their planes of symmetry, which pass through their centroid."""
 
 HIGH = 0.9
 """A score that a plane without exact partners must not have."""
 
 
 def _around(order: int) -> Points:
-    """The normals of the planes through the z axis of a body that so many turns bring back, and z."""
+    """Normals of the planes of a body that so many turns about z bring back: upright, and z."""
     angle = np.pi * np.arange(order) / order
     upright = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
     return np.vstack([upright, [0, 0, 1]])
@@ -48,7 +48,8 @@ def _cube(style: str, rng: np.random.Generator) -> Body:
 
 
 def _hexagonal_prism(style: str, rng: np.random.Generator) -> Body:
-    steps, levels = int(rng.integers(3, 12)), np.linspace(0, rng.uniform(0.5, 3), rng.integers(4, 16))
+    steps = int(rng.integers(3, 12))
+    levels = np.linspace(0, rng.uniform(0.5, 3), rng.integers(4, 16))
     if style == "mesh":
         corners = np.exp(1j * np.pi * np.arange(7) / 3)
         share = np.arange(steps) / steps
@@ -70,7 +71,8 @@ def _gear(style: str, rng: np.random.Generator) -> Body:
     outline, height = gear_outline(12, rng.uniform(0.1, 0.3)), rng.uniform(0.2, 0.8)
     shares = np.linspace(0.2, 1, int(rng.integers(3, 8)))
     levels = np.linspace(0, height, int(rng.integers(3, 8)))[1:-1]
-    profile = [(s, 0) for s in shares] + [(1, z) for z in levels] + [(s, height) for s in shares[::-1]]
+    profile = [*((s, 0) for s in shares), *((1, z) for z in levels)]
+    profile += [(s, height) for s in shares[::-1]]
     rings = [np.column_stack([s * outline, np.full(len(outline), z)]) for s, z in profile]
     return loft(rings)[0], _around(12)
 

@@ -129,7 +129,7 @@ CASES = (
     *(Case(f"auto, exact {kind}", tuple(CLOUDS), _mirrored(kind), _RIGHT, trials=35)
       for kind in ("plane", "sphere", "cylinder")),
     Case("auto, a random half and its image",
-         tuple(f"{cloud} {count}" for cloud in ("Gaussian", "uniform") for count in (100, 300, 1000)),
+         tuple(f"{cloud} {n}" for cloud in ("Gaussian", "uniform") for n in (100, 300, 1000)),
          _random_half, {**_RIGHT, "named": at_least(1)}),
     Case("auto, bent airplane, exact partners", ("radius 1500", "radius 3000"), _bent_airplane,
          {"named": at_least(1)}, trials=5),

@@ -77,7 +77,7 @@ def _noisier(method: str) -> Case:
 
 
 def _half(method: str) -> Case:
-    """Cut off at the plane of symmetry: nothing is mirrored, unless one says that half is missing."""
+    """Cut off at its plane of symmetry: nothing is left of the mirror but, at best, its place."""
 
     def run(subject: str, rng: np.random.Generator) -> Figures:
         vertices, faces, plane = mirrored_mesh(subject.split()[0])

@@ -1,12 +1,12 @@
 #include <symsurf/plane.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "../gathered.h"
 #include "../mirror_score.h"
 #include "../nearest_points.h"
 #include "../plane/candidates.h"
+#include "../plane/exact_planes.h"
 #include "../plane/maximise.h"
 #include "../plane/refinement.h"
 #include "../plane/symmetry_measure.h"
@@ -19,7 +19,6 @@ namespace symsurf {
 
 namespace {
 
-constexpr double close_behind = 0.05;  // below the best by this share of it: worth the last digits
 constexpr double meagre = 0.3;         // a best that explains less has the margins of one like this
 constexpr double alike_planes = 0.05;  // planes closer than this are one
 constexpr Index measured = 150;        // surfels that the measure is taken over
@@ -105,39 +104,54 @@ Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
   return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
 }
 
+// The best that a search finds, refined.
+std::vector<UnitPlane> searched_planes(const Surfels& surfels, const SurfelMap& map,
+                                       const Refinement& refinement,
+                                       std::vector<PlaneCandidate> candidates,
+                                       const Context& context) {
+  fit(refinement, usual, candidates, context.stage(0, 0.3));
+  if (candidates.front().explained < unexplained) {
+    std::vector<PlaneCandidate> more =
+        promising_planes(surfels, map, thorough, context.stage(0.3, 0.5));
+    fit(refinement, thorough, more, context.stage(0.5, 0.6));
+    candidates.insert(candidates.end(), more.begin(), more.end());
+    keep_distinct(candidates, alike_planes, thorough.finalists);
+  }
+  // Of a body thinner than the patches these say nothing about the plane along it.
+  const PlaneCandidate along_thin_body{{Vector3::UnitZ(), 0}, 0};
+  candidates.push_back(along_thin_body);
+  improve(candidates, context.stage(0.6, 1),
+          [&](const PlaneCandidate& c) { return refinement.final(c); });
+  keep_distinct(candidates, alike_planes, static_cast<Index>(candidates.size()));
+  std::vector<UnitPlane> planes;
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
+  return planes;
+}
+
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
   const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
   const SurfelMap map(coarse);
-  std::vector<PlaneCandidate> candidates =
+  const std::vector<PlaneCandidate> promising =
       promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
-  const Slabs slabs(cloud, along_mirror(candidates.front().plane, cloud.frame),
+  const Slabs slabs(cloud, along_mirror(promising.front().plane, cloud.frame),
                     context.stage(0.25, 0.3));
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
-  fit(refinement, usual, candidates, context.stage(0.4, 0.42));
-  if (candidates.front().explained < unexplained) {
-    std::vector<PlaneCandidate> more =
-        promising_planes(coarse, map, thorough, context.stage(0.42, 0.44));
-    fit(refinement, thorough, more, context.stage(0.44, 0.46));
-    candidates.insert(candidates.end(), more.begin(), more.end());
-    keep_distinct(candidates, alike_planes, thorough.finalists);
-  }
-  improve(candidates, context.stage(0.46, 0.5), [&](const PlaneCandidate& c) {
-    constexpr double any = -std::numeric_limits<double>::infinity();
-    if (&c == &candidates.front()) return refinement.final(c, any);
-    const double least = below(candidates.front().explained, close_behind);
-    return c.explained < least ? c : refinement.final(c, least);
-  });
-  keep_distinct(candidates, alike_planes, 1 + values.integer("max_candidates"));
+  std::vector<UnitPlane> planes = exact_planes(cloud, points, coarse, context.stage(0.4, 0.41));
+  for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  if (planes.empty())
+    planes = searched_planes(coarse, map, refinement, promising, context.stage(0.41, 0.5));
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (const PlaneCandidate& candidate : candidates)
-    mirrors.push_back(std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame)));
+  for (const UnitPlane& plane : planes)
+    mirrors.push_back(std::make_shared<Plane>(in_input_units(plane, cloud.frame)));
   Result best = MirrorScore(cloud, points, context.stage(0.5, 0.55)).ranked("plane", mirrors);
+  const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
+  if (best.candidates.size() > most) best.candidates.resize(most);
   add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
                    values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
   const Index pairs = summed(context, best.pairs.rows());
@@ -159,7 +173,7 @@ Method plane_method() {
   method.parameters = {
       Parameter::integer("sample_size", 1000, 100, 100000, "points",
                          "Patches of the cloud that the search for the plane works on."),
-      Parameter::integer("max_candidates", 5, 0, 5, "",
+      Parameter::integer("max_candidates", 64, 0, 64, "",
                          "Other planes to report at the most, best first."),
       Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
                       "A point whose image has no point of the cloud nearer than this has no "

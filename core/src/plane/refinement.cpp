@@ -116,7 +116,7 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
 // what agrees closely, which nothing beside a hole pulls away.
-PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) const {
+PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
@@ -124,7 +124,6 @@ PlaneCandidate Refinement::final(const PlaneCandidate& start, double least) cons
   const UnitPlane rough = fitted(start.plane, wide, many, steps);
   const std::vector<Match> around = matches(rough, reach, telling);
   const double roughly = explained(rough, around, telling);
-  if (roughly < least) return {rough, roughly};
   const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =

@@ -23,8 +23,12 @@ struct UnitPlane {
 };
 
 inline Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
-  const Vector3 normal = frame.axes * plane.normal;
-  return Plane(normal, frame.size * plane.offset - normal.dot(frame.centroid));
+  // The sign by a direction that no normal along axes and diagonals is orthogonal to: alike shapes
+  // in alike poses get alike normals.
+  const Vector3 unsigned_normal = frame.axes * plane.normal;
+  const double sign = unsigned_normal.dot(Vector3(4, 2, 1)) < 0 ? -1 : 1;
+  const Vector3 normal = sign * unsigned_normal;
+  return Plane(normal, sign * frame.size * plane.offset - normal.dot(frame.centroid));
 }
 
 }  // namespace symsurf
