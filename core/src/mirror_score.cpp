@@ -27,7 +27,8 @@ constexpr double near = 0.004, far = 0.018, penalty = 1.2;
 constexpr double unsure = 0.006;      // standard error of a mean: it tells half as much
 constexpr double in_volume = 0.4;     // weight of a point inside a volume, on a surface 1
 constexpr double by_chance = 0.1;     // probability of a neighbour: farther ones do not count
-constexpr double least_moved = 0.01, moved_by_noise = 5;  // displacement that counts in full
+// From which distance from the mirror on a point counts in full: near it any surface is symmetric.
+constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
 constexpr double least_share = 0.35;  // of all points, that the mean is taken over
 constexpr double rounding = 1e-6;     // single precision
 
@@ -186,6 +187,11 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
     asked.push_back({&sample, distance, x, image});
     images.push_back(image);
   }
+  if (asked.empty()) return {};
+  std::vector<double> distances;
+  for (const Moved& m : asked) distances.push_back(m.distance);
+  const double extent = quantile(std::move(distances), 0.95);
+  const double in_full = std::max(moved_, moved_by_extent * extent);
   const std::vector<Vector3> partners = points_.nearest(images, far * frame.size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const auto& [sample, distance, x, image] = asked[k];
@@ -197,7 +203,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
       support += weight;
       continue;
     }
-    const double displacement = displaced(distance, moved_);
+    const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
     double surface = sample->surface;
     const double on_surface = supported(*sample, mirror, x, image, surface);

@@ -89,8 +89,10 @@ BODIES = {
     "box": _box, "hexagonal-prism": _hexagonal_prism, "cube": _cube, "gear": _gear,
     "L-bracket": _bracket,
 }  # fmt: skip
-SUBJECTS = ("box lattice", "box mesh", "box grid", "hexagonal-prism lattice",
-            "hexagonal-prism mesh", "cube lattice", "cube grid", "gear mesh", "L-bracket grid")  # fmt: skip
+SUBJECTS = (
+    "box lattice", "box mesh", "box grid", "hexagonal-prism lattice", "hexagonal-prism mesh",
+    "cube lattice", "cube grid", "gear mesh", "L-bracket grid",
+)  # fmt: skip
 
 
 def _all_planes(method: str) -> Case:
