@@ -71,8 +71,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       points_(points),
       coarse_(cloud, sample_count, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
-      thinned_(fine_.positions(fine_.size())),
-      tree_(thinned_) {
+      thinned_(fine_.positions(fine_.size())) {
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
@@ -95,20 +94,20 @@ void MirrorScore::choose_radius() {
   for (radius_ = least_radius;; radius_ *= growth) {
     std::vector<Index> counts;
     for (Sample& sample : samples_) {
-      sample.ball = ball_at(sample.position);
+      sample.ball = ball_of(thinned_, sample.position);
       counts.push_back(sample.ball.count);
     }
     if (radius_ * growth > greatest_radius || median(std::move(counts)) >= points_in_ball) return;
   }
 }
 
-MirrorScore::Ball MirrorScore::ball_at(const Vector3& x) const {
+MirrorScore::Ball MirrorScore::ball_of(const PointSet& set, const Vector3& x) const {
   Ball ball;
   double weights = 0, squares = 0;
   Matrix3 products = Matrix3::Zero();
-  tree_.within(x, radius_, [&](Index i, double squared_distance) {
+  set.tree.within(x, radius_, [&](Index i, double squared_distance) {
     const double weight = 1 - squared_distance / squared(radius_);
-    const Vector3 offset = thinned_.row(i).transpose() - x;
+    const Vector3 offset = set.points.row(i).transpose() - x;
     ++ball.count;
     weights += weight;
     squares += squared(weight);
@@ -122,27 +121,25 @@ MirrorScore::Ball MirrorScore::ball_at(const Vector3& x) const {
   return ball;
 }
 
-// In the frame. The mirror is linear around the sample, up to what a ball's radius is to its
-// curvature's; planes are.
-double MirrorScore::supported(const Sample& sample, const Mirror& mirror, const Vector3& x,
-                              const Vector3& image, double& surface) const {
+MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
   const PrincipalFrame& frame = cloud_.frame;
-  const Vector3 centre = frame.enter(image);
-  const Ball target = ball_at(centre);
-  constexpr Index least = 3;
-  if (target.count < least) return 0;
-  const double step = 1e-4 * frame.size;
-  Matrix3 linear;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 along = frame.axes.col(axis);
-    linear.col(axis) =
-        frame.axes.transpose() * (mirror.reflect(Vector3(x + step * along)) - image) / step;
+  Points images(thinned_.points.rows(), 3);
+  Index count = 0;
+  for (Index i = 0; i < images.rows(); ++i) {
+    const Vector3 image = mirror.reflect(frame.leave(thinned_.points.row(i).transpose()));
+    if (image.allFinite()) images.row(count++) = frame.enter(image).transpose();
   }
-  const Vector3 mean = linear * sample.ball.mean;
-  if (!mean.allFinite()) return 0;
-  const Spread own(linear * sample.ball.covariance * linear.transpose(), radius_);
-  const Spread other(target.covariance, radius_);
-  const Vector3 gap = mean - target.mean;
+  images.conservativeResize(count, 3);
+  return PointSet(std::move(images));
+}
+
+double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
+                              double& surface) const {
+  constexpr Index least = 3;
+  const Ball image = ball_of(mirrored, sample.position);
+  if (image.count < least) return 0;
+  const Spread own(sample.ball.covariance, radius_), other(image.covariance, radius_);
+  const Vector3 gap = sample.ball.mean - image.mean;
   // Less twice the variance that few points leave to the gap.
   const auto across = [&](const Spread& spread, double effective) {
     const Vector3 along = spread.axes.transpose() * gap;
@@ -150,7 +147,7 @@ double MirrorScore::supported(const Sample& sample, const Mirror& mirror, const 
     return spread.thinness.dot(left);
   };
   const double offset =
-      std::max({0.0, across(own, sample.ball.effective), across(other, target.effective)});
+      std::max({0.0, across(own, sample.ball.effective), across(other, image.effective)});
   const double cosine = own.axes.col(0).dot(other.axes.col(0));
   const double turned = own.flatness * other.flatness * (1 - squared(cosine));
   const double missed = offset / squared(far);
@@ -167,7 +164,6 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
   struct Moved {
     const Sample* sample;
     double distance;  // from the mirror
-    Vector3 position, image;
   };
   std::vector<Moved> asked;
   std::vector<Vector3> images;
@@ -184,18 +180,19 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
       layers->add(x, frame.axes * Spread(sample.ball.covariance, radius_).axes.col(0), image);
     const double distance = (image - x).norm() / (2 * frame.size);
     if (distance < rounding) continue;
-    asked.push_back({&sample, distance, x, image});
+    asked.push_back({&sample, distance});
     images.push_back(image);
   }
   if (asked.empty()) return {};
+  const PointSet image_set = mirrored(mirror);
   std::vector<double> distances;
   for (const Moved& m : asked) distances.push_back(m.distance);
   const double extent = quantile(std::move(distances), 0.95);
   const double in_full = std::max(moved_, moved_by_extent * extent);
   const std::vector<Vector3> partners = points_.nearest(images, far * frame.size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    const auto& [sample, distance, x, image] = asked[k];
-    const double gap = (partners[k] - image).norm() / frame.size;  // NaN where there is none
+    const auto& [sample, distance] = asked[k];
+    const double gap = (partners[k] - images[k]).norm() / frame.size;  // NaN where there is none
     if (gap < rounding) {
       const double weight = sample->surface + in_volume * (1 - sample->surface);
       weights += weight;
@@ -206,11 +203,11 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
     const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
     double surface = sample->surface;
-    const double on_surface = supported(*sample, mirror, x, image, surface);
+    const double on_surface = supported(*sample, image_set, surface);
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
     const double density = static_cast<double>(sample->ball.count) *
                            static_cast<double>(cloud_.total) /
-                           static_cast<double>(thinned_.rows());
+                           static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);
     const double weight = displacement * (surface + in_volume * (1 - surface));

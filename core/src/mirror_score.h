@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "nearest_points.h"
@@ -26,9 +27,9 @@ struct MirrorFit {
 
 /// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
 ///
-/// A point whose image is a point of the cloud has support 1. For any other the points in a ball
-/// around it are mirrored and compared with those in a ball around its image. With r the distance
-/// of their means across the surface and c = (n . n')^2 the agreement of their normals,
+/// A point whose image is a point of the cloud has support 1. Around any other the cloud and its
+/// mirror image are compared within a ball. With r the distance of their means across the surface
+/// and c = (n . n')^2 the agreement of their normals,
 ///
 ///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
 ///
@@ -76,15 +77,21 @@ class MirrorScore {
 
   void choose_radius();
   double noise() const;
-  Ball ball_at(const Vector3& x) const;
-  double supported(const Sample& sample, const Mirror& mirror, const Vector3& x,
-                   const Vector3& image, double& surface) const;
+  // The thinned points, or their images.
+  struct PointSet {
+    explicit PointSet(Points rows) : points(std::move(rows)), tree(points) {}
+    Points points;
+    PointTree tree;
+  };
+
+  Ball ball_of(const PointSet& set, const Vector3& x) const;
+  PointSet mirrored(const Mirror& mirror) const;
+  double supported(const Sample& sample, const PointSet& mirrored, double& surface) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
   Surfels coarse_, fine_;
-  Points thinned_;  // the means of fine cells
-  PointTree tree_;  // of these
+  PointSet thinned_;  // the means of fine cells
   double radius_;   // of the balls
   double moved_;    // displacement from which on a point counts in full
   std::vector<Sample> samples_;
