@@ -29,7 +29,7 @@ constexpr double in_volume = 0.4;     // weight of a point inside a volume, on a
 constexpr double by_chance = 0.1;     // probability of a neighbour: farther ones do not count
 // From which distance from the mirror on a point counts in full: near it any surface is symmetric.
 constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
-constexpr double least_share = 0.35;  // of all points, that the mean is taken over
+constexpr double least_share = 0.2;   // of all points, that the mean is taken over
 constexpr double rounding = 1e-6;     // single precision
 
 // What the best mirror of a kind fits of random solids, less what the best plane does; and, since

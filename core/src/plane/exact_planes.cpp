@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../gathered.h"
+#include "../keep_unlike.h"
 
 namespace symsurf {
 
@@ -72,7 +73,7 @@ std::vector<Vector3> possible_normals(std::vector<Shell> shells) {
     for (const Vector3& b : shell) {
       const Vector3 across = a.normalized().cross(b.normalized());
       if (across.norm() < least_angle) continue;
-      if (&shell != &shells.front()) add_bisectors(shell, b);
+      add_bisectors(shell, b);
       normals.push_back(across.normalized());
       return normals;
     }
@@ -108,6 +109,9 @@ std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& poi
       positions.row(k) = samples[k * samples.size() / positions.rows()].sampled.transpose();
     keep_exact(planes, positions, cloud, points);
   }
+  keep_unlike(planes, planes.size(), [](const UnitPlane& plane, const UnitPlane& other) {
+    return plane.normal.cross(other.normal).norm() < least_angle;
+  });
   // A flat cloud's own plane moves nothing.
   std::erase_if(planes, [&](const UnitPlane& plane) {
     for (Index k = 0; k < samples.size(); ++k)
