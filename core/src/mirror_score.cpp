@@ -20,17 +20,17 @@ namespace {
 // Lengths are in diagonals. Chosen on sampled meshes, scans and random solids of 1000 to 100,000
 // points with noise of 0 to 2 %: the shapes with a mirror score 0.5 and more, the others less
 // than 0.4 (`make accuracy OPTIONS="--cases score none"`).
-constexpr Index sample_count = 500;   // points whose support is measured
+constexpr Index sample_count = 500;                            // points whose support is measured
 constexpr double least_radius = 0.05, greatest_radius = 0.15;  // of the balls
 constexpr Index points_in_ball = 50;  // in the median, where the cloud is that dense
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
-constexpr double unsure = 0.006;      // standard error of a mean: it tells half as much
-constexpr double in_volume = 0.4;     // weight of a point inside a volume, on a surface 1
-constexpr double by_chance = 0.1;     // probability of a neighbour: farther ones do not count
+constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
+constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1
+constexpr double by_chance = 0.1;  // probability of a neighbour: farther ones do not count
 // From which distance from the mirror on a point counts in full: near it any surface is symmetric.
 constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
-constexpr double least_share = 0.2;   // of all points, that the mean is taken over
-constexpr double rounding = 1e-6;     // single precision
+constexpr double least_share = 0.2;  // of all points, that the mean is taken over
+constexpr double rounding = 1e-6;    // single precision
 
 // What the best mirror of a kind fits of random solids, less what the best plane does; and, since
 // of two mirrors that fit alike the simpler is meant, what its freedom costs.
@@ -41,8 +41,8 @@ struct Freedom {
 
 Freedom freedom_of(std::string_view kind) {
   static const std::map<std::string_view, Freedom> freedoms{
-      {"sphere", {0.15, 0.01}},       {"cylinder", {0.15, 0.02}},
-      {"quadric", {0.4, 0.03}},       {"height field", {0.85, 0.05, true}},
+      {"sphere", {0.15, 0.01}},          {"cylinder", {0.15, 0.02}},
+      {"quadric", {0.4, 0.03}},          {"height field", {0.85, 0.05, true}},
       {"free-form", {0.65, 0.06, true}},
   };
   const auto found = freedoms.find(kind);
@@ -77,6 +77,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   // A surface is no mirror of the noise on its two sides.
   moved_ = std::max(least_moved, moved_by_noise * noise());
   for (Sample& sample : samples_) {
+    sample.ball = ball_of(thinned_, sample.position);
     const Spread spread(sample.ball.covariance, radius_);
     const double error = spread.variances[0] * 2 / std::max(1.0, sample.ball.effective);
     sample.surface = spread.surface() / (1 + error / squared(unsure));
@@ -91,33 +92,38 @@ double MirrorScore::noise() const {
 
 void MirrorScore::choose_radius() {
   constexpr double growth = 1.15;
-  for (radius_ = least_radius;; radius_ *= growth) {
+  constexpr std::size_t stride = 8;
+  const auto typical_count = [&] {
     std::vector<Index> counts;
-    for (Sample& sample : samples_) {
-      sample.ball = ball_of(thinned_, sample.position);
-      counts.push_back(sample.ball.count);
-    }
-    if (radius_ * growth > greatest_radius || median(std::move(counts)) >= points_in_ball) return;
-  }
+    for (std::size_t k = 0; k < samples_.size(); k += stride)
+      counts.push_back(ball_of(thinned_, samples_[k].position).count);
+    return median(std::move(counts));
+  };
+  radius_ = least_radius;
+  while (radius_ * growth <= greatest_radius && typical_count() < points_in_ball) radius_ *= growth;
 }
 
 MirrorScore::Ball MirrorScore::ball_of(const PointSet& set, const Vector3& x) const {
   Ball ball;
   double weights = 0, squares = 0;
-  Matrix3 products = Matrix3::Zero();
+  Matrix3 products = Matrix3::Zero();  // its lower triangle
+  const double per_squared = 1 / squared(radius_);
   set.tree.within(x, radius_, [&](Index i, double squared_distance) {
-    const double weight = 1 - squared_distance / squared(radius_);
-    const Vector3 offset = set.points.row(i).transpose() - x;
+    const double weight = 1 - squared_distance * per_squared;
+    const Vector3 offset = set.points.row(i).transpose() - x, weighted = weight * offset;
     ++ball.count;
     weights += weight;
     squares += squared(weight);
-    ball.mean += weight * offset;
-    products += weight * offset * offset.transpose();
+    ball.mean += weighted;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column <= row; ++column)
+        products(row, column) += weighted[row] * offset[column];
   });
   if (!(weights > 0)) return ball;
   ball.effective = squared(weights) / squares;
   ball.mean /= weights;
-  ball.covariance = products / weights - ball.mean * ball.mean.transpose();
+  ball.covariance = products.selfadjointView<Eigen::Lower>();
+  ball.covariance = ball.covariance / weights - ball.mean * ball.mean.transpose();
   return ball;
 }
 
@@ -156,7 +162,7 @@ double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
          penalty * missed * std::exp(1 - missed);
 }
 
-MirrorFit MirrorScore::fit(const Mirror& mirror) const {
+MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
   const Freedom freedom = freedom_of(mirror.kind());
   std::optional<MirrorLayers> layers;
@@ -168,7 +174,8 @@ MirrorFit MirrorScore::fit(const Mirror& mirror) const {
   std::vector<Moved> asked;
   std::vector<Vector3> images;
   double all = 0, weights = 0, support = 0, exact = 0;
-  for (const Sample& sample : samples_) {
+  for (std::size_t k = 0; k < samples_.size(); k += stride) {
+    const Sample& sample = samples_[k];
     const double weight = sample.surface + in_volume * (1 - sample.surface);
     all += weight;
     const Vector3 x = frame.leave(sample.position), image = mirror.reflect(x);
@@ -250,8 +257,8 @@ Result MirrorScore::ranked(const std::string& method,
 double score_of(const MirrorFit& fit, std::string_view kind) {
   const Freedom freedom = freedom_of(kind);
   const double chance = 1 - fit.exact;
-  const double beyond = std::max(0.0, fit.share - freedom.by_chance * chance) /
-                        (1 - freedom.by_chance * chance);
+  const double beyond =
+      std::max(0.0, fit.share - freedom.by_chance * chance) / (1 - freedom.by_chance * chance);
   return (1 - freedom.cost * chance) * (1 - fit.single_layer * chance) * beyond;
 }
 

@@ -35,14 +35,16 @@ struct MirrorFit {
 ///
 /// near 1 where the image lies on the surface, negative where it just misses it, 0 in the void. The
 /// balls have a fixed size, and the cloud is thinned to a fixed number of points: the score depends
-/// neither on the sampling nor, as means lose noise, much on noise. Inside a volume, where any image
-/// has neighbours, only a partner nearer than chance would put it counts.
+/// neither on the sampling nor, as means lose noise, much on noise. Inside a volume, where any
+/// image has neighbours, only a partner nearer than chance would put it counts.
 class MirrorScore {
  public:
   /// The cloud and its points must outlive the score. Collective, as all that follows.
   MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
-  MirrorFit fit(const Mirror& mirror) const;
+  MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
+  /// The same of a third of the points: enough to see which mirrors are worth refining.
+  MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
 
   /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
@@ -55,7 +57,7 @@ class MirrorScore {
   // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
   struct Ball {
     Index count = 0;
-    double effective = 0;  // how many points of equal weight tell as much
+    double effective = 0;            // how many points of equal weight tell as much
     Vector3 mean = Vector3::Zero();  // from the centre
     Matrix3 covariance = Matrix3::Zero();
   };
@@ -63,8 +65,8 @@ class MirrorScore {
   struct Spread {
     Vector3 variances;  // ascending
     Matrix3 axes;
-    Vector3 thinness;      // 0..1: 1 where they spread as little as a surface's, 0 as a volume's
-    double flatness;       // 0..1: do they have a normal?
+    Vector3 thinness;  // 0..1: 1 where they spread as little as a surface's, 0 as a volume's
+    double flatness;   // 0..1: do they have a normal?
 
     Spread(const Matrix3& covariance, double radius);
     double surface() const { return thinness.maxCoeff(); }
@@ -75,6 +77,7 @@ class MirrorScore {
     double surface;  // 0..1: does the ball tell where the surface lies?
   };
 
+  MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
   void choose_radius();
   double noise() const;
   // The thinned points, or their images.
@@ -92,8 +95,8 @@ class MirrorScore {
   const NearestPoints& points_;
   Surfels coarse_, fine_;
   PointSet thinned_;  // the means of fine cells
-  double radius_;   // of the balls
-  double moved_;    // displacement from which on a point counts in full
+  double radius_;     // of the balls
+  double moved_;      // displacement from which on a point counts in full
   std::vector<Sample> samples_;
 };
 

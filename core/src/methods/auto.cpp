@@ -6,8 +6,9 @@ namespace symsurf {
 
 namespace {
 
-// A plane that scores as much leaves freer mirrors nothing to explain: skulls, a cow and an airplane
-// score 0.8 and more as they are, 0.6 and less once bent about a cylinder of three diagonals' radius.
+// A plane that scores as much leaves freer mirrors nothing to explain: skulls, a cow and an
+// airplane score 0.8 and more as they are, 0.6 and less once bent about a cylinder of three
+// diagonals' radius.
 constexpr double enough = 0.75;
 constexpr double tie = 0.01;           // of two scores as close the simpler mirror's wins
 constexpr Index thinned_size = 20000;  // points that freer kinds are tried on

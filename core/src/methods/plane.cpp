@@ -1,6 +1,7 @@
 #include <symsurf/plane.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../gathered.h"
 #include "../mirror_score.h"
@@ -19,9 +20,10 @@ namespace symsurf {
 
 namespace {
 
-constexpr double meagre = 0.3;         // a best that explains less has the margins of one like this
-constexpr double alike_planes = 0.05;  // planes closer than this are one
-constexpr Index measured = 150;        // surfels that the measure is taken over
+constexpr double meagre = 0.3;  // a best that explains less has the margins of one like this
+constexpr double worth_refining = 0.5;  // of the best score
+constexpr double alike_planes = 0.05;   // planes closer than this are one
+constexpr Index measured = 150;         // surfels that the measure is taken over
 
 struct Effort {
   Search search;
@@ -104,9 +106,14 @@ Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
   return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
 }
 
+std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
+  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
+}
+
 // The best that a search finds, refined.
-std::vector<UnitPlane> searched_planes(const Surfels& surfels, const SurfelMap& map,
-                                       const Refinement& refinement,
+std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
+                                       const SurfelMap& map, const Refinement& refinement,
+                                       const MirrorScore& score,
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
   fit(refinement, usual, candidates, context.stage(0, 0.3));
@@ -117,11 +124,19 @@ std::vector<UnitPlane> searched_planes(const Surfels& surfels, const SurfelMap& 
     candidates.insert(candidates.end(), more.begin(), more.end());
     keep_distinct(candidates, alike_planes, thorough.finalists);
   }
+  improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
+    return PlaneCandidate{c.plane, score.glance(*mirror_of(c.plane, cloud)).share};
+  });
+  double best = 0;
+  for (const PlaneCandidate& c : candidates) best = std::max(best, c.explained);
+  std::erase_if(candidates,
+                [&](const PlaneCandidate& c) { return c.explained < worth_refining * best; });
   // Of a body thinner than the patches these say nothing about the plane along it.
-  const PlaneCandidate along_thin_body{{Vector3::UnitZ(), 0}, 0};
-  candidates.push_back(along_thin_body);
-  improve(candidates, context.stage(0.6, 1),
-          [&](const PlaneCandidate& c) { return refinement.final(c); });
+  if (std::sqrt(cloud.frame.variance.z()) < surfels.spacing() * cloud.frame.size)
+    candidates.push_back({{Vector3::UnitZ(), 0}, 0});
+  improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
+    return PlaneCandidate{refinement.refined(c.plane), c.explained};
+  });
   keep_distinct(candidates, alike_planes, static_cast<Index>(candidates.size()));
   std::vector<UnitPlane> planes;
   for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
@@ -141,15 +156,16 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
-  std::vector<UnitPlane> planes = exact_planes(cloud, points, coarse, context.stage(0.4, 0.41));
+  const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
+  std::vector<UnitPlane> planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
   for (UnitPlane& plane : planes) plane = refinement.exact(plane);
   if (planes.empty())
-    planes = searched_planes(coarse, map, refinement, promising, context.stage(0.41, 0.5));
+    planes = searched_planes(cloud, coarse, map, refinement, score, promising,
+                             context.stage(0.46, 0.55));
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (const UnitPlane& plane : planes)
-    mirrors.push_back(std::make_shared<Plane>(in_input_units(plane, cloud.frame)));
-  Result best = MirrorScore(cloud, points, context.stage(0.5, 0.55)).ranked("plane", mirrors);
+  for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
+  Result best = score.ranked("plane", mirrors);
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
   add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,

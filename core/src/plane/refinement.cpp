@@ -116,19 +116,19 @@ PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
 // what agrees closely, which nothing beside a hole pulls away.
-PlaneCandidate Refinement::final(const PlaneCandidate& start) const {
+UnitPlane Refinement::refined(const UnitPlane& start) const {
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
   const Index many = stride_for(many_samples), telling = stride_for(telling_samples);
-  const UnitPlane rough = fitted(start.plane, wide, many, steps);
+  const UnitPlane rough = fitted(start, wide, many, steps);
   const std::vector<Match> around = matches(rough, reach, telling);
   const double roughly = explained(rough, around, telling);
   const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
   const bool close = closely.explained > roughly;
   const UnitPlane plane =
       fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
-  return {fitted_to_exact_pairs(plane), std::max(closely.explained, roughly)};
+  return fitted_to_exact_pairs(plane);
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {

@@ -26,8 +26,8 @@ class Refinement {
   /// The same on enough samples to rank planes.
   PlaneCandidate careful(const PlaneCandidate& start) const;
 
-  /// The same on all samples. Where partners are exact, it converges to rounding.
-  PlaneCandidate final(const PlaneCandidate& start) const;
+  /// The plane fitted to all samples. Where partners are exact, it converges to rounding.
+  UnitPlane refined(const UnitPlane& start) const;
 
   /// The plane of points that have exact partners over it.
   UnitPlane exact(const UnitPlane& start) const { return fitted_to_exact_pairs(start); }
