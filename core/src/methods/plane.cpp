@@ -21,6 +21,7 @@ namespace symsurf {
 namespace {
 
 constexpr double meagre = 0.3;  // a best that explains less has the margins of one like this
+constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.5;  // of the best score
 constexpr double alike_planes = 0.05;   // planes closer than this are one
 constexpr Index measured = 150;         // surfels that the measure is taken over
@@ -127,10 +128,10 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
     return PlaneCandidate{c.plane, score.glance(*mirror_of(c.plane, cloud)).share};
   });
-  double best = 0;
-  for (const PlaneCandidate& c : candidates) best = std::max(best, c.explained);
-  std::erase_if(candidates,
-                [&](const PlaneCandidate& c) { return c.explained < worth_refining * best; });
+  keep_distinct(candidates, alike_planes, refined_at_most);
+  std::erase_if(candidates, [best = candidates.front().explained](const PlaneCandidate& c) {
+    return c.explained < worth_refining * best;
+  });
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
