@@ -23,6 +23,11 @@ namespace {
 // many where faces are so thin that their edges alone ask for more.
 constexpr double wanted = 20000, most = 3 * wanted;
 
+// So many vertices say enough of a surface where they lie evenly: where no edge of a face is longer
+// than so many of the spacings that as many points would have on a grid.
+constexpr Index enough = 1000;
+constexpr double even = 4;
+
 // Two edges of a face whose lengths differ by less than this share are equally long; its directions
 // are at a right angle where the cosine is below that. Mirrored faces of a file in single precision
 // differ by 1e-7 of the coordinates.
@@ -244,6 +249,21 @@ class Sampler {
   std::vector<Edge> edges_;
 };
 
+double longest_edge(PointsView points, TrianglesView faces) {
+  double squared = 0;
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 3; ++c)
+      squared =
+          std::max(squared, (points[faces[f][c]] - points[faces[f][(c + 1) % 3]]).squaredNorm());
+  return std::sqrt(squared);
+}
+
+bool are_even(PointsView vertices, TrianglesView faces, double area) {
+  const Index count = vertices.size();
+  return count >= enough &&
+         longest_edge(vertices, faces) < even * std::sqrt(area / static_cast<double>(count));
+}
+
 void append(Points& rows, const std::vector<Vector3>& more) {
   const Index had = rows.rows();
   rows.conservativeResize(had + static_cast<Index>(more.size()), 3);
@@ -275,7 +295,7 @@ std::optional<SurfaceSamples> SurfaceSamples::where_coarse(const Cloud& cloud, T
                                                            const ParameterValues& values,
                                                            const Context& context) {
   const double area = surface_area(cloud.points, faces);
-  if (!(area > 0)) return std::nullopt;
+  if (!(area > 0) || are_even(cloud.points, faces, area)) return std::nullopt;
   const Sampler sampler(cloud.points, faces, area, context);
   std::vector<Vector3> points, normals;
   sampler.for_each([&](const Vector3& x, const Vector3& normal) {

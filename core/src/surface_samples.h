@@ -20,8 +20,9 @@ double surface_area(PointsView points, TrianglesView faces);
 /// faces that make up a rectangle get the same grid whichever diagonal divides it.
 class SurfaceSamples {
  public:
-  /// None where all faces are smaller. The cloud's points are the vertices, used by a face or not;
-  /// the cloud and the values of the method's parameters must outlive the samples.
+  /// None where all faces are smaller, or many vertices lie evenly as they are. The cloud's points
+  /// are the vertices, used by a face or not; the cloud and the values of the method's parameters
+  /// must outlive the samples.
   static std::optional<SurfaceSamples> where_coarse(const Cloud& cloud, TrianglesView faces,
                                                     const ParameterValues& values,
                                                     const Context& context);

@@ -215,10 +215,9 @@ TEST(SurfaceSamples, TakeCornersThatNobodyMergedForOne) {
   EXPECT_EQ(copies(in_order), copies(once));
 }
 
-TEST(SurfaceSamples, AreNoneWhereFacesAreFine) {
-  // A dented ball.
+// A dented ball, its diagonals all one way round.
+TestMesh dented_ball(Index rings, Index around) {
   TestMesh mesh;
-  const Index rings = 300, around = 600;
   Points vertices(rings * around, 3);
   Triangles faces(2 * (rings - 1) * around, 3);
   for (Index i = 0; i < rings; ++i)
@@ -234,11 +233,24 @@ TEST(SurfaceSamples, AreNoneWhereFacesAreFine) {
       faces.row(2 * a + 1) << b, b + around, a + around;
     }
   mesh.add(vertices, faces);
-  const Result with = detected(mesh, "plane"), without = detect(vertices, {.method = "plane"});
-  EXPECT_EQ(with.statistics.count("surface_samples"), 0u);
-  EXPECT_EQ(with.mirror->numbers(), without.mirror->numbers());
-  EXPECT_EQ(with.score, without.score);
-  EXPECT_EQ(with.pairs, without.pairs);
+  return mesh;
+}
+
+TEST(SurfaceSamples, AreNoneWhereFacesAreFineOrEven) {
+  for (const Index rings : {300, 32}) {
+    const TestMesh mesh = dented_ball(rings, 2 * rings);
+    const Result with = detected(mesh, "plane"),
+                 without = detect(mesh.vertices, {.method = "plane"});
+    EXPECT_EQ(with.statistics.count("surface_samples"), 0u);
+    EXPECT_EQ(with.mirror->numbers(), without.mirror->numbers());
+    EXPECT_EQ(with.score, without.score);
+    EXPECT_EQ(with.pairs, without.pairs);
+  }
+  // Even, but few; many, but uneven.
+  EXPECT_GT(samples_of(dented_ball(12, 24)).rows(), 15000);
+  TestMesh both = dented_ball(32, 64);
+  both.add_box({-4, -4, -2}, {4, 4, -1.8});
+  EXPECT_GT(samples_of(both).rows(), 15000);
 }
 
 TEST(SurfaceSamples, DoNotDependOnPoseAndUnit) {
