@@ -16,8 +16,8 @@ namespace symsurf {
 
 namespace {
 
-// Points that a face uses hold on to it: they are strays only where their faces are hardly any of
-// the surface.
+// Points that faces use are strays only where these are hardly any of the surface: as little of its
+// area as Strays takes for a part of the points.
 bool hold_surface(const Strays& strays, const Cloud& cloud, TrianglesView faces) {
   constexpr double notable = 0.05;
   const Points rest = strays.rows(cloud.points);
