@@ -19,14 +19,14 @@ namespace symsurf {
 
 namespace {
 
-// As many samples as the search methods thin a cloud to, and some to spare: chosen so that the legs
-// of a chair, 7 % as thick as the seat is wide, are five samples wide. No more than thrice as many
-// where faces are so thin that their edges alone ask for more.
+// Samples on the whole surface: the legs of a chair, 7 % as thick as the seat is wide, are then
+// five samples wide. No more than thrice as many where faces are so thin that their edges alone ask
+// for more.
 constexpr double wanted = 20000, most = 3 * wanted;
 
 // So many vertices say enough of a surface where they lie evenly: where no edge of a face is longer
-// than so many of the spacings that as many points would have on a grid. The grid of latitudes and
-// longitudes of a dented ellipsoid has edges of 3.5 spacings.
+// than so many of the spacings that as many points would have on a grid. Curved surfaces, remeshed
+// or made of a grid, have edges of 1.7 to 3.2 spacings (nine meshes, the longest edge of each).
 constexpr Index enough = 1000;
 constexpr double even = 4;
 
