@@ -43,6 +43,22 @@ Points packed(const CMeshO& mesh, const std::vector<int>& vertices, const Get& g
   return rows;
 }
 
+// Those whose corners are all among the vertices, by their rows.
+Triangles faces_between(const CMeshO& mesh, const std::vector<int>& vertices) {
+  std::vector<Index> row(mesh.vert.size(), -1);
+  for (std::size_t k = 0; k < vertices.size(); ++k) row[vertices[k]] = static_cast<Index>(k);
+  Triangles faces(mesh.fn, 3);
+  Index count = 0;
+  for (const CFaceO& face : mesh.face) {
+    if (face.IsD()) continue;
+    for (int corner = 0; corner < 3; ++corner)
+      faces(count, corner) = row[vcg::tri::Index(mesh, face.cV(corner))];
+    count += faces.row(count).minCoeff() >= 0;
+  }
+  faces.conservativeResize(count, 3);
+  return faces;
+}
+
 }  // namespace
 
 MeshModel& current_layer(MeshDocument& document) {
@@ -56,7 +72,8 @@ double layer_diagonal(const MeshModel* layer) {
   return std::isfinite(diagonal) && diagonal > 0 ? diagonal : 1;
 }
 
-LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals) {
+LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals,
+                      bool with_faces) {
   const CMeshO& mesh = layer.cm;
   LayerCloud cloud;
   cloud.vertex = vertices_to_read(mesh, only_selected);
@@ -70,6 +87,7 @@ LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_norm
       throw InvalidInput("the normals of the layer " + quoted(layer) +
                          " are all zero; compute them first, or do without");
   }
+  if (with_faces) cloud.faces = faces_between(mesh, cloud.vertex);
   return cloud;
 }
 

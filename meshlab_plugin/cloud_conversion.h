@@ -15,6 +15,7 @@ struct LayerCloud {
   Points points;            ///< one row a vertex; deleted vertices have none
   Points normals;           ///< the same rows; none unless asked for
   std::vector<int> vertex;  ///< the vertex each row came from
+  Triangles faces;          ///< between the rows; none unless asked for
 };
 
 /// The layer that filters work on. Throws InvalidInput where the document has none.
@@ -27,6 +28,7 @@ double layer_diagonal(const MeshModel* layer);
 /// Packs a layer, or of it the selected vertices and the corners of selected faces.
 /// Throws InvalidInput for a layer without vertices or selection, and for normals asked of a layer
 /// whose normals are all zero, which is how MeshLab says that there are none.
-LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals);
+LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals,
+                      bool with_faces = false);
 
 }  // namespace symsurf::meshlab

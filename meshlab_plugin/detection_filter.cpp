@@ -24,6 +24,10 @@ const std::vector<Parameter>& common_parameters() {
       Parameter::boolean("use_normals", false,
                          "Hand the layer's vertex normals to the method, which otherwise estimates "
                          "its own where it needs them."),
+      Parameter::boolean(
+          "use_faces", true,
+          "Let samples spread evenly over the layer's faces find the mirror, where it "
+          "has faces; otherwise its vertices alone do."),
       Parameter::integer("seed", 0, 0, most, "", "Of the methods that draw at random."),
       Parameter::integer("threads", 0, 0, most, "",
                          "To compute with, 0: as many as the machine has; the result is the same."),
@@ -38,8 +42,9 @@ std::string DetectionFilter::info() const {
          "<br>The mirror and the surface points (midpoints of the pairs) become new layers. On the "
          "current layer each vertex gets its residual, the distance from its image to its partner, "
          "as quality with a colour ramp, and the attributes <i>partner</i> and <i>side</i>; "
-         "vertices without a partner are grey. The log has the score, 0 (no symmetry) to 1 (exact),"
-         " and the mirror's numbers, in the layer's own coordinates.";
+         "vertices without a partner are grey. The log has the verdict and its reason, the score, "
+         "0 "
+         "(no symmetry) to 1 (exact), and the mirror's numbers, in the layer's own coordinates.";
 }
 
 FilterPlugin::FilterClass DetectionFilter::menus() const {
@@ -69,9 +74,10 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   options.method = method_.name;
   options.parameters = read_parameters(parameters, method_.parameters, diagonal);
   options.seed = given.integer("seed");
-  const LayerCloud cloud =
-      read_cloud(layer, given.boolean("only_selected"), given.boolean("use_normals"));
+  const LayerCloud cloud = read_cloud(layer, given.boolean("only_selected"),
+                                      given.boolean("use_normals"), given.boolean("use_faces"));
   options.normals = cloud.normals;
+  options.faces = cloud.faces;
 
   const Context context(progress, static_cast<int>(given.integer("threads")));
   const Result result = detect(cloud.points, options, context.stage(0, 0.95));
@@ -81,6 +87,10 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   const Mesh mesh = result.mirror ? result.mirror->mesh() : Mesh();
 
   Outcome outcome{returned_values(result), logged_values(result)};
+  const auto nonfinite = result.statistics.find("nonfinite_points");
+  if (nonfinite != result.statistics.end())
+    outcome.log.push_back("warning: " + to_string(nonfinite->second) +
+                          " vertices are not finite and were left out; they have no partners");
   mark_asymmetry(layer, cloud, result, distances);
   if (result.mirror)
     outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();

@@ -117,7 +117,8 @@ void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& res
     mesh.vert[vertex].Q() = result.residuals[i];
     partner[vertex] = cloud.vertex[result.pairs(i, 1)];
   }
-  for (Index i = 0; i < distances.size(); ++i) side[cloud.vertex[i]] = sign(distances[i]);
+  for (Index i = 0; i < distances.size(); ++i)
+    if (cloud.points.row(i).allFinite()) side[cloud.vertex[i]] = sign(distances[i]);
   colour_by_residual(layer, result.residuals);
   for (CVertexO& vertex : mesh.vert)
     if (vertex.Q() < 0) vertex.C() = vcg::Color4b::Gray;

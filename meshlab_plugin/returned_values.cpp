@@ -13,7 +13,8 @@ namespace {
 Values figures(const Result& result) {
   Values all{{"score", result.score},
              {"pairs", static_cast<Index>(result.pairs.rows())},
-             {"seconds", result.seconds}};
+             {"seconds", result.seconds},
+             {"found", result.verdict() == "found"}};
   if (!result.candidates.empty()) {
     Eigen::MatrixXd scores(static_cast<Index>(result.candidates.size()), 1);
     for (Index i = 0; i < scores.rows(); ++i) scores(i, 0) = result.candidates[i].score;

@@ -9,7 +9,7 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkTypeInt64Array.h"
+#include "vtkTriangleFilter.h"
 
 namespace {
 
@@ -38,6 +38,23 @@ PointArray::PointArray(vtkDataArray* array) : doubles_(vtkArrayDownCast<vtkDoubl
 symsurf::PointsView PointArray::view() const {
   if (!doubles_) return {};
   return {doubles_->GetPointer(0), doubles_->GetNumberOfTuples()};
+}
+
+TriangleArray::TriangleArray(vtkPolyData* data)
+    : corners_(vtkSmartPointer<vtkTypeInt64Array>::New()) {
+  if (!data || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) return;
+  vtkNew<vtkTriangleFilter> divided;
+  divided->SetInputData(data);
+  divided->PassVertsOff();
+  divided->PassLinesOff();
+  divided->Update();
+  corners_->DeepCopy(divided->GetOutput()->GetPolys()->GetConnectivityArray());
+}
+
+symsurf::TrianglesView TriangleArray::view() const {
+  static_assert(sizeof(symsurf::Index) == sizeof(vtkTypeInt64));
+  return {reinterpret_cast<const symsurf::Index*>(corners_->GetPointer(0)),
+          corners_->GetNumberOfValues() / 3};
 }
 
 PointArray points_of(vtkPolyData* data) {

@@ -2,9 +2,11 @@
 #define point_arrays_h
 
 #include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
 
 class vtkDataArray;
 class vtkPolyData;
@@ -23,6 +25,17 @@ class PointArray {
 
  private:
   vtkSmartPointer<vtkDoubleArray> doubles_;
+};
+
+/// The corners of a data set's polygons and strips, divided into triangles. Null: none.
+class TriangleArray {
+ public:
+  explicit TriangleArray(vtkPolyData* data);
+
+  symsurf::TrianglesView view() const;
+
+ private:
+  vtkSmartPointer<vtkTypeInt64Array> corners_;
 };
 
 /// The data set's points; none: an empty view.

@@ -59,6 +59,14 @@ void require_normals(const ControllerCommunicator& processes, bool missing) {
         "UseNormals is on, but the input has no point normals; compute them first, or do without");
 }
 
+void warn_of_nonfinite(vtkMirrorDetection* filter, const symsurf::Result& result) {
+  const auto count = result.statistics.find("nonfinite_points");
+  if (count == result.statistics.end()) return;
+  vtkWarningWithObjectMacro(filter, << symsurf::to_string(count->second)
+                                    << " points are not finite and were left out; they have no "
+                                       "partners");
+}
+
 void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
   if (result.mirror) set_triangles(output, result.mirror->mesh());
 }
@@ -79,16 +87,16 @@ void set_surface_points(vtkPolyData* output, const symsurf::Result& result) {
   output->GetPointData()->SetScalars(residuals);
 }
 
-// 1 where the mirror's signed distance is positive, -1 where it is negative, 0 on the mirror and
-// where there is none.
+// 1 where the mirror's signed distance is positive, -1 where it is negative, 0 on the mirror, where
+// there is none and of points that are not finite.
 vtkNew<vtkSignedCharArray> sides_of(symsurf::PointsView points, const symsurf::Result& result,
                                     const symsurf::Context& context) {
   auto sides = filled<vtkSignedCharArray>("MirrorSide", points.size(), 0);
   if (!result.mirror) return sides;
   const Eigen::VectorXd distances = result.mirror->signed_distance(points, context);
-  std::transform(distances.begin(), distances.end(), sides->GetPointer(0), [](double distance) {
-    return static_cast<signed char>((distance > 0) - (distance < 0));
-  });
+  for (symsurf::Index i = 0; i < points.size(); ++i)
+    if (points[i].allFinite())
+      sides->SetValue(i, static_cast<signed char>((distances[i] > 0) - (distances[i] < 0)));
   return sides;
 }
 
@@ -132,14 +140,19 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     if (this->UseNormals) require_normals(processes, normals.view().size() < points.view().size());
     const symsurf::Index before = points_before(processes, points.view().size());
 
+    const TriangleArray faces(this->UseFaces ? input : nullptr);
+
     symsurf::Options options;
     options.method = this->Method;
     options.parameters = chosen_parameters(this);
     options.normals = normals.view();
+    options.faces = faces.view();
+    options.refuse_nonfinite = this->RefuseNonfinite;
     options.seed = this->Seed;
     const symsurf::Context context = context_of(this, this->NumberOfThreads);
     const symsurf::Result result =
         symsurf::detect(points.view(), options, context.stage(0, 0.95).sharing(&processes));
+    if (processes.rank() == 0) warn_of_nonfinite(this, result);
     const auto sides = sides_of(points.view(), result, context.stage(0.95, 1));
 
     vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);
@@ -155,6 +168,8 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
 void vtkMirrorDetection::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseNormals: " << (this->UseNormals ? "On" : "Off") << "\n";
+  os << indent << "UseFaces: " << (this->UseFaces ? "On" : "Off") << "\n";
+  os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Controller: " << this->Controller << "\n";

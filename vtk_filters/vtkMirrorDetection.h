@@ -2,7 +2,9 @@
  * @class vtkMirrorDetection
  * @brief Finds the mirror of a point set: a plane, a sphere or a curved surface.
  *
- * Works on the points of the input; its cells are only passed on. The outputs are
+ * Where the input has polygons, samples spread evenly over their surface find the mirror, unless
+ * UseFaces is off; score and candidates are then those of the samples, the rest is of the input's
+ * points. The outputs are
  *
  * - 0 "Mirror": triangles of the mirror over the object's footprint. Field data: Method (the one
  *   that found it), Kind, Score (0: no symmetry, 1: exact), the mirror's numbers (Normal and Offset
@@ -18,11 +20,13 @@
  * Where several processes share out the input, each has its own part of outputs 1 and 2, the first
  * has the triangles of output 0, and all have its field data. The mirror is that of the whole, and
  * partners are sought in the whole: MirrorPartner counts through the points of all processes, in
- * the order of their ranks. A process may have no points.
+ * the order of their ranks. A process may have no points. They use the points only, no polygons.
  *
  * Points are read where they lie when they are contiguous doubles, from one copy otherwise. A
- * cloud without symmetry is no error but a mirror with a low score. Too few points, NaN, points on
- * one line, an unknown method or a value out of range are errors and leave the outputs empty.
+ * cloud without symmetry is no error but a mirror with a low score and the Verdict "none" in the
+ * field data of output 0. Points that are not finite are left out, with a warning, and have no
+ * partners. Too few others, points on one line, an unknown method or a value out of range are
+ * errors and leave the outputs empty.
  */
 #ifndef vtkMirrorDetection_h
 #define vtkMirrorDetection_h
@@ -48,6 +52,25 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   vtkSetMacro(UseNormals, bool);
   vtkGetMacro(UseNormals, bool);
   vtkBooleanMacro(UseNormals, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the input's polygons are used: samples of them find the mirror. Otherwise its points
+   * alone do. On initially.
+   */
+  vtkSetMacro(UseFaces, bool);
+  vtkGetMacro(UseFaces, bool);
+  vtkBooleanMacro(UseFaces, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a point that is not finite is an error. Otherwise such points are left out.
+   */
+  vtkSetMacro(RefuseNonfinite, bool);
+  vtkGetMacro(RefuseNonfinite, bool);
+  vtkBooleanMacro(RefuseNonfinite, bool);
   ///@}
 
   ///@{
@@ -82,6 +105,8 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool UseNormals = false;
+  bool UseFaces = true;
+  bool RefuseNonfinite = false;
   unsigned int Seed = 0;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;

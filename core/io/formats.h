@@ -5,8 +5,8 @@
 #include <string_view>
 
 // The formats, one source each. All take a file's content and throw InvalidInput with the reason,
-// and the line where there are lines; read() adds the file's name, sees to finite coordinates and
-// drops normals that some points lack.
+// and the line where there are lines; read() adds the file's name and drops normals that some
+// points lack.
 
 namespace symsurf {
 

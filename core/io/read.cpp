@@ -7,7 +7,6 @@
 #include <fstream>
 #include <string>
 
-#include "cloud.h"
 #include "formats.h"
 
 namespace symsurf {
@@ -52,6 +51,16 @@ std::string content_of(const std::filesystem::path& path) {
   return content;
 }
 
+// Of all finite points.
+bool has_normals(const Shape& shape) {
+  if (shape.normals.rows() != shape.points.rows()) return false;
+  for (Index i = 0; i < shape.points.rows(); ++i) {
+    const bool is_direction = shape.normals.row(i).allFinite() && !shape.normals.row(i).isZero(0);
+    if (!is_direction && shape.points.row(i).allFinite()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Shape read(const std::filesystem::path& path) {
@@ -59,11 +68,7 @@ Shape read(const std::filesystem::path& path) {
     const Format& format = format_of(path);
     Shape shape = format.read(content_of(path));
     if (shape.points.rows() == 0) throw InvalidInput("the file holds no points");
-    require_finite(shape.points, "point");
-    require_finite(shape.normals, "normal");
-    const auto is_zero = shape.normals.array() == 0;
-    if (shape.normals.rows() != shape.points.rows() || is_zero.rowwise().all().any())
-      shape.normals.resize(0, 3);
+    if (!has_normals(shape)) shape.normals.resize(0, 3);
     return shape;
   } catch (const InvalidInput& error) {
     throw InvalidInput(path.string() + ": " + error.what());

@@ -89,7 +89,6 @@ double TextScanner::number(std::string_view what) {
   double value = 0;
   if (text.empty()) fail(std::string(what) + " is missing");
   if (!parse(text, value)) fail(std::string(what) + " is " + in_quotes(text) + ", not a number");
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + in_quotes(text) + ", not finite");
   return value;
 }
 

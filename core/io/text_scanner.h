@@ -33,7 +33,8 @@ class TextScanner {
   /// The next word of the line, empty where there is none.
   std::string_view word();
 
-  /// The next word as a finite number. `what` names it in errors: "x of the vertex".
+  /// The next word as a number, maybe an infinite one or NaN. `what` names it in errors: "x of the
+  /// vertex".
   double number(std::string_view what);
   Vector3 vector(std::string_view what);
   Index integer(std::string_view what);

@@ -14,6 +14,9 @@ constexpr double line_thinness = 1e-8;
 // Fourth powers of lengths are computed with, and must be numbers.
 constexpr double least_extent = 1e-50, greatest_extent = 1e50;
 
+// In one process: they, and twice as many, are counted in 32 bits.
+constexpr Index most_points = Index{1} << 30;
+
 }  // namespace
 
 void require_count(Index given, Index needed) {
@@ -22,11 +25,12 @@ void require_count(Index given, Index needed) {
                        (needed == 1 ? " is needed" : " are needed"));
 }
 
+bool is_numerable(Index own) { return own <= most_points; }
+
 void require_numerable(Index own) {
-  constexpr Index most = Index{1} << 30;  // they, and twice as many, are counted in 32 bits
-  if (own > most)
-    throw InvalidInput(std::to_string(own) + " points given; at most " + std::to_string(most) +
-                       " in one process are allowed");
+  if (!is_numerable(own))
+    throw InvalidInput(std::to_string(own) + " points given; at most " +
+                       std::to_string(most_points) + " in one process are allowed");
 }
 
 void require_area(PointsView points, Index total) {
@@ -51,11 +55,14 @@ void require_area(PointsView points, Index total) {
   throw InvalidInput(all + "lie on one line");
 }
 
-void require_finite(PointsView rows, const char* what, Index first) {
-  // One pass without branches finds out whether; a second one only then finds out where.
-  double sum = 0;
+bool are_finite(PointsView rows) {
+  double sum = 0;  // NaN from the first that is not, without branches
   for (Index i = 0; i < 3 * rows.size(); ++i) sum += 0 * rows.data()[i];
-  if (sum == 0) return;
+  return sum == 0;
+}
+
+void require_finite(PointsView rows, const char* what, Index first) {
+  if (are_finite(rows)) return;
   for (Index i = 0; i < rows.size(); ++i)
     if (!rows[i].allFinite())
       throw InvalidInput(std::string(what) + " " + std::to_string(first + i) + " is " +
@@ -67,22 +74,26 @@ void require_points(PointsView points) {
   require_finite(points, "point");
 }
 
+void require_normals(PointsView points, PointsView normals, Index first) {
+  if (normals.empty()) return;
+  if (normals.size() != points.size())
+    throw InvalidInput(std::to_string(normals.size()) + " normals given for " +
+                       std::to_string(points.size()) + " points; one a point is needed");
+  for (Index i = 0; i < normals.size(); ++i) {
+    if (normals[i].allFinite() && !normals[i].isZero(0)) continue;
+    if (!points[i].allFinite()) continue;
+    throw InvalidInput("normal " + std::to_string(first + i) + " is " +
+                       to_string(Value(normals[i])) + "; a finite direction is needed");
+  }
+}
+
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {
   require_count(points.size(), minimum_points);
   require_numerable(points.size());
   require_finite(points, "point");
   require_area(points, points.size());
-
-  if (!normals.empty()) {
-    if (normals.size() != points.size())
-      throw InvalidInput(std::to_string(normals.size()) + " normals given for " +
-                         std::to_string(points.size()) + " points; one a point is needed");
-    require_finite(normals, "normal");
-    for (Index i = 0; i < normals.size(); ++i)
-      if (normals[i].isZero(0))
-        throw InvalidInput("normal " + std::to_string(i) + " is (0, 0, 0); a direction is needed");
-  }
+  require_normals(points, normals);
   const Vector3 low = points.matrix().colwise().minCoeff();
   const Vector3 high = points.matrix().colwise().maxCoeff();
   Cloud cloud;

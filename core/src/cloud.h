@@ -10,6 +10,8 @@ namespace symsurf {
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
 
+bool are_finite(PointsView rows);
+
 /// Throws InvalidInput naming the first of the rows that is not finite, as "point 3" where `what`
 /// is "point".
 /// `first`: the number of the first row.
@@ -20,6 +22,13 @@ void require_points(PointsView points);
 
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);
+
+/// Throws InvalidInput unless there are no normals, or one a point, and those of finite points are
+/// finite and not zero. `first`: the number of the first row.
+void require_normals(PointsView points, PointsView normals, Index first = 0);
+
+/// Whether one process can number so many points.
+bool is_numerable(Index own);
 
 /// Throws InvalidInput for more points than one process numbers.
 void require_numerable(Index own);

@@ -26,9 +26,8 @@ Result detect(PointsView points, const Options& options, const Context& context)
   const auto start = std::chrono::steady_clock::now();
   const Method& chosen = method(options.method);
   const ParameterValues values(chosen.name, chosen.parameters, options.parameters);
-  Result result = context.communicator()
-                      ? detect_shared(points, options, chosen, values, context)
-                      : run_alone(points, options.normals, options.seed, chosen, values, context);
+  Result result = context.communicator() ? detect_shared(points, options, chosen, values, context)
+                                         : run_alone(points, options, chosen, values, context);
   if (result.parameters.empty()) result.parameters = values.all();
   judge(result, values.real("minimum_score"));
   context.report(1);

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <symsurf/detect.h>
+#include <symsurf/method.h>
 
 namespace symsurf {
 
-/// Checks the points and runs the method on them: where many are copies, on the places they stand
-/// in, and where they fill bodies, on the skin, unless the method sees copies, or the inside,
-/// itself. For a process that has all points.
-Result run_alone(PointsView points, PointsView normals, std::uint64_t seed, const Method& method,
+/// Validates the points and runs a method on them, after the pre-processing that it asks for:
+/// points that are not finite, strays, samples of the faces, copies, the skin of bodies. All of it
+/// in this process.
+Result run_alone(PointsView points, const Options& options, const Method& method,
                  const ParameterValues& values, const Context& context);
 
 }  // namespace symsurf

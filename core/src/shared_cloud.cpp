@@ -13,20 +13,6 @@ namespace symsurf {
 
 namespace {
 
-// Throws on every process what `check` throws on the first that it throws on.
-template <typename Check>
-void check_together(const Context& context, const Check& check) {
-  std::string message;
-  try {
-    check();
-  } catch (const InvalidInput& error) {
-    message = error.what();
-  }
-  for (const std::vector<char>& text :
-       gathered(context, std::vector<char>(message.begin(), message.end())))
-    if (!text.empty()) throw InvalidInput(std::string(text.begin(), text.end()));
-}
-
 // Of each process the point farthest from the line through the lowest and the highest point of all:
 // these stand for all points where it is asked whether they lie on one line.
 std::vector<Vector3> farthest_from_line(PointsView own, const Vector3& start, const Vector3& end,

@@ -3,11 +3,13 @@
 #include <symsurf/communicator.h>
 #include <symsurf/errors.h>
 
+#include <optional>
 #include <vector>
 
 #include "cloud.h"
 #include "fills_bodies.h"
 #include "gathered.h"
+#include "nonfinite_removal.h"
 #include "outline.h"
 #include "run_alone.h"
 #include "run_on_first.h"
@@ -65,22 +67,23 @@ class StoppingTogether : public Communicator {
   mutable bool stopped_ = false;
 };
 
-// What all of them would find alike: the others leave the first the processors.
+// What all of them would find alike: the others leave the first the processors. `context`: as the
+// host gave it, since the first is the one to be told to stop.
 Result run_on_whole(PointsView own, const Options& options, const Method& method,
                     const ParameterValues& values, const Context& context) {
   const Context alone = context.sharing(nullptr);
   return run_on_first(own, options.normals, *context.communicator(),
                       [&](PointsView points, PointsView normals) {
-                        return run_alone(points, normals, options.seed, method, values, alone);
+                        Options of_all;
+                        of_all.normals = normals;
+                        of_all.seed = options.seed;
+                        of_all.refuse_nonfinite = options.refuse_nonfinite;
+                        return run_alone(points, of_all, method, values, alone);
                       });
 }
 
-}  // namespace
-
-Result detect_shared(PointsView own, const Options& options, const Method& method,
-                     const ParameterValues& values, const Context& context) {
-  const StoppingTogether together(context);
-  const Context shared = together.context();
+Result run_on_finite(PointsView own, const Options& options, const Method& method,
+                     const ParameterValues& values, const Context& context, const Context& shared) {
   const Index normals = share_of(shared, options.normals.size()).total;
   if (!method.takes_shares || normals > 0 || share_of(shared, own.size()).total <= small_cloud)
     return run_on_whole(own, options, method, values, context);
@@ -98,6 +101,28 @@ Result detect_shared(PointsView own, const Options& options, const Method& metho
   Result result = method.run(cloud, values, shared);
   set_footprint(result, outline(cloud.points, shared));
   if (strays) strays->hand_on(result);
+  return result;
+}
+
+}  // namespace
+
+Result detect_shared(PointsView own, const Options& options, const Method& method,
+                     const ParameterValues& values, const Context& context) {
+  const StoppingTogether together(context);
+  const Context shared = together.context(), unreported = shared.stage(0, 0);
+  std::optional<NonfiniteRemoval> nonfinite;
+  if (!options.refuse_nonfinite)
+    nonfinite = NonfiniteRemoval::where_any(own, method.minimum_points, unreported);
+  if (!nonfinite) return run_on_finite(own, options, method, values, context, shared);
+
+  const Share share = share_of(shared, own.size());
+  check_together(unreported, [&] { require_normals(own, options.normals, share.first); });
+  const Points finite = nonfinite->apply(own);
+  const Points normals = options.normals.empty() ? Points(0, 3) : nonfinite->apply(options.normals);
+  Options of_finite = options;
+  of_finite.normals = normals;
+  Result result = run_on_finite(finite, of_finite, method, values, context, shared);
+  nonfinite->map_back(result);
   return result;
 }
 

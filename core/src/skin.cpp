@@ -8,9 +8,9 @@
 
 #include "cells.h"
 #include "fills_bodies.h"
-#include "matching.h"
 #include "parallel.h"
 #include "quantile.h"
+#include "rematching.h"
 #include "surroundings.h"
 
 namespace symsurf {
@@ -54,24 +54,11 @@ std::vector<Index> outer_places(const Cloud& cloud, const PointTree& tree, const
   return places;
 }
 
-// The methods that find such mirrors project surface points onto them.
-bool has_any_shape(const Mirror& mirror) {
-  return mirror.kind() == "free-form" || mirror.kind() == "quadric";
-}
-
 // Share of the points whose partner is their image, to the rounding of single precision.
 double exactly_paired(const Result& result, const Cloud& cloud) {
   constexpr double rounding = 1e-6;
   const Index exact = (result.residuals.array() < rounding * cloud.diagonal).count();
   return static_cast<double>(exact) / static_cast<double>(cloud.points.size());
-}
-
-void put_on_mirror(Result& result, const Context& context) {
-  result.surface_points = result.mirror->project(result.surface_points, context);
-  std::vector<Index> reached;
-  for (Index row = 0; row < result.pairs.rows(); ++row)
-    if (result.surface_points.row(row).allFinite()) reached.push_back(row);
-  keep_pairs(result, reached);
 }
 
 }  // namespace
@@ -101,17 +88,8 @@ Points Skin::rows(PointsView all) const { return all.matrix()(points_, Eigen::in
 
 void Skin::hand_on(Result& result) const {
   result.statistics["skin_points"] = size();
-  if (!result.mirror) return;
-  const Values parameters = result.parameters.empty() ? values_.all() : result.parameters;
-  const double pair_distance = std::get<double>(parameters.at("pair_distance"));
-  add_pairs(result, cloud_.points, PointTree(cloud_.points, context_), *result.mirror,
-            pair_distance * cloud_.diagonal, context_);
-  if (has_any_shape(*result.mirror)) put_on_mirror(result, context_);
-  count_unpaired(result, cloud_.points.size());
-  result.score = std::max(result.score, exactly_paired(result, cloud_));
-  const auto mean = result.statistics.find("mean_residual");
-  if (mean != result.statistics.end())
-    mean->second = result.residuals.size() > 0 ? result.residuals.mean() : 0.0;
+  match_again(result, cloud_, values_, context_);
+  if (result.mirror) result.score = std::max(result.score, exactly_paired(result, cloud_));
 }
 
 }  // namespace symsurf

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cells.h"
 #include "gathered.h"
@@ -131,7 +132,7 @@ bool fills_area(const PrincipalFrame& frame) {
 
 std::optional<Strays> Strays::where_any(const Cloud& cloud, Index needed, const Context& context) {
   Strays strays(cloud, needed, context);
-  if (strays.all_.empty()) return std::nullopt;
+  if (strays.removal_.count() == 0) return std::nullopt;
   return strays;
 }
 
@@ -145,54 +146,30 @@ Strays::Strays(const Cloud& cloud, Index needed, const Context& context) {
   Body body(cloud.points, cloud.frame, context);
   const double share = least_share * static_cast<double>(body.total());
   const Index least = std::max(needed, static_cast<Index>(std::ceil(share)));
+  std::vector<Index> own;
   while (body.has_strays() && body.held() >= least) {
-    const std::vector<Index> known = own_;
-    own_.clear();
+    const std::vector<Index> known = own;
+    own.clear();
     auto next = known.begin();
     interruptible_for(context, cloud.points.size(), [&](Index i) {
       const bool is_known = next != known.end() && *next == i;
       if (is_known) ++next;
-      if (is_known || !body.holds(cloud.points[i])) own_.push_back(i);
+      if (is_known || !body.holds(cloud.points[i])) own.push_back(i);
     });
-    const Points left = rows(cloud.points);
+    const Points left = RowRemoval(own, 0, Context()).apply(cloud.points);
     const PrincipalFrame frame = principal_frame(left, context);
     if (!fills_area(frame)) {
-      own_ = known;
+      own = known;
       break;
     }
     body = Body(left, frame, context);
   }
-  all_ = own_;
-  for (Index& i : all_) i += cloud.first;
-  all_ = concatenated(context, all_);
-}
-
-Points Strays::rows(PointsView all) const {
-  Points rows(all.size() - static_cast<Index>(own_.size()), 3);
-  Index begin = 0, written = 0;
-  const auto copy_up_to = [&](Index end) {
-    rows.middleRows(written, end - begin) = all.matrix().middleRows(begin, end - begin);
-    written += end - begin;
-    begin = end + 1;
-  };
-  for (const Index stray : own_) copy_up_to(stray);
-  copy_up_to(all.size());
-  return rows;
+  removal_ = RowRemoval(std::move(own), cloud.first, context);
 }
 
 void Strays::hand_on(Result& result) const {
-  // As many strays are before a point as have no more others before them than it has.
-  const auto numbered = [&](Index other) {
-    const auto is_before = [&](const Index& stray) {
-      return stray - (&stray - all_.data()) <= other;
-    };
-    return other + (std::partition_point(all_.begin(), all_.end(), is_before) - all_.begin());
-  };
-  result.pairs = result.pairs.unaryExpr(numbered);
-  result.statistics["stray_points"] = static_cast<Index>(all_.size());
-  const auto unpaired = result.statistics.find("unpaired_points");
-  if (unpaired != result.statistics.end())
-    std::get<Index>(unpaired->second) += static_cast<Index>(all_.size());
+  removal_.map_back(result);
+  result.statistics["stray_points"] = removal_.count();
 }
 
 }  // namespace symsurf

@@ -5,7 +5,8 @@
 #include <symsurf/result.h>
 
 #include <optional>
-#include <vector>
+
+#include "row_removal.h"
 
 namespace symsurf {
 
@@ -21,7 +22,9 @@ class Strays {
                                          const Context& context);
 
   /// Of these rows, one a point of this process, those of no strays.
-  Points rows(PointsView all) const;
+  Points rows(PointsView all) const { return removal_.apply(all); }
+  /// The faces between no strays, by their new numbers. `points`: how many there were.
+  Triangles faces(TrianglesView all, Index points) const { return removal_.apply(all, points); }
 
   /// From what was found of the rest to what it says of all points: strays have no partners.
   void hand_on(Result& result) const;
@@ -29,8 +32,7 @@ class Strays {
  private:
   Strays(const Cloud& cloud, Index needed, const Context& context);
 
-  std::vector<Index> own_,
-      all_;  // in the order of the points; own ones counted from this process's
+  RowRemoval removal_;
 };
 
 }  // namespace symsurf

@@ -20,34 +20,41 @@ py::dict with_points(Result&& result, const PointsArgument& points) {
   return fields;
 }
 
-py::dict detect_fields(const PointsArgument& points, const py::object& method_name,
-                       const std::optional<NormalsArgument>& normals, const py::object& seed,
-                       const py::object& threads, const py::object& progress,
-                       const py::dict& parameters) {
+using Faces = py::array_t<Index, py::array::c_style>;
+
+py::dict detect_fields(const PointsArgument& points, const std::optional<Faces>& faces,
+                       const py::object& method_name, const std::optional<NormalsArgument>& normals,
+                       bool refuse_nonfinite, const py::object& seed, const py::object& threads,
+                       const py::object& progress, const py::dict& parameters) {
   Options options;
   options.method = py::str(method_name);
   options.parameters = values_from(parameters, method(options.method).parameters);
   if (normals) options.normals = *normals;
+  if (faces) options.faces = {faces->data(), static_cast<Index>(faces->shape(0))};
+  options.refuse_nonfinite = refuse_nonfinite;
   options.seed = seed_from(seed);
   const Context context = context_from(progress, threads);
   return with_points(without_gil([&] { return detect(points, options, context); }), points);
 }
 
 py::dict match_fields(const PointsArgument& points, const Mirror& mirror, double pair_distance,
-                      const py::object& threads, const py::object& progress) {
+                      bool refuse_nonfinite, const py::object& threads,
+                      const py::object& progress) {
   const Context context = context_from(progress, threads);
-  return with_points(without_gil([&] { return match(points, mirror, pair_distance, context); }),
-                     points);
+  return with_points(
+      without_gil([&] { return match(points, mirror, pair_distance, context, refuse_nonfinite); }),
+      points);
 }
 
 }  // namespace
 
 void bind_detection(py::module_& module) {
-  module.def("detect", &detect_fields, py::arg("points"), py::arg("method"), py::arg("normals"),
-             py::arg("seed"), py::arg("threads"), py::arg("progress"), py::arg("parameters"),
-             "The fields of symsurf.Result.");
+  module.def("detect", &detect_fields, py::arg("points"), py::arg("faces"), py::arg("method"),
+             py::arg("normals"), py::arg("refuse_nonfinite"), py::arg("seed"), py::arg("threads"),
+             py::arg("progress"), py::arg("parameters"), "The fields of symsurf.Result.");
   module.def("match", &match_fields, py::arg("points"), py::arg("mirror"), py::arg("pair_distance"),
-             py::arg("threads"), py::arg("progress"), "The fields of symsurf.Result.");
+             py::arg("refuse_nonfinite"), py::arg("threads"), py::arg("progress"),
+             "The fields of symsurf.Result.");
 }
 
 }  // namespace symsurf::python

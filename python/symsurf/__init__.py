@@ -1,9 +1,8 @@
 """Finds the mirror of a 3D point set: a plane, a sphere or a curved surface.
 
 >>> import symsurf
->>> shape = symsurf.read("scan.ply")
->>> result = symsurf.detect(shape.points)
->>> result.mirror, result.score
+>>> result = symsurf.detect("scan.ply")
+>>> result.mirror, result.score, result.verdict
 """
 
 from . import detectors, metrics, synthetic
@@ -29,6 +28,7 @@ from ._core import (
 )
 from .detection import detect, match
 from .detectors import *  # noqa: F403 (detect_<method>, one for each in methods())
+from .inputs import InputWarning
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape, read
@@ -38,6 +38,7 @@ __all__ = [
     "Cylinder",
     "FreeForm",
     "HeightField",
+    "InputWarning",
     "InvalidInput",
     "InvalidParameter",
     "Method",

@@ -12,19 +12,17 @@ from __future__ import annotations
 import os
 from typing import Any
 
-import numpy as np
 import pyvista
 
 from .detection import detect
 from .result import Result
-from .shape import Shape
 
 __all__ = ["Symmetry"]
 
 
 @pyvista.register_dataset_accessor("symmetry", pyvista.DataSet)
 class Symmetry:
-    """The mirror of a data set's points."""
+    """The mirror of a data set: of a mesh's surface, a cloud's points, or a mask."""
 
     def __init__(self, mesh: pyvista.DataSet) -> None:
         self._mesh = mesh
@@ -32,19 +30,19 @@ class Symmetry:
         """What the last ``detect`` found."""
 
     def detect(self, method: str = "auto", **options: Any) -> Result:
-        """Finds the mirror; options, result and errors are those of ``symsurf.detect``."""
-        self.result = detect(self._mesh.points, method, **options)
+        """Finds the mirror; options, result and errors are those of ``symsurf.detect``.
+
+        Of a mask or an image (``ImageData``, ``RectilinearGrid``) not the grid's own symmetry, but
+        that of the points whose scalar is above ``threshold``; pairs are then indices into
+        ``Result.points``, which are these.
+        """
+        self.result = detect(self._mesh, method, **options)
         return self.result
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> pyvista.Plotter:
-        """Draws the mesh with the mirror last detected, or detects it first.
+    def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> pyvista.Plotter:
+        """Draws the mesh with the mirror last detected, or detects it first, with these options.
 
         path: a PNG to write off-screen; without it a window opens.
         """
-        result = self.result or self.detect()
-        return result.plot(path, shape=Shape(np.asarray(self._mesh.points), self._triangles()))
-
-    def _triangles(self) -> np.ndarray | None:
-        if not isinstance(self._mesh, pyvista.PolyData) or self._mesh.GetNumberOfPolys() == 0:
-            return None
-        return self._mesh.triangulate().regular_faces.astype(np.int64)
+        result = self.detect(**options) if options or self.result is None else self.result
+        return result.plot(path)

@@ -7,51 +7,79 @@ from collections.abc import Callable
 from numpy.typing import ArrayLike
 
 from . import _core
+from .inputs import as_input, refuses, warn_of_nonfinite
 from .result import Result
 
 Progress = Callable[[float], "bool | None"]
 
 
 def detect(
-    points: ArrayLike,
+    points: object,
     method: str = "auto",
     *,
+    faces: ArrayLike | None = None,
+    use_faces: bool = True,
     normals: ArrayLike | None = None,
+    nonfinite: str = "skip",
+    threshold: float | None = None,
+    scalars: str | None = None,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
 ) -> Result:
-    """Finds the mirror of a point set.
+    """Finds the mirror of a point set, a mesh or a mask.
 
     Args:
-        points: (n, 3) coordinates in any unit: an array, a nested list, a data set with ``points``
-            or a mesh with ``vertices``. A C-ordered float64 array is read in place.
+        points: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
+            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces``
+            that it has. A C-ordered float64 array is read in place. Of a regular grid of PyVista
+            (``ImageData``, ``RectilinearGrid``, a ``StructuredGrid`` with such points) the points,
+            or the centres of the cells, that ``threshold`` chooses: ``Result.points`` are then
+            these, and pairs are indices into them.
         method: one of ``methods()``.
-        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count.
+        faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
+            spread evenly over the surface find the mirror; score and candidates are those of the
+            samples, pairs those of the points. The thesis's methods see the points only.
+        use_faces: False: the points alone find the mirror, whatever faces there are.
+        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. None
+            are used but these.
+        nonfinite: "skip": points with a NaN or infinite coordinate are left out, with an
+            ``InputWarning``, and have no partners; "refuse": they are an error.
+        threshold: of a grid, the number that the scalars of the points to take are above. A mask of
+            booleans or of two whole numbers needs none.
+        scalars: the name of the grid's scalars; without it the active ones.
         seed: of the methods that draw at random; [0, 2^64).
         threads: 0 means as many as the machine has. The result does not depend on it.
         progress: called with the fraction done, on this thread; returning False cancels.
         **parameters: the method's own, by name: ``methods()[method].parameters``.
 
     Raises:
-        InvalidInput: too few points, not (n, 3), NaN or infinity, all on one point or line, an
-            extent beyond what is allowed; normals that are not one a point, not finite or zero.
+        InvalidInput: too few finite points, not (n, 3), all on one point or line, an extent beyond
+            what is allowed; normals that are not one a point, not finite or zero; a face that names
+            a point which is not there; a grid whose scalars do not say which points to take; a file
+            that cannot be read.
         InvalidParameter: an unknown method or parameter, or a value out of its range.
         Cancelled: the progress callback returned False.
 
-    A point set without symmetry is no error: its result has a low score.
+    A point set without symmetry is no error: its result has a low score, and the verdict "none".
     """
-    return Result.from_fields(
-        _core.detect(points, method, normals, seed, threads, progress, parameters)
+    refuse = refuses(nonfinite)
+    shape = as_input(points, faces, threshold, scalars)
+    used = shape.faces if use_faces else None
+    fields = _core.detect(
+        shape.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
+    warn_of_nonfinite(fields["statistics"])
+    return Result.from_fields(fields | {"faces": shape.faces})
 
 
 def match(
-    points: ArrayLike,
+    points: object,
     mirror: _core.Mirror,
     pair_distance: float = 0.05,
     *,
+    nonfinite: str = "skip",
     threads: int = 0,
     progress: Progress | None = None,
 ) -> Result:
@@ -61,10 +89,10 @@ def match(
     the rest have no partners, as in ``detect``, and do not count for the diagonal.
 
     Args:
-        points: (n, 3), as for ``detect``.
+        points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
-        threads, progress: as for ``detect``.
+        nonfinite, threads, progress: as for ``detect``.
 
     Returns:
         A result without a score (0), with the pairs in the order of the points.
@@ -74,5 +102,8 @@ def match(
     """
     if not isinstance(mirror, _core.Mirror):
         raise _core.InvalidInput(f"mirror is of type {type(mirror).__name__}; allowed is a Mirror")
-    fields = _core.match(points, mirror, pair_distance, threads, progress)
-    return Result.from_fields(fields | {"mirror": mirror})
+    refuse = refuses(nonfinite)
+    shape = as_input(points)
+    fields = _core.match(shape.points, mirror, pair_distance, refuse, threads, progress)
+    warn_of_nonfinite(fields["statistics"])
+    return Result.from_fields(fields | {"mirror": mirror, "faces": shape.faces})

@@ -21,6 +21,13 @@ _TYPES = {
     "position": "ArrayLike",
 }
 
+# What every detector takes beside its method's parameters.
+_OPTIONS = {
+    name: parameter
+    for name, parameter in inspect.signature(detect).parameters.items()
+    if parameter.kind is inspect.Parameter.KEYWORD_ONLY
+}
+
 
 def _keyword(parameter: Parameter) -> inspect.Parameter:
     default = parameter.default
@@ -35,13 +42,9 @@ def _keyword(parameter: Parameter) -> inspect.Parameter:
 
 
 def _signature(method: Method) -> inspect.Signature:
-    points, *options = (
-        parameter
-        for parameter in inspect.signature(detect).parameters.values()
-        if parameter.name != "method" and parameter.kind is not inspect.Parameter.VAR_KEYWORD
-    )
+    points = inspect.signature(detect).parameters["points"]
     own = [_keyword(parameter) for parameter in method.parameters]
-    return inspect.Signature([points, *own, *options], return_annotation="Result")
+    return inspect.Signature([points, *own, *_OPTIONS.values()], return_annotation="Result")
 
 
 def _paragraph(text: str, indent: int = 0) -> str:
@@ -51,11 +54,12 @@ def _paragraph(text: str, indent: int = 0) -> str:
 
 def _docstring(method: Method) -> str:
     lines = [textwrap.fill(method.summary, 96), "", "Args:"]
-    lines.append(f"    points: (n, 3), at least {method.minimum_points} of them.")
+    least = f"at least {method.minimum_points} finite points"
+    lines.append(f"    points: {least}, or a mesh, as ``detect`` takes them.")
     for parameter in method.parameters:
         text = f"{parameter.name}: {parameter.doc} Allowed: {allowed(parameter)}."
         lines.append(_paragraph(text, 4))
-    lines.append("    normals, seed, threads, progress: as for ``detect``.")
+    lines.append(_paragraph(f"{', '.join(_OPTIONS)}: as for ``detect``.", 4))
     return "\n".join(lines)
 
 

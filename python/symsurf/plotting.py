@@ -37,7 +37,7 @@ def plot(
 ) -> pyvista.Plotter:
     """Draws a result; see ``Result.plot``."""
     plotter = new_plotter(off_screen=path is not None)
-    draw(plotter, result, shape=shape, points=points)
+    draw(plotter, result, shape=shape, points=points, title=_title(result))
     if path is None:
         plotter.show(auto_close=False)
     else:
@@ -62,23 +62,37 @@ def draw(
     shape: Shape | None = None,
     points: ArrayLike | None = None,
     residual_range: float | None = None,
+    title: str = "",
 ) -> None:
     """Adds a result to a plotter and looks at it.
 
     Args:
         plotter: with its own size and layout.
-        shape, points: the object; without them, the points of the detection.
+        shape, points: the object; without them, the points and faces of the detection.
         residual_range: what the colours end at, in % of the diagonal; without it, what 98 % of the
             residuals stay below.
+        title: a line above the picture.
     """
-    object_ = _object(result, shape, points)
+    object_, residuals = _object(result, shape, points)
     seen = _without_strays(result, object_)
     plotter.set_background(BACKGROUND)
     plotter.enable_anti_aliasing("ssaa")
     plotter.enable_lightkit()
-    _draw_object(plotter, object_, _percent(result, object_.n_points, seen.length), residual_range)
+    # The normals of a few large faces are no surface to shade smoothly.
+    smooth = "surface_samples" not in result.statistics
+    _draw_object(plotter, object_, 100 * residuals / seen.length, residual_range, smooth)
     drawn = np.vstack([seen.points, _draw_mirror(plotter, result, seen)])
-    _look(plotter, *_view(result, seen), drawn)
+    if title:
+        plotter.add_text(title, position="upper_edge", font_size=14, color=INK)
+    _look(plotter, *_view(result, seen), drawn, top=0.86 if title else 0.94)
+
+
+def _title(result: Result) -> str:
+    """Verdict, kind and score; nothing where nobody judged."""
+    if "verdict" not in result.statistics:
+        return ""
+    kind = result.mirror.kind if result.mirror is not None else "no mirror"
+    return f"{result.verdict}: {kind}, score {result.score:.2f}"
 
 
 def _pyvista():
@@ -89,19 +103,25 @@ def _pyvista():
     return pyvista
 
 
-def _object(result: Result, shape: Shape | None, points: ArrayLike | None) -> pyvista.PolyData:
+def _object(
+    result: Result, shape: Shape | None, points: ArrayLike | None
+) -> tuple[pyvista.PolyData, NDArray[np.float64]]:
+    """What is drawn, and each of its points' residual; points that are not finite cannot be."""
     if shape is None:
         chosen = result.points if points is None else points
         if chosen is None:
             raise InvalidInput("the result does not know its points: give shape or points")
-        shape = Shape(np.asarray(chosen, dtype=float))
-    infinite = np.flatnonzero(~np.isfinite(shape.points).all(axis=1))
-    if len(infinite):
-        place = tuple(shape.points[infinite[0]].tolist())
-        raise InvalidInput(f"point {infinite[0]} is {place}; coordinates must be finite")
-    if shape.faces is None:
-        return _pyvista().PolyData(shape.points)
-    return _pyvista().PolyData.from_regular_faces(shape.points, shape.faces)
+        faces = result.faces if points is None else None
+        shape = Shape(np.asarray(chosen, dtype=float), faces)
+    residuals = _residuals(result, len(shape.points))
+    finite = np.isfinite(shape.points).all(axis=1)
+    if not finite.any():
+        raise InvalidInput(f"none of the {len(finite)} points is finite")
+    kept, faces = shape.points[finite], shape.faces
+    if faces is None or not len(faces):
+        return _pyvista().PolyData(kept), residuals[finite]
+    faces = (np.cumsum(finite) - 1)[faces[finite[faces].all(axis=1)]]
+    return _pyvista().PolyData.from_regular_faces(kept, faces), residuals[finite]
 
 
 def _without_strays(result: Result, object_: pyvista.PolyData) -> pyvista.PolyData:
@@ -114,13 +134,13 @@ def _without_strays(result: Result, object_: pyvista.PolyData) -> pyvista.PolyDa
     return _pyvista().PolyData(points[np.argsort(distances, kind="stable")[:-strays]])
 
 
-def _percent(result: Result, count: int, diagonal: float) -> NDArray[np.float64]:
-    """Each point's residual in % of the diagonal; NaN where it has no partner."""
+def _residuals(result: Result, count: int) -> NDArray[np.float64]:
+    """Of each point; NaN where it has no partner."""
     if len(result.pairs) and result.pairs.max() >= count:
         raise InvalidInput(f"the result has pairs beyond the {count} points given")
-    percent = np.full(count, np.nan)
-    percent[result.pairs[:, 0]] = 100 * result.residuals / diagonal
-    return percent
+    residuals = np.full(count, np.nan)
+    residuals[result.pairs[:, 0]] = result.residuals
+    return residuals
 
 
 def _draw_object(
@@ -128,6 +148,7 @@ def _draw_object(
     object_: pyvista.PolyData,
     percent: NDArray[np.float64],
     residual_range: float | None,
+    smooth: bool,
 ) -> None:
     paired = percent[np.isfinite(percent)]
     if residual_range is None:
@@ -139,7 +160,7 @@ def _draw_object(
     style = (
         {"style": "points", "point_size": _point_size(object_), "render_points_as_spheres": True}
         if bare
-        else {"smooth_shading": True, "split_sharp_edges": False}
+        else {"smooth_shading": smooth, "split_sharp_edges": False}
     )
     plotter.add_mesh(
         object_,
@@ -198,9 +219,11 @@ def _look(
     direction: NDArray[np.float64],
     up: NDArray[np.float64],
     points: NDArray[np.float64],
+    top: float,
 ) -> None:
-    """From that direction, so close that the points fill the picture above the bar."""
-    sides, top, bottom = 0.94, 0.94, 0.7  # of the way to the picture's edges
+    """From that direction, so close that the points fill the picture above the bar, up to that
+    share of the way to its upper edge."""
+    sides, bottom = 0.94, 0.7  # of the way to the picture's edges
     x0, y0, x1, y1 = plotter.renderer.viewport
     width, height = plotter.window_size
     aspect = width * (x1 - x0) / (height * (y1 - y0))

@@ -16,7 +16,7 @@ class Shape:
     """What a file holds, in its own units and order."""
 
     points: NDArray[np.float64]
-    """(n, 3)"""
+    """(n, 3), as they stand in the file: some may not be finite."""
     faces: NDArray[np.int64] | None = None
     """(m, 3) indices of points, polygons as fans of triangles; None for a bare cloud."""
     normals: NDArray[np.float64] | None = None

@@ -12,6 +12,7 @@ Programs built on VTK or ParaView have the same filter in C++: ``vtkMirrorDetect
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -22,17 +23,23 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkFieldData, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from ._core import Cancelled, InvalidInput, InvalidParameter, methods
 from .descriptions import allowed
 from .detection import detect
+from .inputs import InputWarning
 from .result import Result
 
 __all__ = ["MirrorDetection"]
 
 
 class MirrorDetection(VTKPythonAlgorithmBase):
-    """Finds the mirror of a ``vtkPolyData``'s points; ``vtkMirrorDetection`` in Python.
+    """Finds the mirror of a ``vtkPolyData``; ``vtkMirrorDetection`` in Python.
+
+    Where it has polygons, samples of their surface find the mirror, unless UseFaces is off. Points
+    that are not finite are left out, with a warning, and have no partners; with RefuseNonfinite they
+    are an error.
 
     Output 0 "Mirror": triangles over the footprint; field data Method, Kind, Score, the mirror's
     numbers and the method's statistics. Output 1 "Surface Points": a vertex in the middle of each
@@ -54,6 +61,8 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         self._options: dict[str, Any] = {
             "Method": next(iter(methods())),
             "UseNormals": False,
+            "UseFaces": True,
+            "RefuseNonfinite": False,
             "Seed": 0,
             "NumberOfThreads": 0,
         } | {
@@ -95,18 +104,26 @@ class MirrorDetection(VTKPythonAlgorithmBase):
                 "UseNormals is on, but the input has no point normals; compute them first, or do "
                 "without"
             )
-        return detect(
-            _rows(source.GetPoints() and source.GetPoints().GetData()),
-            self._options["Method"],
-            normals=normals and _rows(normals),
-            seed=self._options["Seed"],
-            threads=self._options["NumberOfThreads"],
-            progress=self._progress,
-            **{
-                parameter.name: self._options[_property(method.name, parameter.name)]
-                for parameter in (method.parameters if method else ())
-            },
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InputWarning)  # said below as VTK says it
+            result = detect(
+                _rows(source.GetPoints() and source.GetPoints().GetData()),
+                self._options["Method"],
+                faces=_triangles(source) if self._options["UseFaces"] else None,
+                normals=normals and _rows(normals),
+                nonfinite="refuse" if self._options["RefuseNonfinite"] else "skip",
+                seed=self._options["Seed"],
+                threads=self._options["NumberOfThreads"],
+                progress=self._progress,
+                **{
+                    parameter.name: self._options[_property(method.name, parameter.name)]
+                    for parameter in (method.parameters if method else ())
+                },
+            )
+        count = result.statistics.get("nonfinite_points")
+        if count:
+            self._warn(f"{count} points are not finite and were left out; they have no partners")
+        return result
 
     def _progress(self, fraction: float) -> bool:
         self.UpdateProgress(fraction)
@@ -118,6 +135,13 @@ class MirrorDetection(VTKPythonAlgorithmBase):
             self.InvokeEvent("ErrorEvent", text)
         else:
             vtkOutputWindow.GetInstance().DisplayErrorText(text)
+
+    def _warn(self, message: str) -> None:
+        text = f"Warning: {type(self).__name__}: {message}\n"
+        if self.HasObserver("WarningEvent"):
+            self.InvokeEvent("WarningEvent", text)
+        else:
+            vtkOutputWindow.GetInstance().DisplayWarningText(text)
 
 
 def _property(method: str, parameter: str) -> str:
@@ -147,6 +171,8 @@ def _add_properties() -> None:
     properties = {
         "Method": "One of: " + ", ".join(methods()),
         "UseNormals": "Whether the input's point normals are used, as lines.",
+        "UseFaces": "Whether samples of the input's polygons find the mirror, not its points alone.",
+        "RefuseNonfinite": "Whether points that are not finite are an error, not left out.",
         "Seed": "Seed of the methods that draw at random.",
         "NumberOfThreads": "0 means as many as the machine has.",
     }
@@ -160,6 +186,18 @@ def _add_properties() -> None:
 
 def _rows(array: vtkDataArray | None) -> NDArray[np.float64]:
     return np.empty((0, 3)) if array is None else vtk_to_numpy(array)
+
+
+def _triangles(source: vtkPolyData) -> NDArray[np.int64] | None:
+    if source.GetNumberOfPolys() + source.GetNumberOfStrips() == 0:
+        return None
+    divided = vtkTriangleFilter()
+    divided.SetInputData(source)
+    divided.PassVertsOff()
+    divided.PassLinesOff()
+    divided.Update()
+    corners = divided.GetOutput().GetPolys().GetConnectivityArray()
+    return vtk_to_numpy(corners).reshape(-1, 3)
 
 
 def _points(rows: NDArray[np.float64]) -> vtkPoints:
@@ -209,7 +247,9 @@ def _set_mapping(output: vtkPolyData, result: Result) -> None:
     residuals[result.pairs[:, 0]] = result.residuals
     sides = np.zeros(count, np.int8)
     if result.mirror is not None:
-        distances = result.mirror.signed_distance(_rows(output.GetPoints().GetData()))
+        points = _rows(output.GetPoints().GetData())
+        distances = result.mirror.signed_distance(points)
+        distances[~np.isfinite(points).all(axis=1)] = np.nan
         sides = np.nan_to_num(np.sign(distances)).astype(np.int8)
     data = output.GetPointData()
     data.AddArray(numpyTovtkDataArray(partners, "MirrorPartner"))

@@ -14,11 +14,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::nan("");
 
 // Every way from points to a mirror must refuse the points, with the same words.
-void expect_refused(const std::string& error, const Points& points, Index minimum_of_match = 1) {
+void expect_refused(const std::string& error, const Points& points) {
   for (const Method& method : methods())
-    expect_error<InvalidInput>(error, [&] { detect(points, {.method = method.name}); });
-  if (points.rows() >= minimum_of_match)
-    expect_error<InvalidInput>(error, [&] { match(points, Plane({1, 0, 0}, 0)); });
+    expect_error<InvalidInput>(
+        error, [&] { detect(points, {.method = method.name, .refuse_nonfinite = true}); });
+  expect_error<InvalidInput>(error, [&] { match(points, Plane({1, 0, 0}, 0), 0.05, {}, true); });
 }
 
 Points line(const Vector3& from, const Vector3& step, Index n) {
@@ -39,7 +39,7 @@ TEST(BadInput, TooFewPoints) {
   expect_error<InvalidInput>("0 points given", [] { match({}, Plane({1, 0, 0}, 0)); });
 }
 
-TEST(BadInput, NotFinite) {
+TEST(BadInput, NotFiniteWhereThatIsRefused) {
   for (const double bad : {nan, infinity, -infinity}) {
     Points points = RandomCloud(0).box(50);
     points(37, 1) = bad;
@@ -94,8 +94,9 @@ TEST(BadInput, UnknownMethodOrParameter) {
                                  [&] { detect(points, {.method = "plan"}); });
   for (const Method& method : methods()) {
     const std::string error = "method '" + method.name + "' has no parameter 'colour'; it has";
-    expect_error<InvalidParameter>(
-        error, [&] { detect(points, {.method = method.name, .parameters = {{"colour", 1.0}}}); });
+    expect_error<InvalidParameter>(error, [&] {
+      detect(points, {.method = method.name, .parameters = {{"colour", 1.0}}});
+    });
   }
 }
 
@@ -118,10 +119,12 @@ TEST(BadInput, ParametersOutOfRange) {
           detect(points, {.method = method.name, .parameters = {{parameter.name, value}}});
         });
     }
-  expect_error<InvalidParameter>("pair_distance is -1; allowed is [0, inf)",
-                                 [&] { match(points, Plane({1, 0, 0}, 0), -1); });
-  expect_error<InvalidParameter>("pair_distance is nan",
-                                 [&] { match(points, Plane({1, 0, 0}, 0), nan); });
+  expect_error<InvalidParameter>("pair_distance is -1; allowed is [0, inf)", [&] {
+    match(points, Plane({1, 0, 0}, 0), -1);
+  });
+  expect_error<InvalidParameter>("pair_distance is nan", [&] {
+    match(points, Plane({1, 0, 0}, 0), nan);
+  });
 }
 
 TEST(BadInput, NormalsThatAreNone) {

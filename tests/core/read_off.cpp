@@ -56,7 +56,6 @@ TEST(ReadOff, SaysWhatIsBroken) {
   expect("OFF\n4 2 0\n" + square + "3 0 1 2\n", "the file is truncated: it ends at face 1 of 2");
   expect("OFF\n9000000000000000000 0 0\n" + square, "the file is truncated");
   expect("OFF\n1 0 0\n1 2\n", "line 3: a coordinate is missing");
-  expect("OFF\n1 0 0\n1 2 nan\n", "line 3: a coordinate is 'nan', not finite");
   expect("NOFF\n1 0 0\n1 2 3 0 0\n", "line 3: a coordinate of the normal is missing");
   expect("OFF\n4 1 0\n" + square + "3 0 1 4\n", "line 7: a face names vertex 4; there are 4");
   expect("OFF\n4 1 0\n" + square + "3 0 1 -1\n", "line 7: a face names vertex -1");

@@ -162,9 +162,6 @@ TEST(ReadPly, SaysWhatIsBrokenInTheText) {
   expect("0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n", "line 11: the row is longer than the header says");
   expect("0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n", "line 11: y is 'zero', not a number");
   expect("0 0 0\n1 0x1 0\n0 1 0\n3 0 1 2\n", "line 11: y is '0x1', not a number");
-  expect("0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 11: y is 'nan', not finite");
-  expect("0 0 0\n1 -inf 0\n0 1 0\n3 0 1 2\n", "line 11: y is '-inf', not finite");
-  expect("0 0 0\n1 1e999 0\n0 1 0\n3 0 1 2\n", "line 11: y is '1e999', not finite");
   expect(vertices + "3 0 1 3\n", "line 13: a face names vertex 3; there are 3, counted from 0");
   expect(vertices + "3 0 1 -1\n", "line 13: a face names vertex -1");
   expect(vertices + "3 0 1 1.5\n", "line 13: vertex_indices holds 1.5, not an index");
@@ -182,9 +179,7 @@ TEST(ReadPly, SaysWhatIsBrokenInTheBinary) {
     return bytes.put(std::uint8_t{3}).put(std::int32_t{0}).put(std::int32_t{1}).put(corner).text();
   };
   EXPECT_EQ(read_content("a.ply", head + body(3, 1)).points, rows({{0, 0, 0}, {1, 2, 3}}));
-  expect_unreadable("a.ply", head + body(std::nanf(""), 1), "point 1 is (1, 2, nan)");
-  expect_unreadable("a.ply", head + body(std::numeric_limits<float>::infinity(), 1),
-                    "point 1 is (1, 2, inf)");
+  EXPECT_TRUE(std::isnan(read_content("a.ply", head + body(std::nanf(""), 1)).points(1, 2)));
   expect_unreadable("a.ply", head + body(3, 2),
                     "row 0 of the element 'face': a face names vertex 2");
   const std::string whole = head + body(3, 1);

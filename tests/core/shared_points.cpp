@@ -159,6 +159,40 @@ TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
   found_by_all_alike(scan(4).topRows(1000), GetParam(), "sphere");
 }
 
+// Each process leaves out its own; the numbers of the others go on.
+TEST_P(SharedPoints, LeaveOutWhatIsNotFinite) {
+  const Points finite = scan(2);
+  Points points(finite.rows() + 30, 3);
+  for (Index i = 0, next = 0; i < points.rows(); ++i) {
+    const bool bad = i % 400 == 3 && i / 400 < 30;
+    if (bad)
+      points.row(i) << 1, std::numeric_limits<double>::quiet_NaN(), 2;
+    else
+      points.row(i) = finite.row(next++);
+  }
+  Options options;
+  for (const char* method : {"plane", "sphere"}) {
+    options.method = method;
+    const Index count = options.method == "plane" ? points.rows() : 1000;
+    const Points some = points.topRows(count);
+    const auto parts = shared_out(some, GetParam().processes, by_turns);
+    const Points together = joined(some, parts);
+    const Result whole = detect(together, options, Context({}, 1));
+    EXPECT_GT(std::get<Index>(whole.statistics.at("nonfinite_points")), 0);
+    Index row = 0;
+    for (const Result& result : detected(some, parts, options)) {
+      EXPECT_NEAR(result.score, whole.score, 1e-9);
+      EXPECT_EQ(result.statistics.at("nonfinite_points"), whole.statistics.at("nonfinite_points"));
+      ASSERT_LE(row + result.pairs.rows(), whole.pairs.rows());
+      EXPECT_EQ(result.pairs, whole.pairs.middleRows(row, result.pairs.rows()));
+      for (Index k = 0; k < result.pairs.rows(); ++k)
+        ASSERT_TRUE(together.row(result.pairs(k, 1)).allFinite());
+      row += result.pairs.rows();
+    }
+    EXPECT_EQ(row, whole.pairs.rows());
+  }
+}
+
 TEST_P(SharedPoints, AreRefusedByAllAlike) {
   Points points = scan(4);
   const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
@@ -168,6 +202,7 @@ TEST_P(SharedPoints, AreRefusedByAllAlike) {
   const std::string said = "point " + std::to_string(before + 7) + " is";
   Options options;
   options.method = "plane";
+  options.refuse_nonfinite = true;
   ProcessThreads(GetParam().processes).run([&](const Communicator& processes) {
     const Points own = points(rows[processes.rank()], Eigen::indexing::all);
     try {

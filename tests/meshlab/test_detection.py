@@ -50,6 +50,7 @@ def assert_same(mesh_set: pymeshlab.MeshSet, returned: dict, expected, shape: Sh
     near = dict(rtol=0, atol=1e-12 * shape.diagonal)
     assert returned["score"] == pytest.approx(expected.score, abs=1e-12)
     assert returned["pairs"] == len(expected.pairs)
+    assert returned["found"] is (expected.verdict == "found")
 
     marked = layer(mesh_set, "shape")
     quality = np.full(len(shape.points), -1.0)
@@ -86,7 +87,7 @@ def test_defaults(method, kind, seed):
     shape = SHAPES[kind](seed)
     mesh_set = shape.mesh_set()
     returned = mesh_set.apply_filter("compute_mirror_" + method)
-    assert_same(mesh_set, returned, symsurf.detect(shape.points, method), shape)
+    assert_same(mesh_set, returned, symsurf.detect(shape.points, method, faces=shape.faces), shape)
     assert mesh_set.current_mesh().label() == "shape"
 
 
@@ -95,10 +96,37 @@ def test_defaults(method, kind, seed):
 def test_changed_parameters(method, kind):
     shape = SHAPES[kind](2)
     here, there = all_changed(method)
-    expected = symsurf.detect(shape.points, method, seed=3, threads=1, **here)
+    expected = symsurf.detect(shape.points, method, faces=shape.faces, seed=3, threads=1, **here)
     mesh_set = shape.mesh_set()
     returned = mesh_set.apply_filter("compute_mirror_" + method, seed=3, threads=1, **there)
     assert_same(mesh_set, returned, expected, shape)
+
+
+@pytest.mark.parametrize("method", ["auto", "plane", "normals_only"])
+def test_faces_can_be_left_aside(method):
+    shape = mesh(4)
+    mesh_set = shape.mesh_set()
+    returned = mesh_set.apply_filter("compute_mirror_" + method, use_faces=False)
+    assert_same(mesh_set, returned, symsurf.detect(shape.points, method), shape)
+    assert "surface_samples" not in returned
+
+
+@pytest.mark.parametrize("value", [np.nan, -np.inf])
+@pytest.mark.parametrize("method", ["auto", "plane", "normals_only"])
+def test_vertices_that_are_not_finite_are_left_out(method, value):
+    shape = cloud(3)
+    shape.points[[3, 17], 1] = value
+    mesh_set = shape.mesh_set()
+    returned = mesh_set.apply_filter("compute_mirror_" + method)
+    assert returned["nonfinite_points"] == 2
+    with pytest.warns(symsurf.InputWarning):
+        expected = symsurf.detect(shape.points, method)
+    assert returned["score"] == pytest.approx(expected.score, abs=1e-12)
+    assert returned["pairs"] == len(expected.pairs)
+    partner = layer(mesh_set, "shape").vertex_custom_scalar_attribute_array("partner")
+    assert partner[3] == partner[17] == -1 and np.isin([3, 17], partner).sum() == 0
+    side = layer(mesh_set, "shape").vertex_custom_scalar_attribute_array("side")
+    assert side[3] == side[17] == 0
 
 
 @pytest.mark.parametrize("method", symsurf.methods())
@@ -108,7 +136,7 @@ def test_normals_are_handed_on(method):
     mesh_set.apply_filter("compute_normal_per_vertex")
     normals = mesh_set.current_mesh().vertex_normal_matrix()
     returned = mesh_set.apply_filter("compute_mirror_" + method, use_normals=True)
-    expected = symsurf.detect(shape.points, method, normals=normals)
+    expected = symsurf.detect(shape.points, method, faces=shape.faces, normals=normals)
     assert_same(mesh_set, returned, expected, shape)
 
 
@@ -131,7 +159,11 @@ def test_selected_faces_select_their_corners():
     mesh_set.apply_filter("compute_selection_by_condition_per_face", condselect="fi < 300")
     chosen = np.unique(shape.faces[:300])
     returned = mesh_set.apply_filter("compute_mirror_plane", only_selected=True)
-    expected = symsurf.detect(shape.points[chosen], "plane")
+    row = np.full(len(shape.points), -1)
+    row[chosen] = np.arange(len(chosen))
+    faces = row[shape.faces]
+    faces = faces[(faces >= 0).all(axis=1)]
+    expected = symsurf.detect(shape.points[chosen], "plane", faces=faces)
     assert_same(mesh_set, returned, expected, shape, chosen)
 
 

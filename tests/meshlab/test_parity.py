@@ -16,7 +16,13 @@ PREFIX = "compute_mirror_"
 # What only a host with selections and stored normals has to ask.
 OF_THE_HOST = {"only_selected", "use_normals"}
 # What a dialog has no use for: the layer is the input, the filter the method, the bar the progress.
-OF_PYTHON = {"points", "method", "normals", "progress", "parameters"}
+# MeshLab's layers bring their faces, are no grids, and log what is left out.
+OF_PYTHON = {"points", "method", "normals", "progress", "parameters"} | {
+    "faces",
+    "threshold",
+    "scalars",
+    "nonfinite",
+}
 
 
 def shown_values(method: str) -> dict:

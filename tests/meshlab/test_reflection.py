@@ -15,7 +15,7 @@ symsurf = pytest.importorskip("symsurf", reason="the Python module is not instal
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_the_layer_is_mirrored_over_the_mirror_found(method, kind):
     shape = SHAPES[kind](0)
-    mirror = symsurf.detect(shape.points, method).mirror
+    mirror = symsurf.detect(shape.points, method, faces=shape.faces).mirror
     mesh_set = shape.mesh_set()
     mesh_set.apply_filter("compute_mirror_" + method)
     if mirror is None:
@@ -89,7 +89,7 @@ def test_a_mirror_that_was_saved_serves_again(method, near, tmp_path):
     shape = lump(6)
     mesh_set = shape.mesh_set()
     mirror = mesh_set.apply_filter("compute_mirror_" + method)["mirror_layer"]
-    images = symsurf.detect(shape.points, method).mirror.reflect(shape.points)
+    images = symsurf.detect(shape.points, method, faces=shape.faces).mirror.reflect(shape.points)
     saved_and_read_again(mesh_set, mirror, tmp_path / "mirror.ply")
     again = mesh_set.current_mesh().id()
     mesh_set.set_current_mesh(0)

@@ -65,7 +65,7 @@ def proxy(server_manager_xml: Path) -> dict[str, ElementTree.Element]:
 def test_no_property_is_without_a_description(proxy: dict[str, ElementTree.Element]) -> None:
     names = {name for name, _, _ in described()}
     assert len(names) == len(described())
-    own = {"Input", "Method", "UseNormals", "Seed", "NumberOfThreads"}
+    own = {"Input", "Method", "UseNormals", "UseFaces", "RefuseNonfinite", "Seed", "NumberOfThreads"}
     assert set(proxy) == names | own
 
 

@@ -13,13 +13,20 @@ pyvista = pytest.importorskip("pyvista", "0.48", reason="needs PyVista 0.48 or l
 import symsurf.accessor  # noqa: E402, F401  (an installed symsurf needs no import)
 
 
-def test_detect_is_symsurf_detect_on_the_points() -> None:
+def test_detect_is_symsurf_detect_on_the_mesh() -> None:
     mesh = pyvista.ParametricSuperEllipsoid(xradius=2, yradius=1, zradius=0.5)
     result = mesh.symmetry.detect("plane", pair_distance=0.1)
-    expected = symsurf.detect(mesh.points, "plane", pair_distance=0.1)
+    expected = symsurf.detect(mesh, "plane", pair_distance=0.1)
     assert np.array_equal(result.mirror.normal, expected.mirror.normal)
     assert result.mirror.offset == expected.mirror.offset
+    assert np.array_equal(result.faces, expected.faces)
     assert mesh.symmetry.result is result
+
+
+def test_plot_takes_the_options_of_detect(tmp_path: Path) -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    mesh.symmetry.plot(tmp_path / "picture.png", method="plane", use_faces=False)
+    assert mesh.symmetry.result.method == "plane"
 
 
 @pytest.mark.parametrize("data", ["mesh", "cloud", "grid"])

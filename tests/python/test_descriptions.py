@@ -16,7 +16,17 @@ from symsurf import cli
 from symsurf.descriptions import allowed
 
 METHODS = symsurf.methods()
-OPTIONS = ["normals", "seed", "threads", "progress"]
+OPTIONS = [
+    "faces",
+    "use_faces",
+    "normals",
+    "nonfinite",
+    "threshold",
+    "scalars",
+    "seed",
+    "threads",
+    "progress",
+]
 
 
 def plain(value):

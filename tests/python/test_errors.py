@@ -25,19 +25,16 @@ def with_value(value):
         (GOOD[0], r"\(3,\).*\(n, 3\)"),
         (None, r"\(\).*\(n, 3\)"),
         (7, r"\(\).*\(n, 3\)"),
-        ("points.ply", r"\(\).*\(n, 3\)"),
+        ("points.ply", "points.ply: there is no such file"),
         ([], r"\(0,\).*\(n, 3\)"),
         ([[1, 2, 3], [1, 2]], "array"),
         (GOOD.astype(complex), "complex128.*real"),
         (GOOD.astype(str), "<U.*real"),
         (np.full((50, 3), object()), "real numbers"),
-        (np.full((50, 3), None), "nan.*finite"),
+        (np.full((50, 3), None), "0 of 50 points given are finite"),
         (np.ma.masked_less(GOOD, 0), "masked"),
         (GOOD[:0], "0 points.*at least"),
         (GOOD[:3], "3 points.*at least"),
-        (with_value(np.nan), "17.*nan.*finite"),
-        (with_value(np.inf), "17.*inf.*finite"),
-        (with_value(-np.inf), "17.*-inf.*finite"),
         (np.ones((50, 3)), "50 points are equal"),
         (np.outer(np.arange(50), (1, 2, 3)), "one line"),
     ],
@@ -46,6 +43,32 @@ def with_value(value):
 def test_points(points, says, method):
     with pytest.raises(symsurf.InvalidInput, match=says):
         symsurf.detect(points, method)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_points_that_are_not_finite_where_that_is_refused(value):
+    for call in (
+        lambda: symsurf.detect(with_value(value), nonfinite="refuse"),
+        lambda: symsurf.detect_plane(with_value(value), nonfinite="refuse"),
+        lambda: symsurf.match(with_value(value), symsurf.Plane((0, 0, 1), 0), nonfinite="refuse"),
+    ):
+        with pytest.raises(symsurf.InvalidInput, match=f"point 17 is .*{value}.*finite"):
+            call()
+
+
+@pytest.mark.parametrize(
+    ("faces", "says"),
+    [
+        ([[0, 1, 50]], "face 0 names point 50; allowed is 0 to 49"),
+        ([[0, 1, 2], [3, -1, 4]], "face 1 names point -1; allowed is 0 to 49"),
+        ([[0, 1, 2, 3]], r"faces have shape \(1, 4\); allowed is \(m, 3\)"),
+        ([0, 1, 2], r"faces have shape \(3,\); allowed is \(m, 3\)"),
+        ([[0.0, 1.0, 2.0]], "faces are of type float64; allowed are whole numbers"),
+    ],
+)
+def test_faces(faces, says):
+    with pytest.raises(symsurf.InvalidInput, match=says):
+        symsurf.detect(GOOD, faces=faces)
 
 
 @pytest.mark.parametrize(
@@ -74,6 +97,9 @@ def test_normals(normals, says):
         ({"seed": 2**64}, rf"seed is {2**64}.*\[0, "),
         ({"seed": "a"}, "seed is 'a'.*whole"),
         ({"progress": 3}, "progress is 3.*function"),
+        ({"nonfinite": "drop"}, "nonfinite is 'drop'; allowed is 'skip' or 'refuse'"),
+        ({"threshold": 1.0}, "threshold is 1.0; allowed is None, as the input is no grid"),
+        ({"scalars": "a"}, "scalars is 'a'; allowed is None, as the input is no grid"),
     ],
 )
 def test_options(options, says):
@@ -166,5 +192,7 @@ def test_the_errors_are_value_errors():
 
 
 def test_match_over_what_is_no_mirror(blob):
-    with pytest.raises(symsurf.InvalidInput, match="mirror is of type NoneType; allowed is a Mirror"):
+    with pytest.raises(
+        symsurf.InvalidInput, match="mirror is of type NoneType; allowed is a Mirror"
+    ):
         symsurf.match(blob, None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import dataclasses
 
 import numpy as np
 import pytest
@@ -41,7 +42,10 @@ def test_picture_shows_object_and_mirror(result, tmp_path):
 def test_picture_of_a_mesh(tmp_path):
     points = np.array([(x, y, 0.2 * y) for x in (-2.0, -1, 1, 2) for y in (0.0, 1, 3)])
     faces = [
-        (3 * i + j, 3 * i + j + 1, 3 * i + j + 3 + k) for i in range(3) for j in range(2) for k in (0, 1)
+        (3 * i + j, 3 * i + j + 1, 3 * i + j + 3 + k)
+        for i in range(3)
+        for j in range(2)
+        for k in (0, 1)
     ]
     shape = symsurf.Shape(points, np.array(faces))
     result = symsurf.match(points, symsurf.Plane((1, 0, 0), 0))
@@ -77,12 +81,40 @@ def test_nothing_is_cut_off(surface, tmp_path):
     assert np.ptp(rows) > 0.85 * 900 and np.ptp(columns) > 0.3 * 1200
 
 
-def test_points_that_are_not_finite(result):
-    pytest.importorskip("pyvista")
-    points = result.points.copy()
-    points[3, 1] = np.nan
-    with pytest.raises(symsurf.InvalidInput, match=r"point 3 is \(.*nan"):
-        result.plot("never.png", points=points)
+def test_points_that_are_not_finite_are_not_drawn(result, tmp_path):
+    result.plot(tmp_path / "finite.png")
+    points = np.vstack([result.points, np.full((40, 3), np.nan)])
+    with pytest.warns(symsurf.InputWarning):
+        symsurf.match(points, result.mirror).plot(tmp_path / "some.png")
+    difference = pixels(tmp_path / "finite.png") != pixels(tmp_path / "some.png")
+    assert difference.any(axis=1).mean() < 0.01
+    with pytest.raises(symsurf.InvalidInput, match="none of the 800 points is finite"):
+        result.plot("never.png", points=np.full((800, 3), np.inf))
+
+
+def test_the_faces_of_a_mesh_are_drawn(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Cube(x_length=1, y_length=2, z_length=3).triangulate().clean()
+    result = symsurf.detect(mesh, "plane")
+    result.plot(tmp_path / "mesh.png")
+    result.plot(tmp_path / "points.png", points=mesh.points)
+    drawn = [
+        (pixels(tmp_path / name) != BACKGROUND).any(axis=1).mean()
+        for name in ("mesh.png", "points.png")
+    ]
+    assert drawn[0] > 0.2 and drawn[0] > 1.2 * drawn[1]
+
+
+def test_the_verdict_is_written_above(result, tmp_path):
+    """Ink where nothing is drawn without a verdict; more of it for a longer text."""
+    ink = []
+    found = symsurf.detect(result.points, "plane")
+    judged = dataclasses.replace(found, statistics=found.statistics | {"verdict": "found" * 4})
+    for shown in (result, found, judged):
+        shown.plot(tmp_path / "title.png")
+        top = pixels(tmp_path / "title.png").reshape(900, 1200, 3)[-40:]
+        ink.append((top < 120).all(axis=2).sum())
+    assert ink[0] == 0 and 300 < ink[1] < ink[2]
 
 
 def test_strays_are_out_of_the_picture(tmp_path):

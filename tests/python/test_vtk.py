@@ -15,7 +15,7 @@ from symsurf.vtk import MirrorDetection  # noqa: E402
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonCore import vtkPoints  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid  # noqa: E402
-from vtkmodules.vtkFiltersSources import vtkSphereSource  # noqa: E402
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource  # noqa: E402
 
 PLANE = symsurf.Plane([1, 2, -0.5], 1.3)
 
@@ -46,14 +46,14 @@ def array(data: vtkPolyData, name: str) -> np.ndarray:
     return vtk_to_numpy(data.GetPointData().GetArray(name))
 
 
-def error_of(algorithm: MirrorDetection) -> str:
+def error_of(algorithm: MirrorDetection, event: str = "ErrorEvent") -> str:
     messages: list[str] = []
 
     def heard(_caller, _event, text):
         messages.append(text)
 
     heard.CallDataType = "string0"
-    tags = [(o, o.AddObserver("ErrorEvent", heard)) for o in (algorithm, algorithm.GetExecutive())]
+    tags = [(o, o.AddObserver(event, heard)) for o in (algorithm, algorithm.GetExecutive())]
     algorithm.Update()
     for observed, tag in tags:
         observed.RemoveObserver(tag)
@@ -124,7 +124,7 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     line = np.arange(9.0)[:, None] * [1, 2, 3]
     found = detection(mirrored_shape())
     good = found.GetInputDataObject(0, 0)
-    for points, said in [(nan, "point 3"), (line, "line"), (line[:1], "1 points")]:
+    for points, said in [(nan[:4], "3 of 4 points given are finite"), (line, "line"), (line[:1], "1 points")]:
         found.SetInputData(polydata(points))
         assert said in error_of(found)
         assert found.GetOutput(0).GetNumberOfPoints() == 0
@@ -137,6 +137,48 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     wrong = MirrorDetection()
     wrong.SetInputDataObject(vtkUnstructuredGrid())
     assert "vtkPolyData" in error_of(wrong)
+
+
+def test_points_that_are_not_finite_are_left_out() -> None:
+    points = mirrored_shape()
+    plain = symsurf.detect(points, "plane")
+    given = np.vstack([np.full((2, 3), np.nan), points, [(np.inf, 0, 0)]])
+    found = detection(given)
+    said = error_of(found, "WarningEvent")
+    assert "3 points are not finite" in said
+    mapping = found.GetOutput(2)
+    partners = array(mapping, "MirrorPartner")
+    assert (partners[[0, 1, -1]] == -1).all() and (array(mapping, "MirrorSide")[[0, 1, -1]] == 0).all()
+    np.testing.assert_array_equal(partners[plain.pairs[:, 0] + 2], plain.pairs[:, 1] + 2)
+    fields = found.GetOutput(0).GetFieldData()
+    assert fields.GetArray("NonfinitePoints").GetValue(0) == 3
+    assert fields.GetAbstractArray("Verdict").GetValue(0) == plain.verdict
+    assert fields.GetAbstractArray("Reason").GetValue(0) == plain.reason
+    found.SetRefuseNonfinite(True)
+    assert "point 0 is (nan, nan, nan)" in error_of(found)
+    assert found.GetOutput(0).GetNumberOfPoints() == 0
+
+
+def test_polygons_are_a_surface() -> None:
+    cube = vtkCubeSource()
+    cube.SetXLength(2)
+    cube.SetYLength(3)
+    cube.Update()
+    box = cube.GetOutput()
+    points = vtk_to_numpy(box.GetPoints().GetData())
+    faces = [face for q in range(0, 24, 4) for face in ((q, q + 1, q + 3), (q, q + 3, q + 2))]
+    expected = symsurf.detect(points, "plane", faces=faces)
+    found = MirrorDetection()
+    found.SetInputData(box)
+    found.SetMethod("plane")
+    found.Update()
+    fields = found.GetOutput(0).GetFieldData()
+    samples = fields.GetArray("SurfaceSamples").GetValue(0)
+    assert samples == expected.statistics["surface_samples"] > 10000
+    assert fields.GetArray("Score").GetValue(0) == pytest.approx(expected.score, abs=1e-3)
+    found.SetUseFaces(False)
+    found.Update()
+    assert found.GetOutput(0).GetFieldData().GetArray("SurfaceSamples") is None
 
 
 def test_bad_parameters_are_errors() -> None:

@@ -12,6 +12,7 @@
 #include "mirrored_shape.h"
 #include "point_arrays.h"
 #include "vtkCellArray.h"
+#include "vtkCubeSource.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkMirrorDetection.h"
@@ -110,6 +111,35 @@ TEST_P(EveryMethod, MapsTheInputOntoItself) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(symsurf::methods()),
                          [](const auto& info) { return info.param.name; });
+
+// Six quads, and the same as twelve triangles of the core's.
+TEST(MirrorDetection, PolygonsAreASurface) {
+  vtkNew<vtkCubeSource> cube;
+  cube->SetXLength(2);
+  cube->SetYLength(3);
+  cube->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  cube->Update();
+  const TriangleArray faces(cube->GetOutput());
+  ASSERT_EQ(faces.view().size(), 12);
+  symsurf::Options options;
+  options.method = "plane";
+  options.faces = faces.view();
+  const symsurf::Result expected = symsurf::detect(points_of(cube->GetOutput()).view(), options);
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetInputConnection(cube->GetOutputPort());
+  filter->SetMethod("plane");
+  filter->Update();
+  vtkPolyData* mirror = filter->GetOutput(vtkMirrorDetection::MIRROR);
+  EXPECT_EQ(number(mirror, "Score"), expected.score);
+  EXPECT_GT(number(mirror, "SurfaceSamples"), 10000);
+  EXPECT_EQ(text(mirror, "Verdict"), "found");
+  EXPECT_EQ(text(mirror, "Reason"), expected.reason());
+  expect_points(filter->GetOutput(vtkMirrorDetection::SURFACE_POINTS), expected.surface_points);
+  filter->UseFacesOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput(0)->GetFieldData()->GetArray("SurfaceSamples"), nullptr);
+  EXPECT_EQ(TriangleArray(nullptr).view().size(), 0);
+}
 
 TEST(MirrorDetection, DoublesAreReadInPlaceAndFloatsCopiedOnce) {
   const vtkNew<vtkPolyData> data = polydata_of(mirrored_shape(truth, 10));

@@ -7,16 +7,17 @@
 #include "vtkExecutive.h"
 #include "vtkNew.h"
 
-/// Collects what a filter and its executive report as errors, for as long as it lives.
+/// Collects what a filter and its executive report as errors, or warnings, for as long as it lives.
 class ErrorListener {
  public:
-  explicit ErrorListener(vtkAlgorithm* algorithm) : algorithm_(algorithm) {
+  explicit ErrorListener(vtkAlgorithm* algorithm, unsigned long event = vtkCommand::ErrorEvent)
+      : algorithm_(algorithm) {
     command_->SetClientData(&message_);
     command_->SetCallback([](vtkObject*, unsigned long, void* message, void* text) {
       static_cast<std::string*>(message)->append(static_cast<const char*>(text));
     });
-    algorithm_->AddObserver(vtkCommand::ErrorEvent, command_);
-    algorithm_->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, command_);
+    algorithm_->AddObserver(event, command_);
+    algorithm_->GetExecutive()->AddObserver(event, command_);
   }
   ~ErrorListener() {
     algorithm_->RemoveObserver(command_);

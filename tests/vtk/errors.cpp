@@ -10,8 +10,10 @@
 #include "mirrored_shape.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
+#include "vtkFieldData.h"
 #include "vtkMirrorDetection.h"
 #include "vtkMirrorReflection.h"
+#include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
 namespace {
@@ -54,11 +56,44 @@ TEST(FilterErrors, BadInputIsAnErrorAndALaterGoodRunWorks) {
   fails_with(polyline, "line");
   symsurf::Points broken = mirrored_shape(truth, 10);
   broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  filter->RefuseNonfiniteOn();
   fails_with(polydata_of(broken), "point 3");
+  filter->RefuseNonfiniteOff();
+  broken.topRows(17).setConstant(std::numeric_limits<double>::infinity());
+  fails_with(polydata_of(broken), "3 of 20 points given are finite");
 
   vtkNew<vtkMirrorDetection> fresh;  // VTK refuses the type itself and leaves earlier outputs
   fresh->SetInputDataObject(vtkNew<vtkUnstructuredGrid>());
   EXPECT_NE(error_of(fresh).find("vtkPolyData"), std::string::npos);
+}
+
+TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
+  symsurf::Points points(203, 3);
+  points << symsurf::Points::Constant(2, 3, std::numeric_limits<double>::quiet_NaN()),
+      mirrored_shape(truth, 100),
+      symsurf::Points::Constant(1, 3, std::numeric_limits<double>::infinity());
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetMethod("plane");
+  filter->SetInputData(polydata_of(points));
+  {
+    const ErrorListener warnings(filter, vtkCommand::WarningEvent);
+    EXPECT_TRUE(error_of(filter).empty());
+    EXPECT_NE(warnings.message().find("3 points are not finite"), std::string::npos);
+  }
+  vtkPointData* mapped = filter->GetOutput(vtkMirrorDetection::MAPPING)->GetPointData();
+  for (const vtkIdType i : {0, 1, 202}) {
+    EXPECT_EQ(mapped->GetArray("MirrorPartner")->GetComponent(i, 0), -1);
+    EXPECT_EQ(mapped->GetArray("MirrorSide")->GetComponent(i, 0), 0);
+  }
+  for (vtkIdType i = 2; i < 202; ++i)
+    EXPECT_EQ(mapped->GetArray("MirrorPartner")->GetComponent(i, 0), i < 102 ? i + 100 : i - 100);
+  vtkFieldData* fields = filter->GetOutput(vtkMirrorDetection::MIRROR)->GetFieldData();
+  EXPECT_EQ(fields->GetArray("NonfinitePoints")->GetComponent(0, 0), 3);
+  // Without such points nothing is said.
+  filter->SetInputData(polydata_of(mirrored_shape(truth, 100)));
+  const ErrorListener warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_TRUE(warnings.message().empty());
 }
 
 TEST(FilterErrors, BadParametersAreErrors) {

@@ -4,6 +4,7 @@
 #include <symsurf/method.h>
 #include <symsurf/points_view.h>
 #include <symsurf/result.h>
+#include <symsurf/triangles_view.h>
 
 #include <cstdint>
 #include <string>
@@ -15,6 +16,15 @@ struct Options {
   Values parameters = {};   ///< the method's, by name; the rest keep their defaults
   PointsView normals = {};  ///< optional, one a point; taken as lines, their sign does not count
   std::uint64_t seed = 0;   ///< of the methods that draw at random
+  /// Optional triangles between the points, which are then the vertices of a mesh: samples spread
+  /// evenly over its surface find the mirror; score and candidates are those of the samples, pairs
+  /// those of the vertices. There are none on faces finer than their spacing, nor where a thousand
+  /// or more vertices lie evenly. A face without an area is passed over. The thesis's methods, and
+  /// processes that share out the points, see the points only.
+  TrianglesView faces = {};
+  /// Whether a point with a NaN or infinite coordinate is an error. Otherwise such points are left
+  /// out, with their faces, and have no partners: Result::statistics has their number.
+  bool refuse_nonfinite = false;
 };
 
 /// Finds the mirror of a point set. The points are read in place and must stay alive for the call.
@@ -23,8 +33,9 @@ struct Options {
 /// those of the own points, numbered through all processes in the order of their ranks. With a
 /// method that takes shares a process needs memory for its own points only; for the others the
 /// first gets all and works alone, so it is the one to be told to stop. Throws InvalidInput (too
-/// few points, more than 2^30 in one process, NaN or infinity, all points equal or on one line, an
-/// extent beyond 1e-50 to 1e50), InvalidParameter (unknown method or parameter, value out of range)
+/// few finite points, more than 2^30 in one process, all points equal or on one line, an extent
+/// beyond 1e-50 to 1e50, normals that are not one a point, not finite or zero, a face that names a
+/// point which is not there), InvalidParameter (unknown method or parameter, value out of range)
 /// and Cancelled.
 Result detect(PointsView points, const Options& options = {}, const Context& context = {});
 

@@ -36,7 +36,9 @@ struct Method {
   bool takes_shares =
       false;  ///< run can do with a share of the points; else the first process gets all
   bool sees_copies = false;  ///< run gets points that are copies of others; else their places
-  bool sees_strays = false;  ///< run gets the few points far off all others; else the rest
+  /// Run gets the few points far off all others, and the vertices of a mesh; else the rest, and
+  /// samples of the mesh's surface.
+  bool sees_strays = false;
   bool sees_inside = false;  ///< run gets all points of bodies filled with them; else their skin
   Result (*run)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 };

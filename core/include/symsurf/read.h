@@ -8,9 +8,9 @@ namespace symsurf {
 
 /// What a file holds, in its own units and order.
 struct Shape {
-  Points points;
+  Points points;    ///< as they stand in the file: some may not be finite
   Triangles faces;  ///< no rows for a bare cloud; polygons come as fans of triangles
-  Points normals;   ///< no rows where the file lacks a normal of some point, or gives it as 0
+  Points normals;   ///< no rows where a finite point has none, or one that is 0 or not finite
 };
 
 /// Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix. Coordinates keep every digit a
@@ -24,7 +24,7 @@ struct Shape {
 /// columns are ignored.
 ///
 /// Throws InvalidInput naming the file and the reason, in text files with the line:
-/// unknown suffix, not readable, empty, broken, truncated, not finite, no points.
+/// unknown suffix, not readable, empty, broken, truncated, no points.
 Shape read(const std::filesystem::path& path);
 
 }  // namespace symsurf

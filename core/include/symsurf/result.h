@@ -24,9 +24,10 @@ struct Result {
   std::vector<Result> candidates;
   Values parameters;  ///< as used
   /// "verdict", "found" or "none"; "reason", a sentence that says why; whatever else the method
-  /// reports; and "stray_points" where some points lie so far off that they
-  /// were left out: how many. They have no partners. "skin_points" where the points fill a body,
-  /// and the mirror and the score are those of its skin: how many it has.
+  /// reports; and, where there are some, how many "nonfinite_points" were left out as not finite
+  /// and how many "stray_points" as lying far off: they have no partners. "surface_samples": how
+  /// many points were added on the faces. "skin_points" where the points fill a body, and the
+  /// mirror and the score are those of its skin: how many it has.
   Values statistics;
   double seconds = 0;
 

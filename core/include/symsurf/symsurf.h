@@ -23,3 +23,4 @@
 #include <symsurf/surface.h>
 #include <symsurf/surface_mirror.h>
 #include <symsurf/synthetic.h>
+#include <symsurf/triangles_view.h>

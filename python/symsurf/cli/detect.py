@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ import numpy as np
 
 from .. import detection
 from .._core import InvalidParameter
+from ..inputs import InputWarning, finite_points, refuses
 from ..result import Result
 from ..sampling import downsample
 from ..saving import FORMATS
@@ -48,6 +51,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--ignore-normals", action="store_true", help="do not use the normals in the files"
     )
     parser.add_argument(
+        "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
+    )
+    parser.add_argument(
+        "--nonfinite",
+        default="skip",
+        metavar="WORD",
+        help="what to do with points that are not finite: skip or refuse; default %(default)s",
+    )
+    parser.add_argument(
         "--downsample",
         metavar="DIVISOR",
         help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
@@ -71,21 +83,31 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _detect(path: Path, arguments: argparse.Namespace) -> Result:
     shape = read(path)
-    points = shape.points
+    points, faces = shape.points, shape.faces
     normals = None if arguments.ignore_normals else shape.normals
-    if arguments.downsample is not None:
-        points = downsample(points, math.ceil(len(points) / _divisor(arguments.downsample)))
-        normals = None
-    with ProgressBar(path.name) as bar:
-        return detection.detect(
-            points,
-            arguments.method,
-            normals=normals,
-            seed=whole(arguments.seed),
-            threads=whole(arguments.threads),
-            progress=bar,
-            **given_parameters(arguments),
-        )
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", InputWarning)
+        if arguments.downsample is not None:
+            if not refuses(arguments.nonfinite):
+                points = finite_points(points)
+            points = downsample(points, math.ceil(len(points) / _divisor(arguments.downsample)))
+            faces = normals = None
+        with ProgressBar(path.name) as bar:
+            result = detection.detect(
+                points,
+                arguments.method,
+                faces=faces,
+                use_faces=not arguments.ignore_faces,
+                normals=normals,
+                nonfinite=arguments.nonfinite,
+                seed=whole(arguments.seed),
+                threads=whole(arguments.threads),
+                progress=bar,
+                **given_parameters(arguments),
+            )
+    for warning in caught:
+        print(f"symsurf: {path}: {warning.message}", file=sys.stderr)
+    return result
 
 
 def _divisor(text: str) -> float:
@@ -133,6 +155,8 @@ def _record(path: Path, result: Result) -> dict[str, Any]:
         "pairs": len(result.pairs),
         "surface_points": len(result.surface_points),
         "median_residual": plain(_median_residual(result)),
+        "verdict": result.verdict,
+        "reason": result.reason,
     } | summary(result)
 
 
@@ -145,6 +169,7 @@ def _report(path: Path, result: Result) -> str:
     if result.mirror is not None:
         numbers = [f"{name} {shown(value)}" for name, value in result.mirror.numbers.items()]
         lines.append(f"  mirror    {', '.join([result.mirror.kind, *numbers])}")
+    lines.append(f"  verdict   {result.verdict}: {result.reason}")
     lines.append(f"  score     {result.score:.3f} (method {result.method})")
     paired = f"{len(result.pairs)} of {len(result.points)} points"
     residual = f"median residual {_median_residual(result):.3g}" if len(result.pairs) else ""

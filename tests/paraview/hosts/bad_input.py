@@ -10,6 +10,17 @@ nothing = simple.Threshold(Input=good, LowerThreshold=10, UpperThreshold=11, Sca
 nothing = simple.ExtractSurface(Input=nothing)
 broken = simple.Calculator(Input=good, CoordinateResults=1, Function="coords / (coordsX - coordsX)")
 
+SOME_ARE_NOT_FINITE = """
+from vtkmodules.vtkCommonCore import vtkPoints
+
+points = vtkPoints()
+points.DeepCopy(self.GetPolyDataInput().GetPoints())
+for i in range(0, points.GetNumberOfPoints(), 50):
+    points.SetPoint(i, float("nan"), 0, 0)
+self.GetPolyDataOutput().ShallowCopy(self.GetPolyDataInput())
+self.GetPolyDataOutput().SetPoints(points)
+"""
+
 points = {}
 
 
@@ -25,6 +36,9 @@ run("line", line)
 run("point", point)
 run("nothing", nothing)
 run("broken", broken)
+partly = simple.ProgrammableFilter(Input=good, Script=SOME_ARE_NOT_FINITE)
+run("refused", partly, RefuseNonfinite=1)
+run("good, but for some", partly)
 run("parameter", good, PlanePairDistance=-1)
 run("threads", good, NumberOfThreads=-3)
 try:

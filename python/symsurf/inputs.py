@@ -1,0 +1,122 @@
+"""What ``detect`` takes: files, shapes, meshes, grids and arrays, as points and faces."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._core import InvalidInput, InvalidParameter
+from .shape import read
+
+
+class InputWarning(UserWarning):
+    """Some of the input was left out, or reads differently from what was perhaps meant."""
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """Points and faces as they were given."""
+
+    points: Any
+    """What the core reads as (n, 3) numbers."""
+    faces: NDArray[np.int64] | None
+    """(m, 3) indices of points; None for a bare cloud."""
+
+
+def as_input(
+    given: Any,
+    faces: ArrayLike | None = None,
+    threshold: float | None = None,
+    scalars: str | None = None,
+) -> Input:
+    """The points of a path, a data set, a mesh or an array, and their faces, where there are some.
+
+    Args:
+        given: see ``symsurf.detect``.
+        faces: in place of those of the mesh.
+        threshold, scalars: of grids; see ``symsurf.detect``.
+    """
+    if isinstance(given, (str, os.PathLike)):
+        given = read(given)
+    pyvista = sys.modules.get("pyvista")  # whoever has a data set has imported it
+    is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
+    if is_data_set:
+        from . import grids
+
+        if grids.is_grid(given):
+            if faces is not None:
+                raise InvalidInput("faces are given with a grid, which has none; leave them out")
+            return Input(grids.points_above(given, threshold, scalars), None)
+    for name, value in (("threshold", threshold), ("scalars", scalars)):
+        if value is not None:
+            raise InvalidParameter(
+                f"{name} is {value!r}; allowed is None, as the input is no grid of PyVista"
+            )
+    if faces is not None:
+        return Input(_points(given), triangles(faces))
+    if is_data_set:
+        from . import grids
+
+        return Input(given.points, grids.faces_of(given))
+    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
+        return Input(given, None)
+    own = getattr(given, "faces", None)
+    return Input(_points(given), None if own is None or not len(own) else triangles(own))
+
+
+def triangles(faces: ArrayLike) -> NDArray[np.int64]:
+    """Raises InvalidInput unless they are (m, 3) whole numbers."""
+    array = np.asarray(faces)
+    if array.size == 0:
+        return np.empty((0, 3), np.int64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInput(f"faces have shape {array.shape}; allowed is (m, 3)")
+    if array.dtype.kind not in "iu":
+        raise InvalidInput(f"faces are of type {array.dtype}; allowed are whole numbers")
+    return np.ascontiguousarray(array, np.int64)
+
+
+def refuses(nonfinite: str) -> bool:
+    """Whether the option ``nonfinite`` says to refuse points that are not finite."""
+    if nonfinite not in ("skip", "refuse"):
+        raise InvalidParameter(f"nonfinite is {nonfinite!r}; allowed is 'skip' or 'refuse'")
+    return nonfinite == "refuse"
+
+
+def finite_points(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Those of the points, with a warning where others are left out."""
+    finite = np.isfinite(points).all(axis=1)
+    warn_of_nonfinite({"nonfinite_points": len(points) - np.count_nonzero(finite)})
+    return points if finite.all() else points[finite]
+
+
+def warn_of_nonfinite(statistics: dict[str, Any]) -> None:
+    """An InputWarning with the number of points that were left out, where there are some; it names
+    the line that called the package."""
+    count = statistics.get("nonfinite_points", 0)
+    if count:
+        level, frame = 1, sys._getframe()
+        while frame.f_back and frame.f_globals["__name__"].split(".")[0] == __package__:
+            level, frame = level + 1, frame.f_back
+        warnings.warn(nonfinite_message(count), InputWarning, stacklevel=level)
+
+
+def nonfinite_message(count: int) -> str:
+    were = (
+        "1 point is not finite: it is" if count == 1 else f"{count} points are not finite: they are"
+    )
+    return f"{were} left out; with nonfinite 'refuse' this is an error"
+
+
+def _points(given: Any) -> Any:
+    if not hasattr(given, "__array__"):
+        for attribute in ("points", "vertices"):
+            if hasattr(given, attribute):
+                return getattr(given, attribute)
+    return given

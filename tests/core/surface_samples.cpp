@@ -1,0 +1,389 @@
+#include "surface_samples.h"
+
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+#include <symsurf/errors.h>
+#include <symsurf/plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "cloud.h"
+#include "expect_error.h"
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+struct TestMesh {
+  Points vertices = Points(0, 3);
+  Triangles faces = Triangles(0, 3);
+
+  void add(const Points& more, const Triangles& triangles) {
+    const Index had = vertices.rows(), faces_had = faces.rows();
+    vertices.conservativeResize(had + more.rows(), 3);
+    vertices.bottomRows(more.rows()) = more;
+    faces.conservativeResize(faces_had + triangles.rows(), 3);
+    faces.bottomRows(triangles.rows()) = triangles.array() + had;
+  }
+
+  // Twelve triangles; `flips` says of each side which of its diagonals divides it.
+  void add_box(const Vector3& low, const Vector3& high, unsigned flips = 0) {
+    Points corners(8, 3);
+    for (int i = 0; i < 8; ++i)
+      for (int axis = 0; axis < 3; ++axis) corners(i, axis) = (i >> axis & 1 ? high : low)[axis];
+    constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+    Triangles triangles(12, 3);
+    for (int s = 0; s < 6; ++s) {
+      const auto& c = sides[s];
+      const int turn = flips >> s & 1;
+      triangles.row(2 * s) << c[turn], c[1 + turn], c[2 + turn];
+      triangles.row(2 * s + 1) << c[turn], c[2 + turn], c[(3 + turn) % 4];
+    }
+    add(corners, triangles);
+  }
+
+  void move(const Matrix3& rotation, const Vector3& shift) {
+    vertices = ((vertices * rotation.transpose()).rowwise() + shift.transpose()).eval();
+  }
+};
+
+Points samples_of(const TestMesh& mesh) {
+  const Cloud cloud = checked_cloud(mesh.vertices, {}, 1, {});
+  const Method& plane = method("plane");
+  const ParameterValues values(plane.name, plane.parameters, {});
+  const auto samples = SurfaceSamples::where_coarse(cloud, mesh.faces, values, {});
+  return samples ? samples->points() : mesh.vertices;
+}
+
+Result detected(const TestMesh& mesh, const char* method, const Points& normals = Points(0, 3)) {
+  return detect(mesh.vertices, {.method = method, .normals = normals, .faces = mesh.faces});
+}
+
+// The points in an order of their own, for comparison up to rounding.
+Points sorted(const Points& points) {
+  const auto rounded = [](const Vector3& x) {
+    const auto number = [](double v) { return std::llround(v * 1e9 + 0.2357); };
+    return std::array{number(x[0]), number(x[1]), number(x[2])};
+  };
+  std::vector<Vector3> rows;
+  for (Index i = 0; i < points.rows(); ++i) rows.push_back(points.row(i));
+  std::sort(rows.begin(), rows.end(),
+            [&](const Vector3& a, const Vector3& b) { return rounded(a) < rounded(b); });
+  Points result(points.rows(), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) result.row(i) = rows[i].transpose();
+  return result;
+}
+
+void expect_same(const Points& one, const Points& other) {
+  ASSERT_EQ(one.rows(), other.rows());
+  EXPECT_LT((sorted(one) - sorted(other)).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+bool is_plane(const Result& result, const Vector3& normal, const Vector3& on) {
+  const auto* plane = dynamic_cast<const Plane*>(result.mirror.get());
+  return plane && std::abs(plane->normal().dot(normal)) > std::cos(0.01) &&
+         std::abs(plane->normal().dot(on) + plane->offset()) < 0.01;
+}
+
+// A chair: a seat, a back, four legs; x = 0.5 is its only mirror.
+TestMesh chair(unsigned flips) {
+  TestMesh mesh;
+  mesh.add_box({0, 0, 0.45}, {1, 1, 0.5}, flips);
+  mesh.add_box({0, 0.95, 0.5}, {1, 1, 1.2}, flips + 1);
+  for (const double x : {0.0, 0.93})
+    for (const double y : {0.0, 0.93})
+      mesh.add_box({x, y, 0}, {x + 0.07, y + 0.07, 0.45}, flips += 5);
+  return mesh;
+}
+
+TEST(SurfaceSamples, OfABoxAreTheSameWhicheverDiagonalsDivideIt) {
+  for (const Vector3& size : {Vector3(2, 4, 6), Vector3(1, 0.01, 0.3), Vector3(1, 1, 1)}) {
+    Points first;
+    for (const unsigned flips : {0u, 63u, 13u}) {
+      TestMesh mesh;
+      mesh.add_box(-size / 2, size / 2, flips);
+      const Points points = samples_of(mesh);
+      EXPECT_GT(points.rows(), 15000);
+      EXPECT_LT(points.rows(), 30000);
+      if (first.rows() == 0) first = points;
+      expect_same(points, first);
+      for (int axis = 0; axis < 3; ++axis)
+        expect_same(Plane(Vector3::Unit(axis), 0).reflect(points), points);
+    }
+  }
+}
+
+TEST(SurfaceSamples, LieEvenlyOnTheSurface) {
+  // A square plate and a strip, both thin.
+  TestMesh mesh;
+  mesh.add_box({0, 0, 0}, {1, 1, 0.02});
+  mesh.add_box({3, 0, 0}, {3.2, 5, 0.02});
+  const Points points = samples_of(mesh);
+  const auto within = [&](double low, double high) {
+    return static_cast<double>(
+        ((points.col(0).array() > low) && (points.col(0).array() < high)).count());
+  };
+  const double square = within(-1, 2) / (2 * 1 * 1 + 4 * 0.02),
+               strip = within(2.9, 4) / (2 * 0.2 * 5 + 2 * 0.02 * 5.2);
+  EXPECT_NEAR(square / strip, 1, 0.15);
+}
+
+// Triangles of any shape, and their mirror images in another order: so are the samples.
+TEST(SurfaceSamples, OfMirroredFacesAreMirrored) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Index count = 60;
+    Points half = random.box(count);
+    half.col(0) = half.col(0).cwiseAbs().array() + 0.1;
+    Triangles faces(40, 3), images(40, 3);
+    for (Index f = 0; f < faces.rows(); ++f) {
+      for (int c = 0; c < 3; ++c) faces(f, c) = static_cast<Index>(random.uniform(0, count));
+      if (faces(f, 0) == faces(f, 1)) faces(f, 1) = (faces(f, 1) + 1) % count;
+      images.row(f) << faces(f, 1), faces(f, 0), faces(f, 2);
+    }
+    TestMesh mesh;
+    mesh.add(half, faces);
+    half.col(0) *= -1;
+    mesh.add(half, images.colwise().reverse());
+    const Points points = samples_of(mesh);
+    EXPECT_GT(points.rows(), 10000);
+    expect_same(Plane(Vector3::UnitX(), 0).reflect(points), points);
+  }
+}
+
+TEST(SurfaceSamples, FindThePlanesOfABox) {
+  for (const unsigned flips : {0u, 13u, 63u}) {
+    TestMesh mesh;
+    mesh.add_box({-1, -2, -3}, {1, 2, 3}, flips);
+    RandomCloud random(flips);
+    const Matrix3 turn = random.rotation();
+    mesh.move(turn, {5, 6, 7});
+    const Result result = detected(mesh, "plane");
+    bool is_one = false;
+    for (int axis = 0; axis < 3; ++axis)
+      is_one = is_one || is_plane(result, turn.col(axis), {5, 6, 7});
+    EXPECT_TRUE(is_one) << flips;
+    EXPECT_GT(result.score, 0.9) << flips;
+    EXPECT_EQ(result.verdict(), "found");
+    EXPECT_GT(std::get<Index>(result.statistics.at("surface_samples")), 10000);
+    // Pairs are those of the vertices.
+    ASSERT_EQ(result.pairs.rows(), 8);
+    EXPECT_LT(result.residuals.maxCoeff(), 0.1);
+    for (Index row = 0; row < 8; ++row) EXPECT_EQ(result.pairs(row, 0), row);
+    EXPECT_EQ(result.surface_points.rows(), 8);
+  }
+}
+
+TEST(SurfaceSamples, FindThePlaneOfAChair) {
+  for (unsigned flips = 0; flips < 4; ++flips)
+    for (const char* method : {"plane", "auto"}) {
+      TestMesh mesh = chair(flips);
+      RandomCloud random(flips);
+      const Matrix3 turn = random.rotation();
+      mesh.move(turn, random.in_box());
+      const Vector3 on = (mesh.vertices.row(0) + mesh.vertices.row(1)) / 2;
+      const Result result = detected(mesh, method);
+      EXPECT_TRUE(is_plane(result, turn.col(0), on)) << method << flips;
+      EXPECT_GT(result.score, 0.9) << method << flips;
+      EXPECT_EQ(result.pairs.rows(), mesh.vertices.rows()) << method << flips;
+    }
+}
+
+TEST(SurfaceSamples, TakeCornersThatNobodyMergedForOne) {
+  TestMesh merged = chair(1), soup;
+  for (Index f = 0; f < merged.faces.rows(); ++f) {
+    Points corners(3, 3);
+    for (int c = 0; c < 3; ++c) corners.row(c) = merged.vertices.row(merged.faces(f, c));
+    soup.add(corners, (Triangles(1, 3) << 0, 1, 2).finished());
+  }
+  EXPECT_EQ(samples_of(merged).rows() - merged.vertices.rows(),
+            samples_of(soup).rows() - soup.vertices.rows());
+  // As are faces with two sides: no two samples are in one place.
+  TestMesh twice = merged;
+  twice.add(Points(0, 3),
+            Triangles(merged.faces.rowwise().reverse().array() - merged.vertices.rows()));
+  const Points in_order = sorted(samples_of(twice)), once = sorted(samples_of(merged));
+  const auto copies = [](const Points& rows) {
+    Index count = 0;
+    for (Index i = 1; i < rows.rows(); ++i) count += (rows.row(i) - rows.row(i - 1)).norm() < 1e-9;
+    return count;
+  };
+  EXPECT_EQ(copies(in_order), copies(once));
+}
+
+// A dented ball, its diagonals all one way round.
+TestMesh dented_ball(Index rings, Index around) {
+  TestMesh mesh;
+  Points vertices(rings * around, 3);
+  Triangles faces(2 * (rings - 1) * around, 3);
+  for (Index i = 0; i < rings; ++i)
+    for (Index j = 0; j < around; ++j) {
+      const double polar = M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(rings),
+                   turn = 2 * M_PI * static_cast<double>(j) / static_cast<double>(around);
+      const Vector3 u(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                      std::cos(polar));
+      vertices.row(i * around + j) = ((1 + 0.2 * std::sin(3 * u.y() + u.z())) * u).transpose();
+      if (i + 1 == rings) continue;
+      const Index a = i * around + j, b = i * around + (j + 1) % around;
+      faces.row(2 * a) << a, b, a + around;
+      faces.row(2 * a + 1) << b, b + around, a + around;
+    }
+  mesh.add(vertices, faces);
+  return mesh;
+}
+
+TEST(SurfaceSamples, AreNoneWhereFacesAreFineOrEven) {
+  for (const Index rings : {300, 32}) {
+    const TestMesh mesh = dented_ball(rings, 2 * rings);
+    const Result with = detected(mesh, "plane"),
+                 without = detect(mesh.vertices, {.method = "plane"});
+    EXPECT_EQ(with.statistics.count("surface_samples"), 0u);
+    EXPECT_EQ(with.mirror->numbers(), without.mirror->numbers());
+    EXPECT_EQ(with.score, without.score);
+    EXPECT_EQ(with.pairs, without.pairs);
+  }
+  // Even, but few; many, but uneven.
+  EXPECT_GT(samples_of(dented_ball(12, 24)).rows(), 15000);
+  TestMesh both = dented_ball(32, 64);
+  both.add_box({-4, -4, -2}, {4, 4, -1.8});
+  EXPECT_GT(samples_of(both).rows(), 15000);
+}
+
+TEST(SurfaceSamples, DoNotDependOnPoseAndUnit) {
+  const TestMesh mesh = chair(2);
+  const Index count = samples_of(mesh).rows();
+  for (const double unit : {1e-6, 1e6}) {
+    TestMesh other = mesh;
+    other.vertices *= unit;
+    EXPECT_EQ(samples_of(other).rows(), count);
+  }
+  TestMesh turned = mesh;
+  turned.move(RandomCloud(1).rotation(), {1, 2, 3});
+  EXPECT_EQ(samples_of(turned).rows(), count);
+}
+
+// Thousands of needles around a point ask for no more samples than other shapes.
+TEST(SurfaceSamples, AreNotTooMany) {
+  TestMesh mesh;
+  const Index count = 3000;
+  Points vertices(count + 1, 3);
+  Triangles faces(count, 3);
+  vertices.row(count).setZero();
+  for (Index i = 0; i < count; ++i) {
+    const double turn = 2 * M_PI * static_cast<double>(i) / static_cast<double>(count);
+    vertices.row(i) << std::cos(turn), std::sin(turn), 0.1 * std::cos(turn);
+    faces.row(i) << count, i, (i + 1) % count;
+  }
+  mesh.add(vertices, faces);
+  EXPECT_LT(samples_of(mesh).rows(), 70000);
+  EXPECT_GT(samples_of(mesh).rows(), 10000);
+}
+
+TEST(SurfaceSamples, FindEveryKindOfMirror) {
+  // The search methods get the samples, the thesis's the vertices.
+  const TestMesh mesh = chair(0);
+  for (const Method& method : methods()) {
+    const Result result = detected(mesh, method.name.c_str());
+    EXPECT_EQ(result.statistics.count("surface_samples"), method.sees_strays ? 0u : 1u)
+        << method.name;
+    for (Index row = 0; row < result.pairs.rows(); ++row) {
+      ASSERT_LT(result.pairs.row(row).maxCoeff(), mesh.vertices.rows()) << method.name;
+      if (method.sees_strays || !result.mirror) continue;
+      const Vector3 from = mesh.vertices.row(result.pairs(row, 0));
+      const Vector3 to = mesh.vertices.row(result.pairs(row, 1));
+      EXPECT_NEAR((result.mirror->reflect(from) - to).norm(), result.residuals[row], 1e-9)
+          << method.name;
+    }
+  }
+}
+
+TEST(SurfaceSamples, HaveNormals) {
+  const TestMesh mesh = chair(3);
+  Points normals(mesh.vertices.rows(), 3);
+  normals.rowwise() = Vector3(1, 1, 1).transpose().normalized();
+  const Result result = detected(mesh, "plane", normals);
+  EXPECT_TRUE(is_plane(result, Vector3::UnitX(), {0.5, 0, 0}));
+}
+
+TEST(SurfaceSamples, FacesOfPointsLeftOutGo) {
+  TestMesh mesh = chair(1);
+  const Index had = mesh.vertices.rows();
+  const double nan = std::nan("");
+  mesh.add((Points(2, 3) << nan, 0, 0, 0, nan, 1).finished(),
+           (Triangles(1, 3) << 0, 1, -had).finished());
+  const Result result = detected(mesh, "plane");
+  EXPECT_EQ(std::get<Index>(result.statistics.at("nonfinite_points")), 2);
+  EXPECT_TRUE(is_plane(result, Vector3::UnitX(), {0.5, 0, 0}));
+  EXPECT_EQ(result.pairs.rows(), had);
+  // Single points far off, in a sliver of a face or in none, are strays.
+  mesh = chair(1);
+  mesh.add(Points::Constant(1, 3, 40), (Triangles(1, 3) << 0, -had, 1 - had).finished());
+  mesh.faces.conservativeResize(mesh.faces.rows() - 1, 3);
+  EXPECT_EQ(std::get<Index>(detected(mesh, "plane").statistics.at("stray_points")), 1);
+}
+
+// A shade of many small faces and a foot of few large ones, far below: no strays.
+TEST(SurfaceSamples, LargeFacesOfFewVerticesAreNoStrays) {
+  TestMesh mesh;
+  const Index around = 60;
+  Points rings(8 * around, 3);
+  Triangles faces(2 * 7 * around, 3);
+  for (Index r = 0; r < 8; ++r)
+    for (Index j = 0; j < around; ++j) {
+      const double turn = 2 * M_PI * static_cast<double>(j) / static_cast<double>(around);
+      rings.row(r * around + j) << 0.5 * std::cos(turn), 0.5 * std::sin(turn),
+          10 + 0.1 * static_cast<double>(r);
+      if (r == 7) continue;
+      const Index a = r * around + j, b = r * around + (j + 1) % around;
+      faces.row(2 * a) << a, b, a + around;
+      faces.row(2 * a + 1) << b, b + around, a + around;
+    }
+  mesh.add(rings, faces);
+  mesh.add_box({-0.7, -0.7, 0}, {0.7, 0.7, 0.1});
+  EXPECT_EQ(detect(mesh.vertices, {.method = "plane"}).statistics.count("stray_points"), 1u);
+  const Result result = detected(mesh, "plane");
+  EXPECT_EQ(result.statistics.count("stray_points"), 0u);
+  EXPECT_GT(result.score, 0.9);
+}
+
+TEST(SurfaceSamples, FacesThatAreNoneArePassedOver) {
+  TestMesh mesh = chair(0);
+  const Points before = samples_of(mesh);
+  mesh.add(Points(0, 3), (Triangles(2, 3) << -1, -1, -2, -1, -1, -1).finished());
+  EXPECT_EQ(samples_of(mesh), before);
+  // All of them: the points alone.
+  RandomCloud random(0);
+  TestMesh none;
+  none.add(random.box(100), (Triangles(2, 3) << 0, 0, 1, 2, 2, 2).finished());
+  EXPECT_EQ(detected(none, "plane").score, detect(none.vertices, {.method = "plane"}).score);
+}
+
+TEST(SurfaceSamples, FacesMustNamePoints) {
+  for (const Index bad : {Index{48}, Index{-1}, Index{1} << 40}) {
+    TestMesh mesh = chair(0);
+    mesh.faces(7, 1) = bad;
+    for (const Method& method : methods())
+      expect_error<InvalidInput>(
+          "face 7 names point " + std::to_string(bad) + "; allowed is 0 to 47",
+          [&] { detected(mesh, method.name.c_str()); });
+  }
+}
+
+TEST(SurfaceSamples, AreTheFewestPointsAMethodNeeds) {
+  // A tetrahedron has fewer vertices than some methods need, but samples enough.
+  TestMesh mesh;
+  mesh.add((Points(4, 3) << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 0.3, 0.8).finished(),
+           (Triangles(4, 3) << 0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3).finished());
+  for (const char* method : {"plane", "auto", "quadric"}) {
+    const Result result = detected(mesh, method);
+    EXPECT_TRUE(result.mirror) << method;
+  }
+  EXPECT_TRUE(is_plane(detected(mesh, "plane"), Vector3::UnitX(), {0.5, 0, 0}));
+}
+
+}  // namespace
+}  // namespace symsurf

@@ -1,0 +1,337 @@
+"""What detect takes beside arrays: files, meshes and masks; and points that are not finite."""
+
+from __future__ import annotations
+
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from command_line import run
+from symmetric_shapes import mirrored_surface, random_rotation
+
+import symsurf
+
+SIDES = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
+
+
+def box(low, high, flips=0):
+    """Eight corners and twelve triangles; flips says which diagonal divides each side."""
+    corners = np.array(
+        [[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)], float
+    )
+    faces = []
+    for number, side in enumerate(SIDES):
+        c = np.roll(side, -(flips >> number & 1))
+        faces += [(c[0], c[1], c[2]), (c[0], c[2], c[3])]
+    return corners, np.array(faces)
+
+
+def chair(seed):
+    """Seat, back and legs, turned; the mirror is x = 0.5 before that."""
+    boxes = [box((0, 0, 0.45), (1, 1, 0.5), seed), box((0, 0.95, 0.5), (1, 1, 1.2), 11)]
+    for n, (x, y) in enumerate([(0, 0), (0.93, 0), (0, 0.93), (0.93, 0.93)]):
+        boxes.append(box((x, y, 0), (x + 0.07, y + 0.07, 0.45), 7 * n + seed))
+    points = np.vstack([corners for corners, _ in boxes])
+    faces = np.vstack([faces + 8 * n for n, (_, faces) in enumerate(boxes)])
+    rotation = random_rotation(np.random.default_rng(seed))
+    normal = rotation[:, 0]
+    return points @ rotation.T, faces, normal, 0.5 * normal
+
+
+def off(path, points, faces=()):
+    rows = [" ".join(map(repr, point)) for point in points.tolist()]
+    rows += ["3 " + " ".join(map(str, face)) for face in np.asarray(faces).tolist()]
+    path.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "\n".join(rows) + "\n")
+    return path
+
+
+def is_near(mirror, normal, on, within=0.01):
+    angle = np.degrees(np.arccos(min(1, abs(mirror.normal @ normal))))
+    return angle < 0.6 and abs(mirror.normal @ on + mirror.offset) < within
+
+
+# Points that are not finite
+
+
+def with_nan(points, every=7):
+    keep = np.flatnonzero(np.arange(2 * len(points)) % every != 3)[: len(points)]
+    given = np.full((keep[-1] + 1, 3), np.nan)
+    given[keep] = points
+    return given, keep
+
+
+@pytest.mark.parametrize("method", ["plane", "auto", "normals_only"])
+def test_points_that_are_not_finite_are_left_out(method):
+    points, _ = mirrored_surface(400, 3)
+    given, keep = with_nan(points)
+    plain = symsurf.detect(points, method)
+    with pytest.warns(
+        symsurf.InputWarning, match=f"{len(given) - len(points)} points are not"
+    ) as w:
+        result = symsurf.detect(given, method)
+    assert w[0].filename == __file__
+    assert result.statistics["nonfinite_points"] == len(given) - len(points)
+    assert repr(result.mirror) == repr(plain.mirror) and result.score == plain.score
+    np.testing.assert_array_equal(result.pairs, keep[plain.pairs])
+    np.testing.assert_array_equal(result.residuals, plain.residuals)
+    assert len(result.points) == len(given)
+
+
+def test_every_way_in_warns(tmp_path):
+    points, mirror = mirrored_surface(400, 3)
+    points[5, 1] = np.inf
+    path = off(tmp_path / "scan.off", points)
+    for call in (
+        lambda: symsurf.detect_plane(points),
+        lambda: symsurf.detect(path, "plane"),
+        lambda: symsurf.match(points, mirror),
+    ):
+        with pytest.warns(symsurf.InputWarning, match="1 point is not finite: it is left out") as w:
+            result = call()
+        assert w[0].filename == __file__ and result.statistics["nonfinite_points"] == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "nonfinite_points" not in symsurf.detect_plane(np.delete(points, 5, 0)).statistics
+
+
+def test_pictures_and_files_of_such_results(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    points, _ = mirrored_surface(400, 3)
+    given, _ = with_nan(points)
+    with pytest.warns(symsurf.InputWarning):
+        result = symsurf.detect(given, "plane")
+    for suffix in ("json", "vtp", "ply", "txt"):
+        result.save(tmp_path / f"result.{suffix}")
+    assert np.isfinite(pyvista.read(tmp_path / "result.vtp").length)
+
+
+def test_the_command_line_says_so_in_one_line(tmp_path):
+    points, _ = mirrored_surface(400, 3)
+    points[5] = np.nan
+    path = off(tmp_path / "scan.off", points)
+    done = run("detect", path, "--method", "plane")
+    assert done.returncode == 0 and len(done.stderr.splitlines()) == 1
+    assert str(path) in done.stderr and "1 point is not finite" in done.stderr
+    done = run("detect", path, "--method", "plane", "--downsample", "2")
+    assert done.returncode == 0 and "1 point is not finite" in done.stderr
+    done = run("detect", path, "--nonfinite", "refuse")
+    assert done.returncode == 1 and "point 5 is (nan, nan, nan)" in done.stderr
+    assert run("detect", path, "--nonfinite", "drop").returncode == 2
+
+
+# Files
+
+
+def test_a_file_is_read(tmp_path):
+    points, faces, normal, on = chair(1)
+    path = off(tmp_path / "chair.off", points, faces)
+    result, plain = symsurf.detect(path, "plane"), symsurf.detect(str(path), "plane")
+    assert is_near(result.mirror, normal, on)
+    assert repr(result.mirror) == repr(plain.mirror)
+    np.testing.assert_array_equal(result.points, points)
+    np.testing.assert_array_equal(result.faces, faces)
+    record = run("detect", path, "--method", "plane", "--json").stdout
+    assert f'"score": {result.score!r}' in record and '"surface_samples"' in record
+    record = run("detect", path, "--method", "plane", "--ignore-faces", "--json").stdout
+    assert '"surface_samples"' not in record
+
+
+# Meshes
+
+
+def shapes_of(points, faces):
+    """The same mesh as everything that detect takes for one."""
+    yield {"points": points, "faces": faces}
+    yield {"points": points.tolist(), "faces": faces.tolist()}
+    yield {"points": points, "faces": faces.astype(np.uint32)}
+    yield {"points": symsurf.Shape(points, faces)}
+    yield {"points": SimpleNamespace(vertices=points, faces=faces)}  # as trimesh has them
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.PolyData.from_regular_faces(points, faces)
+    yield {"points": mesh}
+    yield {"points": mesh.cast_to_unstructured_grid()}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_faces_find_the_mirror_of_a_chair(seed):
+    points, faces, normal, on = chair(seed)
+    results = [symsurf.detect(method="plane", **given) for given in shapes_of(points, faces)]
+    first = results[0]
+    assert is_near(first.mirror, normal, on) and first.score > 0.9 and first.verdict == "found"
+    assert first.statistics["surface_samples"] > 10000
+    assert len(first.pairs) == len(points) and first.pairs.max() < len(points)
+    for result in results:
+        assert repr(result.mirror) == repr(first.mirror) and result.score == first.score
+        np.testing.assert_array_equal(result.faces, faces)
+        np.testing.assert_array_equal(result.pairs, first.pairs)
+
+
+def test_faces_can_be_left_aside():
+    points, faces, *_ = chair(0)
+    plain = symsurf.detect(points, "plane")
+    result = symsurf.detect(symsurf.Shape(points, faces), "plane", use_faces=False)
+    assert repr(result.mirror) == repr(plain.mirror) and result.score == plain.score
+    assert plain.faces is None
+    np.testing.assert_array_equal(result.faces, faces)  # for pictures
+
+
+def test_polygons_are_divided():
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Box((0, 1, 0, 2, 0, 3))  # of quads
+    result = symsurf.detect(mesh, "plane")
+    assert result.faces.shape == (12, 3) and result.statistics["surface_samples"] > 10000
+    assert np.abs(result.mirror.normal).max() > 0.9999
+    cells = pyvista.UnstructuredGrid({pyvista.CellType.HEXAHEDRON: np.arange(8)[None]}, mesh.points)
+    assert symsurf.detect(cells, "plane").faces is None  # a body, not its surface
+
+
+def test_a_curved_structured_grid_is_a_mesh():
+    pyvista = pytest.importorskip("pyvista")
+    x, y = np.meshgrid(np.linspace(-1, 1, 20), np.linspace(-2, 3, 30), indexing="ij")
+    sheet = pyvista.StructuredGrid(x, y, 0.3 * x**2 + 0.1 * y**3)
+    result = symsurf.detect(sheet, "plane")
+    assert len(result.faces) == 2 * 19 * 29 and len(result.points) == 600
+    assert is_near(result.mirror, np.array([1.0, 0, 0]), np.zeros(3))
+
+
+def test_other_objects_are_as_they_were():
+    points, _ = mirrored_surface(400, 0)
+    for given in (points, points.tolist(), SimpleNamespace(points=points)):
+        result = symsurf.detect(given, "plane")
+        assert result.faces is None and repr(result.mirror) == repr(
+            symsurf.detect_plane(points).mirror
+        )
+
+
+# Masks and images
+
+
+def body(shape=(31, 36, 26)):
+    """A grid of numbers above 1 within a body whose only mirror is x = 12."""
+    pyvista = pytest.importorskip("pyvista")
+    grid = pyvista.ImageData(dimensions=shape)
+    x, y, z = (np.asarray(grid.points) - (12, 17, 12)).T
+    ball = 1 - (x / 9) ** 2 - (y / 15) ** 2 - (z / 7) ** 2
+    arm = 1 - ((abs(x) - 6) / 4) ** 2 - ((y - 8) / 4) ** 2 - ((z - 5) / 6) ** 2
+    grid["density"] = 1 + np.maximum(ball, arm) - 0.01
+    return grid
+
+
+MIRROR = np.array([1.0, 0, 0]), np.array([12.0, 0, 0])
+HALF_A_CELL = 0.51
+
+
+def test_an_image_is_the_points_above_the_threshold():
+    grid = body()
+    result = (
+        grid.symmetry.detect("plane", threshold=1)
+        if hasattr(grid, "symmetry")
+        else (symsurf.detect(grid, "plane", threshold=1))
+    )
+    expected = np.asarray(grid.points)[grid["density"] > 1]
+    np.testing.assert_array_equal(result.points, expected)
+    assert is_near(result.mirror, *MIRROR, within=HALF_A_CELL) and result.faces is None
+    assert result.pairs.max() < len(expected)
+    by_name = symsurf.detect(grid, "plane", threshold=1, scalars="density")
+    assert repr(by_name.mirror) == repr(result.mirror)
+
+
+@pytest.mark.parametrize("mask", ["bool", "uint8", "labels"])
+def test_a_mask_needs_no_threshold(mask):
+    grid = body()
+    inside = grid["density"] > 1
+    grid["mask"] = {"bool": inside, "uint8": inside.astype(np.uint8), "labels": 3 + 4 * inside}[
+        mask
+    ]
+    grid.set_active_scalars("mask")
+    result = symsurf.detect(grid, "plane")
+    assert len(result.points) == inside.sum() and is_near(
+        result.mirror, *MIRROR, within=HALF_A_CELL
+    )
+
+
+def test_cells_are_their_centres():
+    grid = body()
+    centres = grid.point_data_to_cell_data()
+    centres.set_active_scalars("density")
+    result = symsurf.detect(centres, "plane", threshold=1)
+    inside = np.asarray(centres.cell_data["density"]) > 1
+    np.testing.assert_allclose(result.points, centres.cell_centers().points[inside])
+    assert is_near(result.mirror, *MIRROR, within=HALF_A_CELL)
+
+
+@pytest.mark.parametrize("kind", ["rectilinear", "structured", "flat"])
+def test_every_regular_grid(kind):
+    pyvista = pytest.importorskip("pyvista")
+    grid = body()
+    if kind == "flat":
+        x, y = np.meshgrid(np.arange(40.0), np.arange(50.0), indexing="ij")
+        grid = pyvista.StructuredGrid(x, y, 0 * x)
+        grid["density"] = 2 - ((grid.points[:, 0] - 12) / 9) ** 2 - (grid.points[:, 1] / 40) ** 3
+    else:
+        grid = {
+            "rectilinear": lambda: grid.cast_to_rectilinear_grid(),
+            "structured": lambda: grid.cast_to_structured_grid().rotate_z(0),
+        }[kind]()
+    result = symsurf.detect(grid, "plane", threshold=1, scalars="density")
+    assert len(result.points) == (grid["density"] > 1).sum()
+    assert is_near(result.mirror, *MIRROR, within=HALF_A_CELL)
+    grid.clear_data()
+    with pytest.raises(symsurf.InvalidInput, match="scalars=NAME"):
+        symsurf.detect(grid, "plane")
+
+
+def test_never_the_symmetry_of_the_grid_itself():
+    grid = body()
+    with pytest.raises(symsurf.InvalidInput, match="give threshold=NUMBER"):
+        symsurf.detect(grid)
+    with pytest.raises(symsurf.InvalidInput, match="above threshold=99; they end at"):
+        symsurf.detect(grid, threshold=99)
+    with pytest.raises(symsurf.InvalidInput, match="scalars='none' are not there.*'density'"):
+        symsurf.detect(grid, threshold=1, scalars="none")
+    with pytest.raises(symsurf.InvalidParameter, match="threshold is 'high'"):
+        symsurf.detect(grid, threshold="high")
+    grid["all"] = np.ones(grid.n_points, np.uint8)
+    with pytest.raises(symsurf.InvalidInput, match="threshold=NUMBER"):
+        symsurf.detect(grid, scalars="all")
+    grid["vectors"] = np.ones((grid.n_points, 3))
+    with pytest.raises(symsurf.InvalidInput, match="'vectors' have shape"):
+        symsurf.detect(grid, scalars="vectors", threshold=0)
+
+
+# What a result says of itself
+
+
+def test_verdicts():
+    points, _ = mirrored_surface(600, 0)
+    result = symsurf.detect(points, "plane")
+    assert result.verdict == "found" and "plane" in result.reason
+    assert symsurf.detect(points, "plane", minimum_score=1.0).verdict in ("found", "none")
+    blob = np.random.default_rng(0).uniform(size=(600, 3))
+    none = symsurf.detect(blob, "plane", minimum_score=0.999)
+    assert none.verdict == "none" and none.reason
+    unjudged = symsurf.match(points, result.mirror)
+    assert unjudged.verdict == "none" and unjudged.reason == ""
+    for candidate in result.candidates:
+        assert candidate.verdict in ("found", "none") and isinstance(candidate.reason, str)
+
+
+def test_words():
+    points, _ = mirrored_surface(600, 0)
+    result = symsurf.detect(np.vstack([points, points[:1] + 0.3]), "plane")
+    share = np.floor(1000 * len(result.pairs) / 601) / 10
+    median = f"{np.median(result.residuals):.3g}"
+    for text in (repr(result), str(result), result._repr_html_()):
+        for word in ("plane", "found", f"{result.score:.3f}", f"{share:g} % of 601 points", median):
+            assert word in text
+    assert "\n" not in repr(result) and result.reason in str(result)
+    assert "verdict" not in repr(symsurf.match(points, result.mirror))
+
+
+def test_the_command_line_prints_the_verdict(tmp_path):
+    points, _ = mirrored_surface(600, 0)
+    path = off(tmp_path / "scan.off", points)
+    result = symsurf.detect(points, "plane")
+    done = run("detect", path, "--method", "plane")
+    assert f"\n  verdict   found: {result.reason}\n" in done.stdout
