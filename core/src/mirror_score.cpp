@@ -25,6 +25,7 @@ constexpr double least_radius = 0.05, greatest_radius = 0.15;  // of the balls
 constexpr Index points_in_ball = 30;  // in the median, where the cloud is that dense
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
 constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
+constexpr double sparse = 0.2;     // of the median ball's points: fewer are no surface
 constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1
 constexpr double by_chance = 0.1;  // probability of a neighbour: farther ones do not count
 // From which distance from the mirror on a point counts in full: near it any surface is symmetric.
@@ -76,16 +77,22 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       coarse_(cloud, sample_count, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
       thinned_(fine_.positions(fine_.size())) {
-  for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0});
+  for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0, 1});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
   moved_ = std::max(least_moved, moved_by_noise * noise());
+  std::vector<Index> counts;
   for (Sample& sample : samples_) {
     sample.ball = ball_of(thinned_, sample.position);
     const Spread spread(sample.ball.covariance, radius_);
     const double error = spread.variances[0] * 2 / std::max(1.0, sample.ball.effective);
     sample.surface = spread.surface() / (1 + error / squared(unsure));
+    counts.push_back(sample.ball.count);
   }
+  const auto others = [](Index count) { return static_cast<double>(count - 1); };
+  const double full = sparse * others(median(std::move(counts)));
+  for (Sample& sample : samples_)
+    if (full > 0) sample.density = std::min(1.0, others(sample.ball.count) / full);
 }
 
 double MirrorScore::noise() const {
@@ -129,6 +136,10 @@ MirrorScore::Ball MirrorScore::ball_of(const PointSet& set, const Vector3& x) co
   ball.covariance = products.selfadjointView<Eigen::Lower>();
   ball.covariance = ball.covariance / weights - ball.mean * ball.mean.transpose();
   return ball;
+}
+
+double MirrorScore::Sample::weight() const {
+  return density * (surface + in_volume * (1 - surface));
 }
 
 MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
@@ -180,11 +191,10 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   double all = 0, weights = 0, support = 0, exact = 0;
   for (std::size_t k = 0; k < samples_.size(); k += stride) {
     const Sample& sample = samples_[k];
-    const double weight = sample.surface + in_volume * (1 - sample.surface);
-    all += weight;
+    all += sample.weight();
     const Vector3 x = frame.leave(sample.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
-      weights += weight;
+      weights += sample.weight();
       continue;
     }
     if (layers)
@@ -196,19 +206,19 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   }
   if (asked.empty()) return {};
   const PointSet image_set = mirrored(mirror);
-  std::vector<double> distances;
-  for (const Moved& m : asked) distances.push_back(m.distance);
-  const double extent = quantile(std::move(distances), 0.95);
-  const double in_full = std::max(moved_, moved_by_extent * extent);
   const std::vector<Vector3> partners = points_.nearest(images, far * frame.size);
+  std::vector<double> partnered{0};
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    if (partners[k].allFinite()) partnered.push_back(asked[k].distance);
+  const double extent = quantile(std::move(partnered), 0.95);
+  const double in_full = std::max(moved_, moved_by_extent * extent);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const auto& [sample, distance] = asked[k];
     const double gap = (partners[k] - images[k]).norm() / frame.size;  // NaN where there is none
     if (gap < rounding) {
-      const double weight = sample->surface + in_volume * (1 - sample->surface);
-      weights += weight;
-      exact += weight;
-      support += weight;
+      weights += sample->weight();
+      exact += sample->weight();
+      support += sample->weight();
       continue;
     }
     const double displacement = displaced(distance, in_full);
@@ -221,9 +231,9 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                            static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);
-    const double weight = displacement * (surface + in_volume * (1 - surface));
-    weights += weight;
-    support += displacement * (surface * on_surface + in_volume * (1 - surface) * in_body);
+    const double counted = displacement * sample->density;
+    weights += counted * (surface + in_volume * (1 - surface));
+    support += counted * (surface * on_surface + in_volume * (1 - surface) * in_body);
   }
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;

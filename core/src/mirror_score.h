@@ -75,6 +75,9 @@ class MirrorScore {
     Vector3 position;
     Ball ball;
     double surface;  // 0..1: does the ball tell where the surface lies?
+    double density;  // 0..1: less where next to no others are, as among clutter
+
+    double weight() const;
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
