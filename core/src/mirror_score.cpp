@@ -76,12 +76,12 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       points_(points),
       coarse_(cloud, sample_count, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
-      thinned_(fine_.positions(fine_.size())) {
+      thinned_(thinned(fine_)) {
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0, 1});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
   moved_ = std::max(least_moved, moved_by_noise * noise());
-  std::vector<Index> counts;
+  std::vector<double> counts;
   for (Sample& sample : samples_) {
     sample.ball = ball_of(thinned_, sample.position);
     const Spread spread(sample.ball.covariance, radius_);
@@ -89,10 +89,8 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
     sample.surface = spread.surface() / (1 + error / squared(unsure));
     counts.push_back(sample.ball.count);
   }
-  const auto others = [](Index count) { return static_cast<double>(count - 1); };
-  const double full = sparse * others(median(std::move(counts)));
-  for (Sample& sample : samples_)
-    if (full > 0) sample.density = std::min(1.0, others(sample.ball.count) / full);
+  const double full = sparse * median(std::move(counts));
+  for (Sample& sample : samples_) sample.density = std::min(1.0, sample.ball.count / full);
 }
 
 double MirrorScore::noise() const {
@@ -105,7 +103,7 @@ void MirrorScore::choose_radius() {
   constexpr double growth = 1.15;
   constexpr std::size_t stride = 8;
   const auto typical_count = [&] {
-    std::vector<Index> counts;
+    std::vector<double> counts;
     for (std::size_t k = 0; k < samples_.size(); k += stride)
       counts.push_back(ball_of(thinned_, samples_[k].position).count);
     return median(std::move(counts));
@@ -120,9 +118,9 @@ MirrorScore::Ball MirrorScore::ball_of(const PointSet& set, const Vector3& x) co
   Matrix3 products = Matrix3::Zero();  // its lower triangle
   const double per_squared = 1 / squared(radius_);
   set.tree.within(x, radius_, [&](Index i, double squared_distance) {
-    const double weight = 1 - squared_distance * per_squared;
+    const double weight = set.weights[i] * (1 - squared_distance * per_squared);
     const Vector3 offset = set.points.row(i).transpose() - x, weighted = weight * offset;
-    ++ball.count;
+    ball.count += set.weights[i];
     weights += weight;
     squares += squared(weight);
     ball.mean += weighted;
@@ -142,21 +140,35 @@ double MirrorScore::Sample::weight() const {
   return density * (surface + in_volume * (1 - surface));
 }
 
+MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine) {
+  Points positions(fine.size(), 3);
+  std::vector<double> counts;
+  for (Index k = 0; k < fine.size(); ++k) {
+    positions.row(k) = fine[k].position.transpose();
+    counts.push_back(fine[k].count);
+  }
+  const double full = sparse * median(counts);
+  for (double& count : counts) count = std::min(1.0, count / full);
+  return {std::move(positions), std::move(counts)};
+}
+
 MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
   const PrincipalFrame& frame = cloud_.frame;
   Points images(thinned_.points.rows(), 3);
-  Index count = 0;
+  std::vector<double> weights;
   for (Index i = 0; i < images.rows(); ++i) {
     const Vector3 image = mirror.reflect(frame.leave(thinned_.points.row(i).transpose()));
-    if (image.allFinite()) images.row(count++) = frame.enter(image).transpose();
+    if (!image.allFinite()) continue;
+    images.row(static_cast<Index>(weights.size())) = frame.enter(image).transpose();
+    weights.push_back(thinned_.weights[i]);
   }
-  images.conservativeResize(count, 3);
-  return PointSet(std::move(images));
+  images.conservativeResize(static_cast<Index>(weights.size()), 3);
+  return {std::move(images), std::move(weights)};
 }
 
 double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
                               double& surface) const {
-  constexpr Index least = 3;
+  constexpr double least = 3;
   const Ball image = ball_of(mirrored, sample.position);
   if (image.count < least) return 0;
   const Spread own(sample.ball.covariance, radius_), other(image.covariance, radius_);
@@ -226,8 +238,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
     double surface = sample->surface;
     const double on_surface = supported(*sample, image_set, surface);
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
-    const double density = static_cast<double>(sample->ball.count) *
-                           static_cast<double>(cloud_.total) /
+    const double density = sample->ball.count * static_cast<double>(cloud_.total) /
                            static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);

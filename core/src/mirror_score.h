@@ -56,7 +56,7 @@ class MirrorScore {
  private:
   // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
   struct Ball {
-    Index count = 0;
+    double count = 0;                // of points, sparse ones less
     double effective = 0;            // how many points of equal weight tell as much
     Vector3 mean = Vector3::Zero();  // from the centre
     Matrix3 covariance = Matrix3::Zero();
@@ -85,12 +85,15 @@ class MirrorScore {
   double noise() const;
   // The thinned points, or their images.
   struct PointSet {
-    explicit PointSet(Points rows) : points(std::move(rows)), tree(points) {}
+    PointSet(Points rows, std::vector<double> weights)
+        : points(std::move(rows)), weights(std::move(weights)), tree(points) {}
     Points points;
+    std::vector<double> weights;  // 0..1: less where the cloud is sparse, as among clutter
     PointTree tree;
   };
 
   Ball ball_of(const PointSet& set, const Vector3& x) const;
+  static PointSet thinned(const Surfels& fine);
   PointSet mirrored(const Mirror& mirror) const;
   double supported(const Sample& sample, const PointSet& mirrored, double& surface) const;
 

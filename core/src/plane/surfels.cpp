@@ -223,6 +223,7 @@ void Surfels::make_surfels(const std::vector<Patch>& patches) {
                         thinnest.thickness,
                         thinnest.width,
                         patch.sampled,
+                        patch.moments.count(),
                         grid_.cells().low() + around.mean(),
                         covariance});
   }

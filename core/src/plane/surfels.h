@@ -23,6 +23,7 @@ struct Surfel : Facet {
   Vector3 position;
   double thickness, width;  ///< standard deviations along the thinnest direction and the next
   Vector3 sampled;          ///< the cloud's point nearest to the middle of the cell
+  double count;             ///< points of the cell
   Vector3 mean;             ///< of the points of the cells around
   Matrix3 covariance;       ///< theirs
 
