@@ -24,6 +24,7 @@ constexpr Index sample_count = 500;                            // points whose s
 constexpr double least_radius = 0.05, greatest_radius = 0.15;  // of the balls
 constexpr Index points_in_ball = 30;  // in the median, where the cloud is that dense
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
+constexpr double strip = 0.5, whole = 0.7;  // share of a ball's points: at a rim; anywhere by chance
 constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
 constexpr double sparse = 0.2;     // of the median ball's points: fewer are no surface
 constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1
@@ -179,14 +180,19 @@ double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
     const Vector3 left = along.cwiseAbs2() - 4 / effective * spread.variances;
     return spread.thinness.dot(left);
   };
-  const double offset =
-      std::max({0.0, across(own, sample.ball.effective), across(other, image.effective)});
+  // At a rim, where one ball holds but a strip, the other tells which way the surface goes.
+  const double one = across(own, sample.ball.effective), two = across(other, image.effective);
+  const auto [less, more] = std::minmax(sample.ball.count, image.count);
+  const double of_whole = more == image.count ? two : one;
+  const double shared = std::clamp((less / more - strip) / (whole - strip), 0.0, 1.0);
+  const double offset = std::max(0.0, shared * std::max(one, two) + (1 - shared) * of_whole);
+  const double complete = std::min(1.0, less / (whole * more));
   const double cosine = own.axes.col(0).dot(other.axes.col(0));
   const double turned = own.flatness * other.flatness * (1 - squared(cosine));
   const double missed = offset / squared(far);
   surface = std::max(surface, other.surface() * sample.surface);
-  return squared(1 - turned) / (1 + offset / squared(near)) -
-         penalty * missed * std::exp(1 - missed);
+  return complete * (squared(1 - turned) / (1 + offset / squared(near)) -
+                     penalty * missed * std::exp(1 - missed));
 }
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
