@@ -172,7 +172,7 @@ TEST(Clutter, IsNotWhereASheetIsSparse) {
     const Points uneven = points(kept, Eigen::indexing::all);
     const Result result = detect(uneven, {.method = "plane"});
     EXPECT_LT(turned_by(result), 1e-3) << seed;
-    EXPECT_GT(result.score, 0.8) << seed;
+    EXPECT_GT(result.score, 0.7) << seed;
   }
 }
 
