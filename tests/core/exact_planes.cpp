@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+#include <symsurf/plane.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+Points turned(const Points& points, RandomCloud& random) {
+  return (points * random.rotation().transpose()).rowwise() + random.in_box().transpose();
+}
+
+// The points of a lattice on the surface of a box.
+Points box_surface(int x, int y, int z) {
+  std::vector<Vector3> rows;
+  for (int i = 0; i <= x; ++i)
+    for (int j = 0; j <= y; ++j)
+      for (int k = 0; k <= z; ++k)
+        if (i % x == 0 || j % y == 0 || k % z == 0) rows.emplace_back(i, j, k);
+  Points points(static_cast<Index>(rows.size()), 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) = rows[i].transpose();
+  return points;
+}
+
+// Rings of teeth: `count` planes through the axis, and one across it.
+Points gear(int count) {
+  constexpr int steps = 6, layers = 4;
+  Points points(2 * count * steps * layers, 3);
+  for (Index i = 0; i < points.rows(); ++i) {
+    const auto layer = static_cast<double>(i % layers);
+    const Index step = i / layers;
+    const double angle = std::numbers::pi * (static_cast<double>(step) + 0.5) / (count * steps);
+    const double radius = step / steps % 2 ? 1 : 1.2;
+    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), 0.1 * layer;
+  }
+  return points;
+}
+
+void expect_planes(const Points& points, std::size_t count) {
+  const Result result = detect(points, {.method = "plane"});
+  EXPECT_EQ(result.score, 1);
+  ASSERT_EQ(result.candidates.size() + 1, count);
+  for (const Result& candidate : result.candidates) EXPECT_EQ(candidate.score, 1);
+  for (const Result& candidate : result.candidates) {
+    const Result matched = detect(candidate.mirror->reflect(points), {.method = "plane"});
+    EXPECT_EQ(matched.score, 1);
+  }
+}
+
+TEST(ExactPlanes, AreAllFound) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    expect_planes(turned(box_surface(8, 12, 16), random), 3);
+    expect_planes(turned(box_surface(8, 8, 12), random), 5);
+    expect_planes(turned(box_surface(8, 8, 8), random), 9);
+    expect_planes(turned(gear(12), random), 13);
+  }
+}
+
+// A hundred points or a thousand without any surface.
+TEST(ExactPlanes, AreFoundOfRandomPoints) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const Index count : {10, 50, 150, 500}) {
+      RandomCloud random(seed);
+      Points points(2 * count, 3);
+      points.topRows(count) = random.box(count);
+      points.col(0).head(count).array() += 0.3;
+      points.bottomRows(count) = points.topRows(count);
+      points.col(0).tail(count) *= -1;
+      const Result result = detect(turned(points, random), {.method = "auto"});
+      EXPECT_EQ(result.method, "plane") << seed << ' ' << count;
+      EXPECT_EQ(result.score, 1) << seed << ' ' << count;
+      EXPECT_EQ(result.pairs.rows(), 2 * count) << seed << ' ' << count;
+      EXPECT_LT(result.residuals.maxCoeff(), 1e-12) << seed << ' ' << count;
+      EXPECT_EQ(result.verdict(), "found");
+    }
+}
+
+// The plane of a flat cloud moves nothing.
+TEST(ExactPlanes, LeaveOutThePlaneOfAFlatCloud) {
+  Points points = box_surface(8, 12, 2);
+  points.col(2).setZero();
+  const Result result = detect(points, {.method = "plane"});
+  EXPECT_EQ(result.score, 1);
+  EXPECT_LT(std::abs(dynamic_cast<const Plane&>(*result.mirror).normal().z()), 1e-12);
+  EXPECT_EQ(result.candidates.size(), 1);
+}
+
+// To the side of (4, 2, 1), whatever the order of the points.
+TEST(ExactPlanes, HaveANormalOfDefinedSign) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = turned(box_surface(8, 12, 16), random);
+    const Result forward = detect(points, {.method = "plane"});
+    const Result backward = detect(points.colwise().reverse().eval(), {.method = "plane"});
+    const Vector3 normal = dynamic_cast<const Plane&>(*forward.mirror).normal();
+    EXPECT_GT(normal.dot(Vector3(4, 2, 1)), 0) << seed;
+    EXPECT_LT((normal - dynamic_cast<const Plane&>(*backward.mirror).normal()).norm(), 1e-9)
+        << seed;
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
