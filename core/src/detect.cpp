@@ -4,23 +4,9 @@
 
 #include "run_alone.h"
 #include "shared_run.h"
+#include "verdict.h"
 
 namespace symsurf {
-
-namespace {
-
-void judge(Result& result, double minimum_score) {
-  const bool found = (result.mirror || result.pairs.rows() > 0) && result.score >= minimum_score;
-  result.statistics["verdict"] = std::string(found ? "found" : "none");
-  result.statistics.try_emplace(
-      "reason", !result.mirror && result.pairs.rows() == 0
-                    ? result.method + " finds no mirror"
-                    : result.method + " scores " + to_string(Value(result.score)) +
-                          (found ? ", at least " : ", below ") + "the minimum_score of " +
-                          to_string(Value(minimum_score)));
-}
-
-}  // namespace
 
 Result detect(PointsView points, const Options& options, const Context& context) {
   const auto start = std::chrono::steady_clock::now();
@@ -29,7 +15,7 @@ Result detect(PointsView points, const Options& options, const Context& context)
   Result result = context.communicator() ? detect_shared(points, options, chosen, values, context)
                                          : run_alone(points, options, chosen, values, context);
   if (result.parameters.empty()) result.parameters = values.all();
-  judge(result, values.real("minimum_score"));
+  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
   context.report(1);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -1,19 +1,41 @@
 #include <symsurf/errors.h>
 #include <symsurf/match.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "cloud.h"
+#include "fills_bodies.h"
 #include "matching.h"
+#include "mirror_score.h"
 #include "nonfinite_removal.h"
 #include "run_on.h"
+#include "skin.h"
 #include "strays.h"
+#include "verdict.h"
 
 namespace symsurf {
 
 namespace {
+
+double share_explained(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+                       const Context& context) {
+  const NearestPoints points(cloud.points, tree, context);
+  return score_of(MirrorScore(cloud, points, context).fit(mirror), mirror.kind());
+}
+
+// Of a cloud that fills bodies that of their boundary.
+double score_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+                  const Context& context) {
+  const double whole = share_explained(cloud, tree, mirror, context);
+  if (whole >= 1 || !fills_bodies(cloud, context)) return whole;
+  const ParameterValues none;
+  const Points rows = Skin(cloud, none, context).rows(cloud.points);
+  const Cloud skin = checked_cloud(rows, {}, 1, context);
+  return std::max(whole, share_explained(skin, PointTree(rows, context), mirror, context));
+}
 
 Result matched(PointsView points, const Mirror& mirror, double pair_distance,
                const Context& context) {
@@ -22,6 +44,7 @@ Result matched(PointsView points, const Mirror& mirror, double pair_distance,
   const auto run = [&](const Cloud& cloud) {
     Result result;
     PointTree tree(cloud.points, context.stage(0, 0.2));
+    result.score = score_over(cloud, tree, mirror, unreported);
     add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
               context.stage(0.2, 1));
     return result;
@@ -46,6 +69,7 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance, cons
   if (nonfinite) nonfinite->map_back(result);
   result.method = "match";
   result.parameters = {{"pair_distance", pair_distance}};
+  judge(result, true, usual_minimum_score);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numbers>
 
 #include "mirror_layers.h"
 #include "parallel.h"
@@ -24,7 +23,8 @@ constexpr Index sample_count = 500;                            // points whose s
 constexpr double least_radius = 0.05, greatest_radius = 0.15;  // of the balls
 constexpr Index points_in_ball = 30;  // in the median, where the cloud is that dense
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
-constexpr double strip = 0.5, whole = 0.7;  // share of a ball's points: at a rim; anywhere by chance
+constexpr double strip = 0.5,
+                 whole = 0.7;      // share of a ball's points: at a rim; anywhere by chance
 constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
 constexpr double sparse = 0.2;     // of the median ball's points: fewer are no surface
 constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1

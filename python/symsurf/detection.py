@@ -95,7 +95,8 @@ def match(
         nonfinite, threads, progress: as for ``detect``.
 
     Returns:
-        A result without a score (0), with the pairs in the order of the points.
+        A result with the score and the verdict that ``detect`` gives such a mirror, and the pairs
+        in the order of the points.
 
     Raises:
         InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.

@@ -34,10 +34,10 @@ class Result:
     residuals: NDArray[np.float64]
     """(m,) distances from the image to the partner; input units."""
     score: float
-    """0: no symmetry, 1: exact."""
+    """0: no symmetry, 1: exact. The share of the shape that the mirror maps onto it."""
     candidates: list[Result]
-    """Other mirrors, best first as the method sees it, which looks closer than the score: one may
-    score more than the result. Without pairs; ``match`` gives them theirs."""
+    """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
+    theirs."""
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]

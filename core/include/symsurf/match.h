@@ -11,7 +11,7 @@ namespace symsurf {
 /// nearer than `pair_distance` times the diagonal: how a mirror found elsewhere, or one of
 /// Result::candidates, fits. Equally near partners: the lowest index. Points far off the rest have
 /// no partners, as in detect, and do not count for the diagonal; nor do points that are not finite,
-/// which `refuse_nonfinite` makes an error. The result has no score.
+/// which `refuse_nonfinite` makes an error. The score and the verdict are those that detect gives.
 /// Throws InvalidInput and Cancelled as detect does, InvalidParameter for a negative distance.
 Result match(PointsView points, const Mirror& mirror, double pair_distance = 0.05,
              const Context& context = {}, bool refuse_nonfinite = false);

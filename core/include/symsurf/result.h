@@ -18,9 +18,9 @@ struct Result {
   Points surface_points;
   Pairs pairs;                ///< (point, partner), indices into the input
   Eigen::VectorXd residuals;  ///< distance from the image to the partner, input units
-  double score = 0;           ///< 0: no symmetry, 1: exact
-  /// Other mirrors, without pairs; best first as the method sees it, which looks closer than the
-  /// score: one may score more than the result.
+  /// 0: no symmetry; 1: exact. The share of the shape that the mirror maps onto it.
+  double score = 0;
+  /// Other mirrors, without pairs, by score; none scores more than the result.
   std::vector<Result> candidates;
   Values parameters;  ///< as used
   /// "verdict", "found" or "none"; "reason", a sentence that says why; whatever else the method

@@ -2,12 +2,14 @@
 
 #include <symsurf/errors.h>
 
+#include "../verdict.h"
+
 namespace symsurf {
 
 namespace {
 
 Parameter minimum_score() {
-  return Parameter::real("minimum_score", 0.5, 0, 1, "",
+  return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
                          "Below it the verdict is \"none\": what was found is no symmetry of the "
                          "shape.");
 }

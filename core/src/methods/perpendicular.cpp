@@ -1,5 +1,7 @@
 #include <symsurf/free_form.h>
 
+#include <algorithm>
+
 #include "../mirror_score.h"
 #include "../perpendicular/pairing.h"
 #include "../perpendicular/parametric_method.h"
@@ -23,24 +25,22 @@ Result find_free_form(const Cloud& cloud, const ParameterValues& values, const C
   result.statistics["noise"] = search.cloud.noise * search.cloud.diagonal;
   if (search.sheets.empty()) return result;
 
-  const perpendicular::Sheet& best = search.sheets.front();
-  result.mirror = in_input_units(search.cloud, best);
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
   const NearestPoints points(cloud.points, tree, context);
   const MirrorScore score(cloud, points, context.stage(0.75, 0.8));
-  score.fill(result);
+  const auto most = 1 + static_cast<std::size_t>(values.integer("max_candidates"));
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (std::size_t k = 0; k < std::min(most, search.sheets.size()); ++k)
+    mirrors.push_back(in_input_units(search.cloud, search.sheets[k]));
+  Values statistics = std::move(result.statistics);
+  result = score.ranked(result.method, mirrors);
+  result.statistics.merge(statistics);
+  const perpendicular::Sheet& sheet =
+      search.sheets[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()];
   result.statistics["typical_miss"] =
-      best.typical_miss * search.cloud.spacing * search.cloud.diagonal;
-  perpendicular::add_pairs(result, cloud, search.cloud, best, values.real("pair_distance"),
+      sheet.typical_miss * search.cloud.spacing * search.cloud.diagonal;
+  perpendicular::add_pairs(result, cloud, search.cloud, sheet, values.real("pair_distance"),
                            context.stage(0.8, 1));
-  const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
-  for (std::size_t k = 1; k < search.sheets.size() && result.candidates.size() < most; ++k) {
-    Result other;
-    other.method = result.method;
-    other.mirror = in_input_units(search.cloud, search.sheets[k]);
-    score.fill(other);
-    result.candidates.push_back(std::move(other));
-  }
   return result;
 }
 

@@ -34,25 +34,18 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
   Result result;
   result.method = method;
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    const Sheet& sheet = fits[k].sheet;
-    std::shared_ptr<Mirror> mirror = fits[k].mirror->transformed(
-        found.cloud.diagonal, Matrix3::Identity(), found.cloud.centroid);
-    if (k == 0) {
-      result.mirror = std::move(mirror);
-      score.fill(result);
-      result.statistics["typical_miss"] =
-          sheet.typical_miss * found.cloud.spacing * found.cloud.diagonal;
-      add_pairs(result, cloud, found.cloud, sheet, values.real("pair_distance"),
-                context.stage(0.8, 1));
-    } else if (result.candidates.size() < most) {
-      Result other;
-      other.method = method;
-      other.mirror = std::move(mirror);
-      score.fill(other);
-      result.candidates.push_back(std::move(other));
-    }
-  }
+  if (fits.size() > 1 + most) fits.resize(1 + most);
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const Fitted& f : fits)
+    mirrors.push_back(
+        f.mirror->transformed(found.cloud.diagonal, Matrix3::Identity(), found.cloud.centroid));
+  if (mirrors.empty()) return result;
+  result = score.ranked(method, mirrors);
+  const Sheet& sheet =
+      fits[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].sheet;
+  result.statistics["typical_miss"] =
+      sheet.typical_miss * found.cloud.spacing * found.cloud.diagonal;
+  add_pairs(result, cloud, found.cloud, sheet, values.real("pair_distance"), context.stage(0.8, 1));
   return result;
 }
 
