@@ -28,6 +28,8 @@ const std::vector<Parameter>& common_parameters() {
           "use_faces", true,
           "Let samples spread evenly over the layer's faces find the mirror, where it "
           "has faces; otherwise its vertices alone do."),
+      Parameter::boolean("show_candidates", false,
+                         "Add a layer for each of the other mirrors that were found."),
       Parameter::integer("seed", 0, 0, most, "", "Of the methods that draw at random."),
       Parameter::integer("threads", 0, 0, most, "",
                          "To compute with, 0: as many as the machine has; the result is the same."),
@@ -85,6 +87,10 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   if (result.mirror)
     distances = result.mirror->signed_distance(cloud.points, context.stage(0.95, 1));
   const Mesh mesh = result.mirror ? result.mirror->mesh() : Mesh();
+  std::vector<Mesh> candidate_meshes;
+  if (given.boolean("show_candidates"))
+    for (const Result& candidate : result.candidates)
+      candidate_meshes.push_back(candidate.mirror->mesh());
 
   Outcome outcome{returned_values(result), logged_values(result)};
   const auto nonfinite = result.statistics.find("nonfinite_points");
@@ -95,6 +101,8 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   if (result.mirror)
     outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();
   outcome.values["surface_points_layer"] = add_surface_points_layer(document, layer, result).id();
+  for (std::size_t i = 0; i < candidate_meshes.size(); ++i)
+    add_candidate_layer(document, layer, i + 1, result.candidates[i], candidate_meshes[i]);
   return outcome;
 }
 

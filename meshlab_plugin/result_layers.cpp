@@ -52,13 +52,9 @@ bool is_as_drawn(const CMeshO& mesh, const Points& vertices) {
   return true;
 }
 
-double sign(double x) { return (x > 0) - (x < 0); }
-
-}  // namespace
-
-MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
+MeshModel& add_drawn_mirror(MeshDocument& document, const MeshModel& input, const QString& name,
                             std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
-  MeshModel& layer = add_layer(document, input.cm.Tr, mirror_layer_name, mesh.vertices);
+  MeshModel& layer = add_layer(document, input.cm.Tr, name, mesh.vertices);
   auto face = Allocator::AddFaces(layer.cm, mesh.triangles.rows());
   for (Index i = 0; i < mesh.triangles.rows(); ++i, ++face)
     for (int corner = 0; corner < 3; ++corner)
@@ -67,6 +63,22 @@ MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
                                                                                mesh.vertices};
   layer.updateBoxAndNormals();
   return layer;
+}
+
+double sign(double x) { return (x > 0) - (x < 0); }
+
+}  // namespace
+
+MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
+                            std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
+  return add_drawn_mirror(document, input, mirror_layer_name, std::move(mirror), mesh);
+}
+
+MeshModel& add_candidate_layer(MeshDocument& document, const MeshModel& input, std::size_t rank,
+                               const Result& candidate, const Mesh& mesh) {
+  const QString name =
+      QString("Candidate mirror %1, score %2").arg(rank).arg(candidate.score, 0, 'f', 2);
+  return add_drawn_mirror(document, input, name, candidate.mirror, mesh);
 }
 
 std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer) {

@@ -16,6 +16,11 @@ namespace symsurf::meshlab {
 MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
                             std::shared_ptr<const Mirror> mirror, const Mesh& mesh);
 
+/// Adds a layer like "Candidate mirror 1, score 0.98" for another mirror of the result, which
+/// mirror_of() gives back as it does the best one.
+MeshModel& add_candidate_layer(MeshDocument& document, const MeshModel& input, std::size_t rank,
+                               const Result& candidate, const Mesh& mesh);
+
 /// The mirror that add_mirror_layer() left in a layer. In any other layer, such as one that was
 /// saved and read again, the plane or the sphere that its vertices lie on, or null.
 std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "returned_values.h"
 
+#include <symsurf/candidate_values.h>
 #include <symsurf/plane.h>
 
 #include <limits>
@@ -13,13 +14,9 @@ namespace {
 Values figures(const Result& result) {
   Values all{{"score", result.score},
              {"pairs", static_cast<Index>(result.pairs.rows())},
+             {"candidates", static_cast<Index>(result.candidates.size())},
              {"seconds", result.seconds},
              {"found", result.verdict() == "found"}};
-  if (!result.candidates.empty()) {
-    Eigen::MatrixXd scores(static_cast<Index>(result.candidates.size()), 1);
-    for (Index i = 0; i < scores.rows(); ++i) scores(i, 0) = result.candidates[i].score;
-    all.emplace("candidate_scores", scores);
-  }
   if (result.mirror) {
     all.emplace("kind", std::string(result.mirror->kind()));
     all.merge(result.mirror->numbers());
@@ -36,6 +33,12 @@ QVariant square(const Eigen::MatrixXd& m) {
   for (int row = 0; row < m.rows(); ++row)
     for (int column = 0; column < m.cols(); ++column) out[row][column] = m(row, column);
   return QVariant::fromValue(out);
+}
+
+QVariant row_by_row(const Eigen::MatrixXd& m) {
+  const Eigen::MatrixXd columns = m.transpose();
+  return QVariant::fromValue(
+      Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(columns.data(), columns.size())));
 }
 
 // Matrices small enough to be read are written out.
@@ -67,9 +70,7 @@ struct ToVariant {
   std::optional<QVariant> operator()(const Eigen::MatrixXd& v) const {
     if (v.rows() == 4 && v.cols() == 4) return square<Matrix44m>(v);
     if (v.rows() == 3 && v.cols() == 3) return square<Matrix33m>(v);
-    const Eigen::MatrixXd columns = v.transpose();
-    return QVariant::fromValue(
-        Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(columns.data(), columns.size())));
+    return row_by_row(v);
   }
 };
 
@@ -81,12 +82,17 @@ std::map<std::string, QVariant> returned_values(const Result& result) {
   std::map<std::string, QVariant> returned;
   for (const auto& [name, value] : figures(result))
     if (const auto variant = to_variant(value)) returned.emplace(name, *variant);
+  // The same shape for any number of candidates: three normals are no 3 x 3 matrix.
+  for (const auto& [name, value] : candidate_values(result))
+    returned.emplace(name, row_by_row(std::get<Eigen::MatrixXd>(value)));
   return returned;
 }
 
 std::vector<std::string> logged_values(const Result& result) {
   std::vector<std::string> lines;
-  for (const auto& [name, value] : figures(result)) lines.push_back(name + ": " + logged(value));
+  Values all = figures(result);
+  all.merge(candidate_values(result));
+  for (const auto& [name, value] : all) lines.push_back(name + ": " + logged(value));
   return lines;
 }
 

@@ -15,9 +15,9 @@ namespace symsurf::meshlab {
 /// A figure in a type that MeshLab passes on to pymeshlab; none for text, which it cannot pass.
 std::optional<QVariant> to_variant(const Value& value);
 
-/// The result's figures: score, found (the verdict), pairs (their number), seconds,
-/// candidate_scores, the mirror's own numbers, of a plane also its reflection matrix, and the
-/// method's statistics.
+/// The result's figures: score, found (the verdict), pairs and candidates (their numbers), seconds,
+/// the mirror's own numbers, of a plane also its reflection matrix, the method's statistics, and
+/// the candidates' scores, of planes also their normals and offsets, as vectors.
 std::map<std::string, QVariant> returned_values(const Result& result);
 
 /// The same for the log, a line each, text included.

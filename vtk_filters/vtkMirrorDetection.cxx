@@ -1,5 +1,6 @@
 #include "vtkMirrorDetection.h"
 
+#include <symsurf/candidate_values.h>
 #include <symsurf/detect.h>
 #include <symsurf/errors.h>
 
@@ -12,10 +13,12 @@
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -67,14 +70,45 @@ void warn_of_nonfinite(vtkMirrorDetection* filter, const symsurf::Result& result
                                        "partners");
 }
 
-void set_mirror_mesh(vtkPolyData* output, const symsurf::Result& result) {
-  if (result.mirror) set_triangles(output, result.mirror->mesh());
+void append(symsurf::Mesh& all, const symsurf::Mesh& mesh) {
+  const symsurf::Index vertices = all.vertices.rows(), triangles = all.triangles.rows();
+  all.vertices.conservativeResize(vertices + mesh.vertices.rows(), 3);
+  all.vertices.bottomRows(mesh.vertices.rows()) = mesh.vertices;
+  all.triangles.conservativeResize(triangles + mesh.triangles.rows(), 3);
+  all.triangles.bottomRows(mesh.triangles.rows()) = mesh.triangles.array() + vertices;
+}
+
+// Each triangle with the rank and the score of its mirror.
+void set_mirror_meshes(vtkPolyData* output, const symsurf::Result& result, bool with_candidates) {
+  vtkNew<vtkIntArray> ranks;
+  vtkNew<vtkDoubleArray> scores;
+  ranks->SetName("Rank");
+  scores->SetName("Score");
+  symsurf::Mesh all;
+  const auto add = [&](const symsurf::Result& found, int rank) {
+    if (!found.mirror) return;
+    const symsurf::Mesh mesh = found.mirror->mesh();
+    append(all, mesh);
+    for (symsurf::Index i = 0; i < mesh.triangles.rows(); ++i) {
+      ranks->InsertNextValue(rank);
+      scores->InsertNextValue(found.score);
+    }
+  };
+  int rank = 0;
+  add(result, rank);
+  if (with_candidates)
+    for (const symsurf::Result& candidate : result.candidates) add(candidate, ++rank);
+  if (all.triangles.rows() == 0) return;
+  set_triangles(output, all);
+  output->GetCellData()->AddArray(ranks);
+  output->GetCellData()->AddArray(scores);
 }
 
 void set_mirror_fields(vtkPolyData* output, const symsurf::Result& result) {
   vtkFieldData* field = output->GetFieldData();
   add_field_values(field, result.statistics);
   add_field_values(field, {{"method", result.method}, {"score", result.score}});
+  add_field_values(field, symsurf::candidate_values(result));
   if (!result.mirror) return;
   add_field_values(field, {{"kind", std::string(result.mirror->kind())}});
   add_field_values(field, result.mirror->numbers());
@@ -156,7 +190,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     const auto sides = sides_of(points.view(), result, context.stage(0.95, 1));
 
     vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);
-    if (processes.rank() == 0) set_mirror_mesh(mirror, result);
+    if (processes.rank() == 0) set_mirror_meshes(mirror, result, this->ShowCandidates);
     set_mirror_fields(mirror, result);
     set_surface_points(vtkPolyData::GetData(outputs, SURFACE_POINTS), result);
     vtkPolyData* mapping = vtkPolyData::GetData(outputs, MAPPING);
@@ -170,6 +204,7 @@ void vtkMirrorDetection::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "UseNormals: " << (this->UseNormals ? "On" : "Off") << "\n";
   os << indent << "UseFaces: " << (this->UseFaces ? "On" : "Off") << "\n";
   os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
+  os << indent << "ShowCandidates: " << (this->ShowCandidates ? "On" : "Off") << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Controller: " << this->Controller << "\n";

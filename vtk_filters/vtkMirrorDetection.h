@@ -8,8 +8,11 @@
  *
  * - 0 "Mirror": triangles of the mirror over the object's footprint. Field data: Method (the one
  *   that found it), Kind, Score (0: no symmetry, 1: exact), the mirror's numbers (Normal and Offset
- *   of a plane, in input units) and the method's statistics. No triangles where the method gives
- *   surface points only.
+ *   of a plane, in input units), the method's statistics and, where there are other mirrors, the
+ *   candidates, a row each, best first: CandidateScores and, of planes, CandidateNormals and
+ *   CandidateOffsets. No triangles where the method gives surface points only. Cell data: Rank and
+ *   Score of the mirror that a triangle belongs to, 0 the result, from 1 the candidates, which are
+ *   there where ShowCandidates is on. The field data stays that of the result.
  * - 1 "Surface Points": a vertex in the middle of each pair, at most half its residual off the
  *   mirror; perpendicular, quadric and fixed_direction project it onto that. Point data: Residual,
  *   the distance from a point's image to its partner.
@@ -75,6 +78,16 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
 
   ///@{
   /**
+   * Whether output 0 has the triangles of the candidates too, behind those of the result. Off
+   * initially.
+   */
+  vtkSetMacro(ShowCandidates, bool);
+  vtkGetMacro(ShowCandidates, bool);
+  vtkBooleanMacro(ShowCandidates, bool);
+  ///@}
+
+  ///@{
+  /**
    * Seed of the methods that draw at random.
    */
   vtkSetMacro(Seed, unsigned int);
@@ -107,6 +120,7 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   bool UseNormals = false;
   bool UseFaces = true;
   bool RefuseNonfinite = false;
+  bool ShowCandidates = false;
   unsigned int Seed = 0;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;

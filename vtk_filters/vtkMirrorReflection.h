@@ -3,10 +3,10 @@
  * @brief Reflects a data set over a mirror that vtkMirrorDetection found.
  *
  * Input 0 is what is reflected, input 1 the mirror: output 0 of vtkMirrorDetection, whose field
- * data (Kind and numbers) says everything; its triangles are not looked at, so one saved and read
- * again will do. Cells are turned over, so that the outside stays the outside; normals are not
- * passed on. Points that have no image over the mirror (beyond a sphere's centre) are left out,
- * together with the cells that need them.
+ * data (Kind and numbers) says everything; its triangles, of candidates or not, are not looked at,
+ * so one saved and read again will do. Cells are turned over, so that the outside stays the
+ * outside; normals are not passed on. Points that have no image over the mirror (beyond a sphere's
+ * centre) are left out, together with the cells that need them.
  */
 #ifndef vtkMirrorReflection_h
 #define vtkMirrorReflection_h

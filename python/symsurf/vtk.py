@@ -25,7 +25,7 @@ from vtkmodules.vtkCommonCore import vtkDataArray, vtkOutputWindow, vtkPoints, v
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkFieldData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
-from ._core import Cancelled, InvalidInput, InvalidParameter, methods
+from ._core import Cancelled, InvalidInput, InvalidParameter, Plane, methods
 from .descriptions import allowed
 from .detection import detect
 from .inputs import InputWarning
@@ -41,8 +41,10 @@ class MirrorDetection(VTKPythonAlgorithmBase):
     that are not finite are left out, with a warning, and have no partners; with RefuseNonfinite they
     are an error.
 
-    Output 0 "Mirror": triangles over the footprint; field data Method, Kind, Score, the mirror's
-    numbers and the method's statistics. Output 1 "Surface Points": a vertex in the middle of each
+    Output 0 "Mirror": triangles over the footprint, of the candidates too with ShowCandidates; cell
+    data Rank (0 the result, from 1 the candidates) and Score; field data, of the result, Method,
+    Kind, Score, the mirror's numbers and the method's statistics, and CandidateScores, of planes
+    also CandidateNormals and CandidateOffsets, where there are candidates. Output 1 "Surface Points": a vertex in the middle of each
     pair, at most half its residual off the mirror (``perpendicular``, ``quadric`` and
     ``fixed_direction`` project it onto that); point data Residual. Output 2 "Mapping": the input;
     point data MirrorPartner (index, -1 for none), MirrorResidual (NaN for none) and MirrorSide.
@@ -63,6 +65,7 @@ class MirrorDetection(VTKPythonAlgorithmBase):
             "UseNormals": False,
             "UseFaces": True,
             "RefuseNonfinite": False,
+            "ShowCandidates": False,
             "Seed": 0,
             "NumberOfThreads": 0,
         } | {
@@ -84,7 +87,9 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         source = vtkPolyData.GetData(inputs[0])
         try:
             result = self._detected(source)
-            _set_mirror(vtkPolyData.GetData(outputs, self.MIRROR), result)
+            mirror = vtkPolyData.GetData(outputs, self.MIRROR)
+            _set_mirror_meshes(mirror, result, self._options["ShowCandidates"])
+            _set_mirror_fields(mirror.GetFieldData(), result)
         except Cancelled:
             return 1
         except (InvalidInput, InvalidParameter) as error:
@@ -173,6 +178,7 @@ def _add_properties() -> None:
         "UseNormals": "Whether the input's point normals are used, as lines.",
         "UseFaces": "Whether samples of the input's polygons find the mirror, not its points alone.",
         "RefuseNonfinite": "Whether points that are not finite are an error, not left out.",
+        "ShowCandidates": "Whether the output Mirror has the triangles of the candidates too.",
         "Seed": "Seed of the methods that draw at random.",
         "NumberOfThreads": "0 means as many as the machine has.",
     }
@@ -212,15 +218,42 @@ def _cells(rows: NDArray[np.int64]) -> vtkCellArray:
     return cells
 
 
-def _set_mirror(output: vtkPolyData, result: Result) -> None:
+def _set_mirror_meshes(output: vtkPolyData, result: Result, with_candidates: bool) -> None:
+    ranked = [result, *(result.candidates if with_candidates else [])]
+    drawn = [(rank, each) for rank, each in enumerate(ranked) if each.mirror is not None]
+    if not drawn:
+        return
+    vertices, triangles = zip(*(each.mirror.mesh() for _, each in drawn))
+    first_vertices = np.cumsum([0, *map(len, vertices[:-1])])
+    corners = [rows + first for rows, first in zip(triangles, first_vertices)]
+    counts = [len(rows) for rows in triangles]
+    output.SetPoints(_points(np.vstack(vertices)))
+    output.SetPolys(_cells(np.vstack(corners)))
+    ranks = np.repeat(np.array([rank for rank, _ in drawn], np.int32), counts)
+    scores = np.repeat([each.score for _, each in drawn], counts)
+    output.GetCellData().AddArray(numpyTovtkDataArray(ranks, "Rank"))
+    output.GetCellData().AddArray(numpyTovtkDataArray(scores, "Score"))
+
+
+def _set_mirror_fields(field: vtkFieldData, result: Result) -> None:
     values = result.statistics | {"method": result.method, "score": result.score}
+    values |= _candidate_values(result.candidates)
     if result.mirror is not None:
-        vertices, triangles = result.mirror.mesh()
-        output.SetPoints(_points(vertices))
-        output.SetPolys(_cells(triangles))
         values |= {"kind": result.mirror.kind} | result.mirror.numbers
     for name, value in values.items():
-        _add_field(output.GetFieldData(), _camel_case(name), value)
+        _add_field(field, _camel_case(name), value)
+
+
+def _candidate_values(candidates: list[Result]) -> dict[str, Any]:
+    """By name, a row a candidate."""
+    if not candidates:
+        return {}
+    mirrors = [candidate.mirror for candidate in candidates]
+    values = {"candidate_scores": np.array([[candidate.score] for candidate in candidates])}
+    if all(isinstance(mirror, Plane) for mirror in mirrors):
+        values["candidate_normals"] = np.array([mirror.normal for mirror in mirrors])
+        values["candidate_offsets"] = np.array([[mirror.offset] for mirror in mirrors])
+    return values
 
 
 def _add_field(field: vtkFieldData, name: str, value: Any) -> None:

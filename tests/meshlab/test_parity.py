@@ -13,8 +13,8 @@ from shapes import cloud
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
 
 PREFIX = "compute_mirror_"
-# What only a host with selections and stored normals has to ask.
-OF_THE_HOST = {"only_selected", "use_normals"}
+# What only a host with selections, stored normals and layers has to ask.
+OF_THE_HOST = {"only_selected", "use_normals", "show_candidates"}
 # What a dialog has no use for: the layer is the input, the filter the method, the bar the progress.
 # MeshLab's layers bring their faces, are no grids, and log what is left out.
 OF_PYTHON = {"points", "method", "normals", "progress", "parameters"} | {

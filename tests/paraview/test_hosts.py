@@ -70,3 +70,18 @@ def test_state_and_trace_bring_the_same_mirror_back(run_host: Callable[..., Any]
 
 def test_reflection_lies_on_the_partners(run_host: Callable[..., Any]) -> None:
     assert run_host("pvpython", "reflection.py") < 1e-6
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_candidates_are_shown_when_asked_for(host: str, run_host: Callable[..., Any]) -> None:
+    seen = run_host(host, "candidates.py")
+    assert len(seen["bounds"]) == 3 and seen["alone"] < seen["all"]
+    assert np.allclose(seen["scores"], 1)
+    fields = seen["field"]
+    normals = np.reshape(fields["Normal"] + fields["CandidateNormals"], (3, 3))
+    axes = np.abs(normals).argmax(axis=1)
+    assert np.allclose(np.abs(normals), np.eye(3)[axes]) and set(axes) == {0, 1, 2}
+    assert np.allclose(fields["CandidateOffsets"], 0, atol=1e-9)
+    for bounds, axis in zip(seen["bounds"], axes):
+        extent = np.diff(np.reshape(bounds, (3, 2)))[:, 0]
+        assert np.flatnonzero(extent < 1e-9).tolist() == [axis]

@@ -38,8 +38,17 @@ def by_python(points: np.ndarray) -> Mirrors:
     return {
         name: {plain(key): np.ravel(value) for key, value in result.mirror.numbers.items()}
         | {"score": np.ravel(result.score)}
+        | of_candidates(result.candidates)
         for name, result in found.items()
     }
+
+
+def of_candidates(candidates: list[symsurf.Result]) -> dict[str, np.ndarray]:
+    numbers = {"scores": [candidate.score for candidate in candidates]}
+    if all(isinstance(candidate.mirror, symsurf.Plane) for candidate in candidates):
+        numbers["normals"] = [candidate.mirror.normal for candidate in candidates]
+        numbers["offsets"] = [candidate.mirror.offset for candidate in candidates]
+    return {f"candidate{name}": np.ravel(rows) for name, rows in numbers.items() if rows}
 
 
 def by_pip_vtk(points: np.ndarray) -> Mirrors:

@@ -181,6 +181,53 @@ def test_polygons_are_a_surface() -> None:
     assert found.GetOutput(0).GetFieldData().GetArray("SurfaceSamples") is None
 
 
+def test_candidates_are_shown_when_asked_for() -> None:
+    cube = vtkCubeSource()
+    cube.SetYLength(2)
+    cube.SetZLength(3)
+    cube.Update()
+    found = MirrorDetection()
+    found.SetInputData(cube.GetOutput())
+    found.SetMethod("plane")
+    found.Update()
+    alone = found.GetOutput(0).GetNumberOfCells()
+    assert not vtk_to_numpy(found.GetOutput(0).GetCellData().GetArray("Rank")).any()
+    found.SetShowCandidates(True)
+    found.Update()
+    mirror = found.GetOutput(0)
+    ranks = vtk_to_numpy(mirror.GetCellData().GetArray("Rank"))
+    assert (ranks[:alone] == 0).all() and set(ranks) == {0, 1, 2}
+    assert np.allclose(vtk_to_numpy(mirror.GetCellData().GetArray("Score")), 1)
+
+    fields = {
+        name: vtk_to_numpy(mirror.GetFieldData().GetArray(name))
+        for name in ("Normal", "CandidateNormals", "CandidateOffsets", "CandidateScores")
+    }
+    normals = np.vstack([fields["Normal"], fields["CandidateNormals"]])
+    axes = np.abs(normals).argmax(axis=1)
+    assert np.allclose(np.abs(normals), np.eye(3)[axes]) and set(axes) == {0, 1, 2}
+    assert np.allclose(fields["CandidateOffsets"], 0, atol=1e-9)
+    assert np.allclose(fields["CandidateScores"], 1) and len(fields["CandidateScores"]) == 2
+    points = vtk_to_numpy(mirror.GetPoints().GetData())
+    corners = vtk_to_numpy(mirror.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    for rank, normal in enumerate(normals):
+        assert np.allclose(points[corners[ranks == rank].ravel()] @ normal, 0, atol=1e-9)
+
+
+def test_candidates_of_other_kinds_have_scores() -> None:
+    points = mirrored_shape(100)
+    expected = symsurf.detect(points, "sphere").candidates
+    found = detection(points, "sphere")
+    found.SetShowCandidates(True)
+    found.Update()
+    fields = found.GetOutput(0).GetFieldData()
+    scores = vtk_to_numpy(fields.GetArray("CandidateScores"))
+    assert np.array_equal(scores, [candidate.score for candidate in expected]) and len(expected) > 0
+    assert fields.GetArray("CandidateNormals") is None
+    ranks = vtk_to_numpy(found.GetOutput(0).GetCellData().GetArray("Rank"))
+    assert set(ranks) == set(range(1 + len(expected)))
+
+
 def test_bad_parameters_are_errors() -> None:
     found = detection(mirrored_shape(), "no such")
     assert "'no such'" in error_of(found)

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "mirrored_shape.h"
 #include "point_arrays.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCubeSource.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -139,6 +142,69 @@ TEST(MirrorDetection, PolygonsAreASurface) {
   filter->Update();
   EXPECT_EQ(filter->GetOutput(0)->GetFieldData()->GetArray("SurfaceSamples"), nullptr);
   EXPECT_EQ(TriangleArray(nullptr).view().size(), 0);
+}
+
+class BoxOfThreePlanes : public testing::Test {
+ protected:
+  BoxOfThreePlanes() {
+    cube->SetXLength(1);
+    cube->SetYLength(2);
+    cube->SetZLength(3);
+    filter->SetInputConnection(cube->GetOutputPort());
+    filter->SetMethod("plane");
+  }
+
+  // The axis that all points of the cells of a rank lie across; -1: none, or several.
+  int axis_of(int rank) {
+    symsurf::Vector3 farthest(0, 0, 0);
+    vtkNew<vtkIdList> corners;
+    for (vtkIdType cell = 0; cell < mirror->GetNumberOfCells(); ++cell) {
+      if (mirror->GetCellData()->GetArray("Rank")->GetComponent(cell, 0) != rank) continue;
+      EXPECT_NEAR(mirror->GetCellData()->GetArray("Score")->GetComponent(cell, 0), 1, 1e-9);
+      mirror->GetCellPoints(cell, corners);
+      for (vtkIdType i = 0; i < 3; ++i)
+        farthest =
+            farthest.cwiseMax(symsurf::Vector3(mirror->GetPoint(corners->GetId(i))).cwiseAbs());
+    }
+    if ((farthest.array() > 1e-9).count() != 2) return -1;
+    return static_cast<int>(std::find(farthest.begin(), farthest.end(), farthest.minCoeff()) -
+                            farthest.begin());
+  }
+
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkMirrorDetection> filter;
+  vtkPolyData* mirror = filter->GetOutput(vtkMirrorDetection::MIRROR);
+};
+
+TEST_F(BoxOfThreePlanes, CandidatesAreShownWhenAskedFor) {
+  filter->Update();
+  double ranks[2];
+  mirror->GetCellData()->GetArray("Rank")->GetRange(ranks);
+  EXPECT_EQ(ranks[1], 0);
+  const int best = axis_of(0);
+  filter->ShowCandidatesOn();
+  filter->Update();
+  mirror->GetCellData()->GetArray("Rank")->GetRange(ranks);
+  EXPECT_EQ(ranks[0], 0);
+  EXPECT_EQ(ranks[1], 2);
+  EXPECT_EQ(axis_of(0), best);
+  EXPECT_EQ((std::set{axis_of(0), axis_of(1), axis_of(2)}), (std::set{0, 1, 2}));
+}
+
+TEST_F(BoxOfThreePlanes, FieldDataHasTheNumbersOfAll) {
+  filter->ShowCandidatesOn();
+  filter->Update();
+  vtkFieldData* fields = mirror->GetFieldData();
+  EXPECT_NEAR(std::abs(fields->GetArray("Normal")->GetComponent(0, axis_of(0))), 1, 1e-9);
+  ASSERT_EQ(fields->GetArray("CandidateScores")->GetNumberOfTuples(), 2);
+  ASSERT_EQ(fields->GetArray("CandidateNormals")->GetNumberOfTuples(), 2);
+  ASSERT_EQ(fields->GetArray("CandidateOffsets")->GetNumberOfTuples(), 2);
+  for (int i = 0; i < 2; ++i) {
+    const int axis = axis_of(i + 1);
+    EXPECT_NEAR(fields->GetArray("CandidateScores")->GetComponent(i, 0), 1, 1e-9);
+    EXPECT_NEAR(std::abs(fields->GetArray("CandidateNormals")->GetComponent(i, axis)), 1, 1e-9);
+    EXPECT_NEAR(fields->GetArray("CandidateOffsets")->GetComponent(i, 0), 0, 1e-9);
+  }
 }
 
 TEST(MirrorDetection, DoublesAreReadInPlaceAndFloatsCopiedOnce) {

@@ -3,6 +3,7 @@
 //
 //   one_scene POINTS METHOD...      POINTS: a file of doubles, three a point
 
+#include <symsurf/candidate_values.h>
 #include <symsurf/detect.h>
 
 #include <fstream>
@@ -48,6 +49,7 @@ symsurf::Values by_core(const symsurf::Points& points, const std::string& method
   const symsurf::Result result = symsurf::detect(points, options);
   symsurf::Values values = result.mirror->numbers();
   values["score"] = result.score;
+  values.merge(symsurf::candidate_values(result));
   return values;
 }
 

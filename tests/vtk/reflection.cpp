@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "mirrored_shape.h"
+#include "vtkCubeSource.h"
 #include "vtkFloatArray.h"
 #include "vtkMirrorDetection.h"
 #include "vtkMirrorReflection.h"
@@ -70,6 +71,26 @@ TEST(MirrorReflection, KeepsTheOutsideOutAndDropsNormals) {
   ASSERT_EQ(twice->GetOutput()->GetNumberOfPoints(), original->GetNumberOfPoints());
   for (vtkIdType i = 0; i < original->GetNumberOfPoints(); ++i)
     EXPECT_LT(distance(twice->GetOutput(), i, original, i), 1e-12);
+}
+
+TEST(MirrorReflection, IsOverTheResultWhereCandidatesAreShown) {
+  vtkNew<vtkCubeSource> cube;
+  cube->SetYLength(2);
+  cube->SetZLength(3);
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetInputConnection(cube->GetOutputPort());
+  detection->SetMethod("plane");
+  vtkNew<vtkMirrorReflection> reflection;
+  reflection->SetInputConnection(cube->GetOutputPort());
+  reflection->SetMirrorConnection(detection->GetOutputPort());
+  reflection->Update();
+  vtkNew<vtkPolyData> expected;
+  expected->DeepCopy(reflection->GetOutput());
+  detection->ShowCandidatesOn();
+  reflection->Update();
+  ASSERT_EQ(reflection->GetOutput()->GetNumberOfPoints(), expected->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < expected->GetNumberOfPoints(); ++i)
+    EXPECT_EQ(distance(reflection->GetOutput(), i, expected, i), 0);
 }
 
 }  // namespace

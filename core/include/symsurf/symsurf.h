@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/bend.h>
+#include <symsurf/candidate_values.h>
 #include <symsurf/communicator.h>
 #include <symsurf/cylinder.h>
 #include <symsurf/damage.h>
