@@ -31,11 +31,12 @@ constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a su
 constexpr double by_chance = 0.1;  // probability of a neighbour: farther ones do not count
 // From which distance from the mirror on a point counts in full: near it any surface is symmetric.
 constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
-constexpr double least_share = 0.2;  // of all points, that the mean is taken over
-constexpr double rounding = 1e-6;    // single precision
+constexpr double layer_of_noise = 15;  // what lies farther apart is no one layer
+constexpr double least_share = 0.2;    // of all points, that the mean is taken over
+constexpr double rounding = 1e-6;      // single precision
 
 // Of random solids the best plane, sphere and cylinder fit 0.4 at most, the best quadric 0.6, the
-// best free form 0.87 and the best height field, as any convex solid has one, 0.98: what is beyond
+// best free form 0.96 and the best height field, as any convex solid has one, 0.98: what is beyond
 // `by_chance` speaks for the last three. Of two mirrors that fit alike the simpler is meant:
 // `cost`.
 struct Freedom {
@@ -49,7 +50,7 @@ Freedom freedom_of(std::string_view kind) {
       {"cylinder", {0, 0.02}},
       {"quadric", {0.2, 0.03}},
       {"height field", {0.85, 0.05, true}},
-      {"free-form", {0.65, 0.06, true}},
+      {"free-form", {0.8, 0.06, true}},
   };
   const auto found = freedoms.find(kind);
   return found == freedoms.end() ? Freedom() : found->second;
@@ -81,7 +82,8 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0, 1});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
-  moved_ = std::max(least_moved, moved_by_noise * noise());
+  noise_ = measured_noise();
+  moved_ = std::max(least_moved, moved_by_noise * noise_);
   std::vector<double> counts;
   for (Sample& sample : samples_) {
     sample.ball = ball_of(thinned_, sample.position);
@@ -94,7 +96,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   for (Sample& sample : samples_) sample.density = std::min(1.0, sample.ball.count / full);
 }
 
-double MirrorScore::noise() const {
+double MirrorScore::measured_noise() const {
   std::vector<OnSheet> samples;
   for (Index k = 0; k < coarse_.size(); ++k) samples.push_back({coarse_[k].sampled, &coarse_[k]});
   return SheetNoise(samples, neighbours_of(samples, cloud_.frame, points_)).deviation();
@@ -199,7 +201,9 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
   const Freedom freedom = freedom_of(mirror.kind());
   std::optional<MirrorLayers> layers;
-  if (freedom.any_shape) layers.emplace(0.7 * fine_.spacing() * frame.size, 0, frame.size);
+  if (freedom.any_shape)
+    layers.emplace(0.7 * fine_.spacing() * frame.size, layer_of_noise * noise_ * frame.size,
+                   frame.size);
   struct Moved {
     const Sample* sample;
     double distance;  // from the mirror

@@ -82,7 +82,7 @@ class MirrorScore {
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
   void choose_radius();
-  double noise() const;
+  double measured_noise() const;
   // The thinned points, or their images.
   struct PointSet {
     PointSet(Points rows, std::vector<double> weights)
@@ -102,6 +102,7 @@ class MirrorScore {
   Surfels coarse_, fine_;
   PointSet thinned_;  // the means of fine cells
   double radius_;     // of the balls
+  double noise_ = 0;  // standard deviation, in diagonals
   double moved_;      // displacement from which on a point counts in full
   std::vector<Sample> samples_;
 };
