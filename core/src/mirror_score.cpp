@@ -281,8 +281,12 @@ Result MirrorScore::ranked(const std::string& method,
     result.mirror = mirror;
     fill(result);
   }
+  // Of those that chance explains, the one that it explains least.
+  const auto merit = [](const Result& r) {
+    return std::pair(r.score, std::get<double>(r.statistics.at("explained_share")));
+  };
   std::stable_sort(found.begin(), found.end(),
-                   [](const Result& a, const Result& b) { return a.score > b.score; });
+                   [&](const Result& a, const Result& b) { return merit(a) > merit(b); });
   Result best = std::move(found.front());
   best.candidates.assign(std::make_move_iterator(found.begin() + 1),
                          std::make_move_iterator(found.end()));
