@@ -57,8 +57,9 @@ class Pipeline {
       require_count(cloud.points.size(), method_.minimum_points);
       return run_on_places(cloud);
     }
-    Result result =
-        run_on_places(checked(samples->points(), samples->normals(), method_.minimum_points));
+    Cloud sampled = checked(samples->points(), samples->normals(), method_.minimum_points);
+    sampled.vertices = cloud.points;
+    Result result = run_on_places(sampled);
     samples->map_back(result);
     return result;
   }

@@ -13,6 +13,7 @@ Result run_on(const Part& part, const Cloud& cloud, Index minimum_points, const 
   const Points normals = cloud.normals.empty() ? Points(0, 3) : part.rows(cloud.normals);
   Cloud apart = checked_cloud(points, normals, minimum_points, context.stage(0, 0));
   apart.seed = cloud.seed;
+  apart.vertices = cloud.vertices;
   Result result = run(apart);
   part.hand_on(result);
   return result;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cloud.h"
@@ -383,6 +384,31 @@ TEST(SurfaceSamples, AreTheFewestPointsAMethodNeeds) {
     EXPECT_TRUE(result.mirror) << method;
   }
   EXPECT_TRUE(is_plane(detected(mesh, "plane"), Vector3::UnitX(), {0.5, 0, 0}));
+}
+
+// Fans on the caps of a prism mirror no triangle onto another but over one plane.
+TEST(SurfaceSamples, LeaveThePlanesOfThePrismExact) {
+  for (const int sides : {3, 5, 6, 8}) {
+    Points points(2 * sides, 3);
+    Triangles faces(4 * sides - 4, 3);
+    Index face = 0;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      points.row(k) << std::cos(angle), std::sin(angle), 0;
+      points.row(sides + k) << std::cos(angle), std::sin(angle), 1.3;
+      const int next = (k + 1) % sides;
+      faces.row(face++) << k, next, sides + next;
+      faces.row(face++) << k, sides + next, sides + k;
+      if (k == 0 || next == 0) continue;
+      faces.row(face++) << 0, next, k;
+      faces.row(face++) << sides, sides + k, sides + next;
+    }
+    const Result result = detect(points, {.method = "plane", .faces = faces});
+    EXPECT_EQ(result.candidates.size() + 1, sides + 1) << sides;
+    EXPECT_EQ(result.pairs.rows(), 2 * sides) << sides;
+    EXPECT_LT(result.residuals.maxCoeff(), 1e-12) << sides;
+    for (const Result& candidate : result.candidates) EXPECT_GT(candidate.score, 0.9) << sides;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from types import SimpleNamespace
 
@@ -311,7 +312,10 @@ def test_verdicts():
     blob = np.random.default_rng(0).uniform(size=(600, 3))
     none = symsurf.detect(blob, "plane", minimum_score=0.999)
     assert none.verdict == "none" and none.reason
-    unjudged = symsurf.match(points, result.mirror)
+    matched = symsurf.match(points, result.mirror)
+    assert matched.verdict == "found" and matched.reason
+    assert matched.score == pytest.approx(result.score, abs=1e-9)
+    unjudged = dataclasses.replace(result, statistics={})
     assert unjudged.verdict == "none" and unjudged.reason == ""
     for candidate in result.candidates:
         assert candidate.verdict in ("found", "none") and isinstance(candidate.reason, str)
@@ -326,7 +330,7 @@ def test_words():
         for word in ("plane", "found", f"{result.score:.3f}", f"{share:g} % of 601 points", median):
             assert word in text
     assert "\n" not in repr(result) and result.reason in str(result)
-    assert "verdict" not in repr(symsurf.match(points, result.mirror))
+    assert "verdict" not in repr(dataclasses.replace(result, statistics={}))
 
 
 def test_the_command_line_prints_the_verdict(tmp_path):

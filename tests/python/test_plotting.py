@@ -109,8 +109,9 @@ def test_the_verdict_is_written_above(result, tmp_path):
     """Ink where nothing is drawn without a verdict; more of it for a longer text."""
     ink = []
     found = symsurf.detect(result.points, "plane")
+    unjudged = dataclasses.replace(found, statistics={})
     judged = dataclasses.replace(found, statistics=found.statistics | {"verdict": "found" * 4})
-    for shown in (result, found, judged):
+    for shown in (unjudged, found, judged):
         shown.plot(tmp_path / "title.png")
         top = pixels(tmp_path / "title.png").reshape(900, 1200, 3)[-40:]
         ink.append((top < 120).all(axis=2).sum())

@@ -18,6 +18,7 @@ namespace symsurf {
 struct Cloud {
   PointsView points;
   PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
+  PointsView vertices;  ///< where the points are samples of a mesh: its vertices
   double diagonal = 0;  ///< of the axis-aligned bounding box
   PrincipalFrame frame;
   std::uint64_t seed = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../cloud.h"
 #include "../gathered.h"
 #include "../mirror_score.h"
 #include "../nearest_points.h"
@@ -20,11 +21,13 @@ namespace symsurf {
 
 namespace {
 
-constexpr double meagre = 0.3;  // a best that explains less has the margins of one like this
+constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
+constexpr double maps_surface = 0.9;  // score of a plane that maps vertices onto vertices
 constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.5;  // of the best score
-constexpr double alike_planes = 0.05;   // planes closer than this are one
-constexpr Index measured = 150;         // surfels that the measure is taken over
+constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
+constexpr double alike_planes = 0.05;  // planes closer than this are one
+constexpr Index measured = 150;        // surfels that the measure is taken over
 
 struct Effort {
   Search search;
@@ -111,6 +114,24 @@ std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
   return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
 }
 
+// Of a mesh whose vertices these are. What maps them onto themselves may triangulate the surface
+// otherwise: then its samples have no exact partners.
+std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
+                                       const MirrorScore& score, const Context& context) {
+  std::vector<UnitPlane> planes;
+  if (vertices.empty()) return planes;
+  const Context unreported = context.stage(0, 0);
+  const Cloud corners = checked_cloud(vertices, {}, 1, unreported);
+  const Surfels samples(corners, vertices.size(), unreported);
+  const PointTree tree(vertices, unreported);
+  const NearestPoints points(vertices, tree, context);
+  for (const UnitPlane& plane : exact_planes(corners, points, samples, unreported)) {
+    const Plane found = in_input_units(plane, corners.frame);
+    if (score.fit(found).share >= maps_surface) planes.push_back(in_frame(found, cloud.frame));
+  }
+  return planes;
+}
+
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
@@ -133,7 +154,7 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
     return c.explained < worth_refining * best;
   });
   // Of a body thinner than the patches these say nothing about the plane along it.
-  if (std::sqrt(cloud.frame.variance.z()) < surfels.spacing() * cloud.frame.size)
+  if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
   improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
     return PlaneCandidate{refinement.refined(c.plane), c.explained};
@@ -158,8 +179,12 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
   const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
-  std::vector<UnitPlane> planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
-  for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  std::vector<UnitPlane> planes =
+      exact_planes_of(cloud.vertices, cloud, score, context.stage(0.45, 0.45));
+  if (planes.empty()) {
+    planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
+    for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  }
   if (planes.empty())
     planes = searched_planes(cloud, coarse, map, refinement, score, promising,
                              context.stage(0.46, 0.55));

@@ -22,6 +22,11 @@ struct UnitPlane {
   }
 };
 
+inline UnitPlane in_frame(const Plane& plane, const PrincipalFrame& frame) {
+  return {frame.axes.transpose() * plane.normal(),
+          plane.signed_distance(frame.centroid) / frame.size};
+}
+
 inline Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {
   // The sign by a direction that no normal along axes and diagonals is orthogonal to: alike shapes
   // in alike poses get alike normals.
