@@ -17,21 +17,22 @@ namespace symsurf {
 namespace {
 
 // Lengths are in diagonals. Chosen on sampled meshes, scans and random solids of 1000 to 100,000
-// points with noise of 0 to 2 %: the shapes with a mirror score 0.5 and more, the others less
-// than 0.4 (`make accuracy OPTIONS="--cases score none"`).
+// points with noise of 0 to 2 %: shapes with a mirror score 0.5 and more, others 0.42 at most
+// (`make accuracy OPTIONS='--cases none "one shape" "more noise"'`).
 constexpr Index sample_count = 500;                            // points whose support is measured
 constexpr double least_radius = 0.05, greatest_radius = 0.15;  // of the balls
 constexpr Index points_in_ball = 30;  // in the median, where the cloud is that dense
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
-constexpr double strip = 0.5,
-                 whole = 0.7;      // share of a ball's points: at a rim; anywhere by chance
+// Shares of a ball's points: fewer on one side are a rim, as many are there by chance.
+constexpr double strip = 0.5, whole = 0.7;
 constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
-constexpr double sparse = 0.2;     // of the median ball's points: fewer are no surface
+constexpr double sparse = 0.2;     // of the median count of points: fewer are no surface
 constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1
-constexpr double by_chance = 0.1;  // probability of a neighbour: farther ones do not count
-// From which distance from the mirror on a point counts in full: near it any surface is symmetric.
+constexpr double by_chance = 0.1;  // probability of a neighbour: likelier ones do not count
+// From which distance from the mirror on a point counts in full, near which any surface is
+// symmetric: at least, in standard deviations of the noise, in shares of the cloud's extent.
 constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
-constexpr double layer_of_noise = 15;  // what lies farther apart is no one layer
+constexpr double layer_of_noise = 15;  // standard deviations: what lies farther apart is no layer
 constexpr double least_share = 0.2;    // of all points, that the mean is taken over
 constexpr double rounding = 1e-6;      // single precision
 

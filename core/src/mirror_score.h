@@ -34,9 +34,10 @@ struct MirrorFit {
 ///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
 ///
 /// near 1 where the image lies on the surface, negative where it just misses it, 0 in the void. The
-/// balls have a fixed size, and the cloud is thinned to a fixed number of points: the score depends
-/// neither on the sampling nor, as means lose noise, much on noise. Inside a volume, where any
-/// image has neighbours, only a partner nearer than chance would put it counts.
+/// balls have a fixed size, and the cloud is thinned to a fixed number of points: from some
+/// thousand points on the score hardly depends on the sampling nor, as means lose noise, on noise.
+/// Inside a volume, where any image has neighbours, only a partner nearer than chance would put it
+/// counts.
 class MirrorScore {
  public:
   /// The cloud and its points must outlive the score. Collective, as all that follows.
