@@ -7,7 +7,6 @@
 #include <map>
 
 #include "mirror_layers.h"
-#include "parallel.h"
 #include "plane/agreement.h"
 #include "plane/sheet_noise.h"
 #include "quantile.h"

@@ -8,24 +8,13 @@
 #include <vector>
 
 #include "expect_error.h"
+#include "mirrored_ball.h"
 #include "random_cloud.h"
 
 namespace symsurf {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A dented ball, mirrored by x = 0.
-Points ball(RandomCloud& random, Index count) {
-  Points points = random.sphere(count);
-  for (Index i = 0; i < count; ++i) {
-    const Vector3 u = points.row(i);
-    points.row(i) *= 1 + 0.3 * std::sin(3 * u.y() + u.z()) + 0.3 * u.x() * u.x() * u.z();
-  }
-  points.topRows(count / 2) = points.bottomRows(count / 2);
-  points.topRows(count / 2).col(0) *= -1;
-  return points;
-}
 
 // Every seventh row is put in front of the others: the rows of the finite points.
 std::vector<Index> finite_rows_of(Index count) {

@@ -10,22 +10,11 @@
 #include <vector>
 
 #include "cloud.h"
+#include "mirrored_ball.h"
 #include "random_cloud.h"
 
 namespace symsurf {
 namespace {
-
-// A dented ball about the origin, about as wide as 2; mirrored by x = 0.
-Points ball(RandomCloud& random, Index count) {
-  Points points = random.sphere(count);
-  for (Index i = 0; i < count; ++i) {
-    const Vector3 u = points.row(i);
-    points.row(i) *= 1 + 0.3 * std::sin(3 * u.y() + u.z()) + 0.3 * u.x() * u.x() * u.z();
-  }
-  points.topRows(count / 2) = points.bottomRows(count / 2);
-  points.topRows(count / 2).col(0) *= -1;
-  return points;
-}
 
 // Each of the others put before a point of the first.
 Points mixed(const Points& points, const Points& others) {

@@ -35,23 +35,9 @@ SheetNoise::SheetNoise(const std::vector<OnSheet>& samples,
   deviation_ = median(std::move(offsets)) / shown;
 }
 
-SheetNoise::SheetNoise(const std::vector<OnSheet>& samples, const std::vector<Vector3>& neighbours,
-                       const Surfels& patches)
-    : SheetNoise(samples, neighbours) {
-  constexpr double thin = 0.25;  // of the patches: others are curved, or hold two sheets
-  if (!shows()) return;
-  std::vector<double> thicknesses;
-  for (Index k = 0; k < patches.size(); ++k) thicknesses.push_back(patches[k].thickness);
-  deviation_ = std::max(deviation_, quantile(std::move(thicknesses), thin));
-}
-
 bool SheetNoise::shows() const {
   constexpr double noticed = 0.002;
   return deviation_ > noticed;
-}
-
-bool SheetNoise::explains(const Surfel& patch) const {
-  return patch.thickness < width * deviation_;
 }
 
 Vector3 SheetNoise::smoothed(const Vector3& x, const Surfel& patch) const {

@@ -26,19 +26,11 @@ class SheetNoise {
   /// near, they have much of their noise in common.
   SheetNoise(const std::vector<OnSheet>& samples, const std::vector<Vector3>& neighbours);
 
-  /// Where the neighbours show noise, at least as much of it as the thin ones among patches have:
-  /// of dense clouds neighbours are so near that they have most of it in common.
-  SheetNoise(const std::vector<OnSheet>& samples, const std::vector<Vector3>& neighbours,
-             const Surfels& patches);
-
   /// Standard deviation, over the cloud's size.
   double deviation() const { return deviation_; }
 
   /// Is it more than what curvature between neighbours makes?
   bool shows() const;
-
-  /// Is the patch no thicker than one sheet with the noise?
-  bool explains(const Surfel& patch) const;
 
   /// Where noise shows, x moved onto what its patch has in common. What spreads little more than
   /// the noise, as small patches do across their sheet, is taken for noise as well.
