@@ -8,8 +8,8 @@
 #include "byte_order.h"
 #include "formats.h"
 #include "shape_builder.h"
+#include "spatial/triple_index.h"
 #include "text_scanner.h"
-#include "triple_index.h"
 
 namespace symsurf {
 

@@ -1,42 +1,127 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <regex>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace {
 
-// Of everything in pointed brackets the core may include itself, Eigen and the standard library.
-bool is_allowed(const std::string& header) {
+namespace fs = std::filesystem;
+
+// The folders of core/src from the lowest layer up: a file includes from its own layer and from
+// lower ones.
+constexpr std::array layers{"base",  "spatial",    "mesh",    "cloud",      "mirrors",
+                            "score", "preprocess", "methods", "operations", "detection"};
+// Used by no layer; may use all of them.
+constexpr std::array leaves{"synthetic"};
+
+struct Include {
+  fs::path file, header;  // the header as it is written
+  bool in_brackets;
+};
+
+std::vector<Include> includes_below(const fs::path& root) {
+  const std::regex include(R"-(^\s*#\s*include\s*(<(.+)>|"(.+)"))-");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    const fs::path path = entry.path();
+    if (path.extension() != ".h" && path.extension() != ".cpp") continue;
+    std::ifstream source(path);
+    for (std::string line; std::getline(source, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, include))
+        includes.push_back(
+            {path, match[2].matched ? match[2].str() : match[3].str(), match[2].matched});
+    }
+  }
+  return includes;
+}
+
+const fs::path source_root = fs::path(SYMSURF_CORE) / "src";
+
+int layer_of(const fs::path& relative) {
+  const auto found = std::find(layers.begin(), layers.end(), *relative.begin());
+  return static_cast<int>(found - layers.begin());
+}
+
+bool is_leaf(const fs::path& relative) {
+  return std::find(leaves.begin(), leaves.end(), *relative.begin()) != leaves.end();
+}
+
+bool is_allowed_library(const std::string& header) {
   const auto starts_with = [&](const char* folder) { return header.rfind(folder, 0) == 0; };
   const bool is_standard =
       std::all_of(header.begin(), header.end(), [](char c) { return c != '/' && c != '.'; });
   return starts_with("symsurf/") || starts_with("Eigen/") || is_standard;
 }
 
-TEST(Dependencies, TheCoreIncludesNoFrontEnd) {
-  const std::regex include(R"-(^\s*#\s*include\s*(<(.+)>|"(.+)"))-");
-  int files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(SYMSURF_CORE)) {
-    const std::filesystem::path path = entry.path();
-    if (path.extension() != ".h" && path.extension() != ".cpp") continue;
-    ++files;
-    std::ifstream source(path);
-    for (std::string line; std::getline(source, line);) {
-      std::smatch match;
-      if (!std::regex_search(line, match, include)) continue;
-      if (match[2].matched)
-        EXPECT_TRUE(is_allowed(match[2])) << path << " includes " << match[2];
-      else
-        EXPECT_TRUE(
-            std::filesystem::exists(path.parent_path() / match[3].str()) ||
-            std::filesystem::exists(std::filesystem::path(SYMSURF_CORE) / "src" / match[3].str()))
-            << path << " includes " << match[3] << " from outside";
-    }
+TEST(Dependencies, TheCoreUsesNoFrontEndAndNoOtherLibrary) {
+  const std::vector<Include> includes = includes_below(SYMSURF_CORE);
+  EXPECT_GT(includes.size(), 500u);
+  for (const Include& include : includes)
+    if (include.in_brackets)
+      EXPECT_TRUE(is_allowed_library(include.header))
+          << include.file << " includes " << include.header;
+    else
+      EXPECT_TRUE(fs::exists(source_root / include.header) ||
+                  fs::exists(include.file.parent_path() / include.header))
+          << include.file << " includes " << include.header << " from outside";
+}
+
+TEST(Dependencies, EverySourceLiesInALayer) {
+  for (const auto& entry : fs::directory_iterator(source_root)) {
+    const fs::path folder = entry.path().filename();
+    EXPECT_TRUE(entry.is_directory()) << folder << " lies in no folder";
+    EXPECT_TRUE(layer_of(folder) < static_cast<int>(layers.size()) || is_leaf(folder)) << folder;
   }
-  EXPECT_GT(files, 30);
+}
+
+TEST(Dependencies, LayersIncludeOnlyLowerOnes) {
+  for (const Include& include : includes_below(source_root)) {
+    if (include.in_brackets) continue;
+    const fs::path from = fs::relative(include.file, source_root);
+    ASSERT_TRUE(fs::exists(source_root / include.header))
+        << from << " includes " << include.header << ": paths begin at core/src";
+    if (!is_leaf(from))
+      EXPECT_TRUE(layer_of(include.header) <= layer_of(from))
+          << from << " includes " << include.header;
+  }
+}
+
+TEST(Dependencies, NoFoldersIncludeEachOtherInACycle) {
+  std::map<fs::path, std::set<fs::path>> used;
+  for (const Include& include : includes_below(source_root)) {
+    const fs::path from = fs::relative(include.file, source_root).parent_path();
+    if (!include.in_brackets && include.header.parent_path() != from)
+      used[from].insert(include.header.parent_path());
+  }
+  std::set<fs::path> done;
+  std::vector<fs::path> way;
+  const std::function<void(const fs::path&)> follow = [&](const fs::path& folder) {
+    const bool is_cycle = std::find(way.begin(), way.end(), folder) != way.end();
+    EXPECT_FALSE(is_cycle) << folder << " includes itself by way of " << way.back();
+    if (is_cycle || !done.insert(folder).second) return;
+    way.push_back(folder);
+    for (const fs::path& next : used[folder]) follow(next);
+    way.pop_back();
+  };
+  for (const auto& [folder, _] : std::map(used)) follow(folder);
+}
+
+TEST(Dependencies, NoTwoSourcesShareAName) {
+  std::map<fs::path, fs::path> seen;
+  for (const auto& entry : fs::recursive_directory_iterator(source_root))
+    if (entry.is_regular_file()) {
+      const auto [other, is_new] = seen.emplace(entry.path().filename(), entry.path());
+      EXPECT_TRUE(is_new) << entry.path() << " and " << other->second;
+    }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "perpendicular/height_spline.h"
+#include "methods/free_form/height_spline.h"
 
 #include <gtest/gtest.h>
 

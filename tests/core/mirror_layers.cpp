@@ -1,4 +1,4 @@
-#include "mirror_layers.h"
+#include "mirrors/mirror_layers.h"
 
 #include <gtest/gtest.h>
 

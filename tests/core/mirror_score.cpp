@@ -1,4 +1,4 @@
-#include "mirror_score.h"
+#include "score/mirror_score.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/cylinder.h>
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "cloud.h"
+#include "cloud/cloud.h"
 #include "random_cloud.h"
 
 namespace symsurf {

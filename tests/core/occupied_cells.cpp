@@ -1,4 +1,4 @@
-#include "occupied_cells.h"
+#include "spatial/occupied_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What one process found gets to the others to the bit.
 
-#include "packed.h"
+#include "detection/packed.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "quantile.h"
+#include "base/quantile.h"
 #include "random_cloud.h"
 
 namespace symsurf {

@@ -1,4 +1,4 @@
-#include "point_tree.h"
+#include "spatial/point_tree.h"
 
 #include <gtest/gtest.h>
 

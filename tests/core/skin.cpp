@@ -1,4 +1,4 @@
-#include "skin.h"
+#include "preprocess/skin.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/cylinder.h>
@@ -7,11 +7,11 @@
 
 #include <cmath>
 
-#include "cloud.h"
-#include "fills_bodies.h"
-#include "point_tree.h"
+#include "cloud/cloud.h"
+#include "cloud/surroundings.h"
+#include "preprocess/fills_bodies.h"
 #include "random_cloud.h"
-#include "surroundings.h"
+#include "spatial/point_tree.h"
 
 namespace symsurf {
 namespace {
@@ -169,8 +169,7 @@ TEST(Skin, NoMirrorIsFoundWhereABodyHasNone) {
     const Matrix3 turn = random.rotation();
     const Result result =
         detect(Points(filled_dented_ball(random, 6000) * turn), {.method = "auto"});
-    EXPECT_EQ(result.verdict(), "none")
-        << seed << ": " << result.reason();
+    EXPECT_EQ(result.verdict(), "none") << seed << ": " << result.reason();
   }
 }
 

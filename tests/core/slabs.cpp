@@ -1,4 +1,4 @@
-#include "slabs.h"
+#include "spatial/slabs.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/plane.h>
@@ -8,12 +8,12 @@
 #include <mutex>
 #include <numeric>
 
-#include "matching.h"
-#include "nearest_points.h"
+#include "detection/shared_cloud.h"
 #include "process_threads.h"
 #include "random_cloud.h"
-#include "shared_cloud.h"
-#include "shared_matching.h"
+#include "score/matching.h"
+#include "score/shared_matching.h"
+#include "spatial/nearest_points.h"
 
 namespace symsurf {
 namespace {

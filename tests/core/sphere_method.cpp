@@ -9,12 +9,12 @@
 #include <array>
 #include <cmath>
 
+#include "base/nelder_mead.h"
 #include "expect_error.h"
+#include "methods/parametric/unit_sphere.h"
+#include "methods/sphere/sphere_measure.h"
+#include "methods/thesis/nearest_cells.h"
 #include "random_cloud.h"
-#include "sphere/sphere_measure.h"
-#include "sphere/unit_sphere.h"
-#include "thesis/nearest_cells.h"
-#include "thesis/nelder_mead.h"
 
 namespace symsurf {
 namespace {

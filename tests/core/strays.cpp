@@ -1,4 +1,4 @@
-#include "strays.h"
+#include "preprocess/strays.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cloud.h"
+#include "cloud/cloud.h"
 #include "mirrored_ball.h"
 #include "random_cloud.h"
 

@@ -1,4 +1,4 @@
-#include "surface_samples.h"
+#include "preprocess/surface_samples.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cloud.h"
+#include "cloud/cloud.h"
 #include "expect_error.h"
 #include "random_cloud.h"
 

@@ -1,10 +1,10 @@
-#include "plane/surfels.h"
+#include "cloud/surfels.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "cloud.h"
+#include "cloud/cloud.h"
 #include "random_cloud.h"
 
 namespace symsurf {

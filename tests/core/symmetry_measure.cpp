@@ -1,4 +1,4 @@
-#include "plane/symmetry_measure.h"
+#include "score/symmetry_measure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-#include "sphere/unit_sphere.h"
+#include "methods/parametric/unit_sphere.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "plane/unit_plane.h"
+#include "methods/parametric/sphere_step.h"
+#include "methods/parametric/unit_plane.h"
+#include "methods/sphere/sphere_measure.h"
 #include "random_cloud.h"
-#include "sphere/sphere_measure.h"
-#include "sphere/sphere_step.h"
 
 namespace symsurf {
 namespace {

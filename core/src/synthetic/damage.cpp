@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../cloud.h"
-#include "../random.h"
+#include "base/random.h"
+#include "cloud/cloud.h"
 
 namespace symsurf {
 

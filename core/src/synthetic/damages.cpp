@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "../infinity.h"
+#include "base/infinity.h"
 
 namespace symsurf {
 

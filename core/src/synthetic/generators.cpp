@@ -1,7 +1,7 @@
 #include <symsurf/errors.h>
 #include <symsurf/synthetic.h>
 
-#include "../infinity.h"
+#include "base/infinity.h"
 
 namespace symsurf {
 

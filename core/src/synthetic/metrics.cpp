@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../finite_rows.h"
-#include "../point_tree.h"
-#include "../sheet_spacing.h"
+#include "base/finite_rows.h"
+#include "cloud/sheet_spacing.h"
+#include "spatial/point_tree.h"
 
 namespace symsurf {
 

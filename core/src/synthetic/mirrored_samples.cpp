@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "../cloud.h"
+#include "cloud/cloud.h"
 
 namespace symsurf {
 

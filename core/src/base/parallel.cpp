@@ -1,0 +1,78 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace symsurf {
+
+namespace {
+
+constexpr std::chrono::milliseconds patience{20};
+
+}  // namespace
+
+void parallel_for(const Context& context, Index count, Index grain,
+                  const std::function<void(Index, Index)>& body) {
+  const Index chunks = (count + grain - 1) / grain;
+  std::atomic<Index> next{0};
+  std::atomic<bool> stop{false};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  std::condition_variable ended;
+  const Index threads = std::min<Index>(context.threads(), chunks);
+  Index at_work = threads - 1;  // beside the calling thread
+
+  const auto or_failure = [&](const auto& part) {
+    try {
+      part();
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stop = true;
+    }
+  };
+  const auto work = [&](bool reports) {
+    for (Index chunk; !stop && (chunk = next++) < chunks;) {
+      body(chunk * grain, std::min(count, (chunk + 1) * grain));
+      if (reports && chunk + 1 < chunks)
+        context.report(static_cast<double>(chunk + 1) / static_cast<double>(chunks));
+    }
+  };
+  const auto help = [&] {
+    or_failure([&] { work(false); });
+    const std::scoped_lock lock(mutex);
+    if (--at_work == 0) ended.notify_one();
+  };
+  const auto wait = [&] {
+    for (std::unique_lock lock(mutex); at_work > 0;) {
+      ended.wait_for(lock, patience);
+      lock.unlock();
+      context.check();
+      lock.lock();
+    }
+  };
+
+  std::vector<std::thread> helpers;
+  helpers.reserve(threads);
+  try {
+    while (static_cast<Index>(helpers.size()) + 1 < threads) helpers.emplace_back(help);
+  } catch (const std::exception&) {
+    // The system gives no more: those that there are share the work.
+    const std::scoped_lock lock(mutex);
+    at_work -= threads - 1 - static_cast<Index>(helpers.size());
+  }
+  or_failure([&] {
+    work(true);
+    wait();
+  });
+  for (std::thread& helper : helpers) helper.join();
+  if (failure) std::rethrow_exception(failure);
+  context.report(1);  // whichever thread had the last chunk
+}
+
+}  // namespace symsurf

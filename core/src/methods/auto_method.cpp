@@ -1,0 +1,106 @@
+#include "cloud/cloud.h"
+#include "methods/registry.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+// A plane that scores as much leaves freer mirrors nothing to explain: skulls, a cow and an
+// airplane score 0.8 and more as they are, 0.6 and less once bent about a cylinder of three
+// diagonals' radius.
+constexpr double enough = 0.75;
+constexpr double tie = 0.01;           // of two scores as close the simpler mirror's wins
+constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
+
+// A result without an exact partner for every point may be improved on by a freer mirror.
+bool is_exact(const Result& result) {
+  const auto share = result.statistics.find("exact_share");
+  return share != result.statistics.end() && std::get<double>(share->second) == 1;
+}
+
+std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
+
+// Points of the cloud, dense where it is dense.
+class ThinnedCloud {
+ public:
+  ThinnedCloud(const Cloud& cloud, const Context& context) : cloud_(cloud) {
+    if (cloud.points.size() <= thinned_size) return;
+    const PointTree tree(cloud.points, context);
+    std::vector<Index> rows;
+    for (Index k = 0; k < thinned_size; ++k)
+      rows.push_back(tree.order()[k * cloud.points.size() / thinned_size]);
+    points_ = cloud.points.matrix()(rows, Eigen::indexing::all);
+    if (!cloud.normals.empty()) normals_ = cloud.normals.matrix()(rows, Eigen::indexing::all);
+    cloud_ = checked_cloud(points_, normals_, 1, context);
+    cloud_.seed = cloud.seed;
+    is_thinner_ = true;
+  }
+  const Cloud& cloud() const { return cloud_; }
+  bool is_thinner() const { return is_thinner_; }
+
+ private:
+  Points points_, normals_ = Points(0, 3);
+  Cloud cloud_;
+  bool is_thinner_ = false;
+};
+
+Result run_with_defaults(const Method& method, const Cloud& cloud, const Context& context) {
+  const ParameterValues defaults(method.name, method.parameters, {});
+  Result result = method.run(cloud, defaults, context);
+  result.parameters = defaults.all();
+  return result;
+}
+
+Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const Method& plane = method("plane");
+  Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
+  Values scores{{"score_plane", best.score}};
+  std::string reason;
+  if (is_exact(best)) {
+    reason = "every point has an exact partner over the plane";
+  } else if (best.score >= enough) {
+    reason = "plane scores " + text(best.score) + ": at least " + text(enough) +
+             ", which leaves freer mirrors nothing to explain";
+  } else {
+    const ThinnedCloud thinned(cloud, context.stage(0.2, 0.2));
+    const Method* winner = &plane;
+    std::string others = "plane " + text(best.score);
+    double done = 0.2;
+    for (const Method& freer : methods()) {
+      if (!freer.automatic || freer.name == plane.name) continue;
+      if (cloud.points.size() < freer.minimum_points) continue;
+      if (is_exact(best)) break;
+      Result result = run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
+      done += 0.2;
+      scores["score_" + freer.name] = result.score;
+      others += ", " + freer.name + " " + text(result.score);
+      if (!(result.score > best.score + tie || (is_exact(result) && result.score > best.score)))
+        continue;
+      best = std::move(result);
+      winner = &freer;
+    }
+    if (winner != &plane && thinned.is_thinner())
+      best = run_with_defaults(*winner, cloud, context.stage(done, 1));
+    reason = winner->name + " is the simplest of the best: " + others;
+  }
+  scores["reason"] = reason;
+  best.statistics.merge(scores);
+  best.parameters["minimum_score"] = values.real("minimum_score");
+  return best;
+}
+
+}  // namespace
+
+Method auto_method() {
+  Method method;
+  method.name = "auto";
+  method.title = "Mirror (best of all kinds)";
+  method.summary =
+      "Finds the plane, and where that leaves something to explain tries freer kinds of mirror; of "
+      "those that fit alike the simplest is the result.";
+  method.run = run_auto;
+  return method;
+}
+
+}  // namespace symsurf

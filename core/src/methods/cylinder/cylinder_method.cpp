@@ -1,0 +1,124 @@
+#include <symsurf/cylinder.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "methods/cylinder/cylinder_candidates.h"
+#include "methods/parametric/refinement.h"
+#include "methods/registry.h"
+#include "score/matching.h"
+#include "score/mirror_score.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index started = 48;                  // candidates that are settled on the surfels
+constexpr Index fitted_to_all = 8;             // of these, are fitted to the full cloud
+constexpr std::size_t polished_cylinders = 3;  // and of these, to ever more of it
+constexpr std::size_t rescanned = 4;           // candidates whose axis is looked at more closely
+constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
+constexpr double chance_explains = 0.35;  // what cylinders explain of random solids before that
+constexpr double hopeless = 0.6;          // of what the best explains: not worth fitting
+constexpr double alike_cylinders = 0.04;  // cylinders closer than this are one
+constexpr double widest = 6;  // radius, in diagonals: wider ones are hardly told from planes
+
+Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
+  return {frame.leave(cylinder.point), frame.axes * cylinder.axis, frame.size * cylinder.radius};
+}
+
+void drop_hopeless(std::vector<CylinderCandidate>& candidates) {
+  const double least = hopeless * candidates.front().explained;
+  std::erase_if(candidates, [&](const CylinderCandidate& c) {
+    return c.explained < least || !(c.shape.radius < widest);
+  });
+}
+
+// The same distance from the cloud's middle, with the axis turned about the line between them.
+UnitCylinder turned(const UnitCylinder& cylinder, double angle) {
+  const Vector3 u = cylinder.from_axis(Vector3::Zero()).normalized();
+  const Vector3 nearest = cylinder.point - cylinder.point.dot(cylinder.axis) * cylinder.axis;
+  const Vector3 axis = std::cos(angle) * cylinder.axis + std::sin(angle) * u.cross(cylinder.axis);
+  return {nearest, axis, cylinder.radius};
+}
+
+// On the thinned cloud alone.
+std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed,
+                                                   const Context& context) {
+  const SurfelMap map(surfels);
+  std::vector<CylinderCandidate> candidates =
+      candidate_cylinders(surfels, map, seed, started, context);
+  for (CylinderCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  keep_distinct(surfels, candidates, alike_cylinders, started);
+  if (!candidates.empty()) drop_hopeless(candidates);
+  for (CylinderCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  keep_distinct(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
+  const std::size_t found = std::min(rescanned, candidates.size());
+  for (std::size_t i = 0; i < found; ++i)
+    for (const double angle : angles)
+      candidates.push_back(settled(
+          surfels, map, CylinderCandidate{turned(candidates[i].shape, angle)}, 0.02, 0.012, 4, 1));
+  keep_distinct(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
+  return candidates;
+}
+
+Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  Result best;
+  best.method = "cylinder";
+  const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
+  std::vector<CylinderCandidate> candidates =
+      promising_cylinders(surfels, cloud.seed, context.stage(0.1, 0.4));
+  if (candidates.empty()) return best;
+
+  PointTree tree(cloud.points, context.stage(0.4, 0.5));
+  const NearestPoints points(cloud.points, tree, context);
+  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.7));
+  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
+  keep_distinct(surfels, candidates, alike_cylinders, fitted_to_all);
+  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
+  keep_distinct(surfels, candidates, alike_cylinders, fitted_to_all);
+  for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
+    if (i == 0 || candidates[i].explained > chance_explains)
+      candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
+  keep_distinct(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
+  drop_hopeless(candidates);
+  context.report(0.7);
+  if (candidates.empty()) return best;
+
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const CylinderCandidate& candidate : candidates)
+    mirrors.push_back(std::make_shared<Cylinder>(in_input_units(candidate.shape, cloud.frame)));
+  best = MirrorScore(cloud, points, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
+  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
+  return best;
+}
+
+}  // namespace
+
+Method cylinder_method() {
+  Method method;
+  method.name = "cylinder";
+  method.title = "Mirror cylinder";
+  method.summary =
+      "Finds the circular cylinder that mirrors the shape along its radius: a plane of symmetry "
+      "bent about an axis.";
+  method.parameters = {
+      Parameter::integer("sample_size", 700, 100, 100000, "points",
+                         "Patches of the cloud that the search for the cylinder works on."),
+      Parameter::integer("max_candidates", 5, 0, 7, "",
+                         "Other cylinders to report at the most, best first."),
+      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
+                      "A point whose image has no point of the cloud nearer than this has no "
+                      "partner."),
+  };
+  method.minimum_points = 12;
+  method.automatic = true;
+  method.run = run_cylinder;
+  return method;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,98 @@
+#include "methods/free_form/bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/keep_unlike.h"
+#include "methods/free_form/bent_plane.h"
+#include "methods/plane/plane_candidates.h"
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+constexpr Index patches = 1000, likely = 6;  // of the cloud; planes among them
+constexpr double alike = 0.05;               // mirrors closer than this are one
+constexpr Index few = 600, many = 2000;      // points that planes are bent by
+constexpr std::size_t most_bent = 3;         // to the end
+constexpr double unbent = 0.997;             // flatness of what is a plane still
+constexpr double bent_foot_precision = 1e-6;
+
+// From a stiff plane that looks far to one that bends and looks near.
+constexpr int stages = 16, glance = 6, steps_a_stage = 2;
+constexpr double widest = 0.06, narrowest = 0.01, closest = 0.8;  // diagonals; spacings
+constexpr double stiffest = 3e-2, softest = 2e-6;
+constexpr bool is_finer(int stage) { return stage == 4 || stage == 8 || stage == 13; }
+
+std::vector<UnitPlane> likely_planes(const Cloud& cloud, const Context& context) {
+  const Surfels surfels(cloud, patches, context);
+  const SurfelMap map(surfels);
+  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, usual_search, 2 * likely);
+  for (PlaneCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
+  keep_distinct(candidates, alike, likely);
+  for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
+  keep_distinct(candidates, alike, likely + 3);
+  std::vector<UnitPlane> planes;
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
+  return planes;
+}
+
+BentPlane laid_on(const SearchCloud& search, const Plane& plane) {
+  const Vector3 point = plane.foot(search.centroid) - search.centroid;
+  return {search, point / search.diagonal, plane.normal()};
+}
+
+void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& plane) {
+  const Index stride = std::max<Index>(1, search.size() / points);
+  for (int stage = from; stage < to; ++stage) {
+    search.context.check();
+    if (is_finer(stage)) plane.subdivide();
+    const double part = stage / (stages - 1.0);
+    const double tolerance =
+        std::max(widest * std::pow(narrowest / widest, part), closest * search.spacing);
+    for (int k = 0; k < steps_a_stage; ++k)
+      plane.step(tolerance, stiffest * std::pow(softest / stiffest, part), stride);
+  }
+}
+
+// Whether they send points to like places.
+bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b) {
+  constexpr Index probes = 40;
+  const Index stride = std::max<Index>(1, search.size() / probes);
+  double squared = 0;
+  Index count = 0;
+  for (Index p = 0; p < search.size(); p += stride, ++count) {
+    const Vector3 x = search.point(search.tree.order()[p]);
+    squared += (a.image(x) - b.image(x)).squaredNorm();
+  }
+  return squared < alike * alike * static_cast<double>(count);
+}
+
+}  // namespace
+
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Sheet>& sheets,
+                 const Context& context) {
+  std::vector<BentPlane> bent;
+  for (const UnitPlane& plane : likely_planes(cloud, context.stage(0, 0.1))) {
+    bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
+    bend(search, 0, glance, few, bent.back());
+  }
+  std::stable_sort(bent.begin(), bent.end(),
+                   [](const BentPlane& a, const BentPlane& b) { return a.agreed() > b.agreed(); });
+  keep_unlike(bent, most_bent,
+              [&](const BentPlane& a, const BentPlane& b) { return act_alike(search, a, b); });
+  for (std::size_t k = 0; k < bent.size(); ++k) {
+    context.stage(0.4, 1).report(static_cast<double>(k) / most_bent);
+    bend(search, glance, stages, many, bent[k]);
+    Sheet sheet;
+    sheet.mirror = bent[k].free_form();
+    match(search, bent_foot_precision, sheet);
+    if (sheet.carried.size() < 6 || flatness(sheet) > unbent) continue;
+    sheet.explained = explained(search, sheet);
+    sheet.bent = true;
+    sheets.push_back(std::move(sheet));
+  }
+}
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "methods/free_form/free_form_refinement.h"
+
+namespace symsurf::perpendicular {
+
+/// Adds the sheets that likely mirror planes and the principal planes of the cloud become when they
+/// are bent until they mirror it. Unlike sheets that grow they need no partners that stand close to
+/// the images, and take hold of what both sides have in common by and by; but they have to be
+/// within reach of a plane.
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Sheet>& sheets,
+                 const Context& context);
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,192 @@
+#include "methods/free_form/bent_plane.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/semidefinite_solve.h"
+#include "base/symmetric_eigen.h"
+#include "methods/free_form/hermite_fit.h"
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+using At = HeightSpline::At;
+using Weights = HeightSpline::Weights;
+
+constexpr double first_cell = 0.5, margin = 0.03;  // diagonals
+
+// The box of the cloud along the plane.
+HeightSpline flat_over(const SearchCloud& cloud, const Vector3& origin, const Matrix3& axes) {
+  At low = At::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Index i = 0; i < cloud.size(); ++i) {
+    const At at = (axes * (cloud.point(i) - origin)).head<2>();
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  return {low - At::Constant(margin), high + At::Constant(margin), first_cell};
+}
+
+// The plane's frame turned so that the cloud extends most along its first row: fewest cells.
+Matrix3 axes_along(const SearchCloud& cloud, const Vector3& origin, const Vector3& normal) {
+  const Matrix3 frame = frame_of(normal);
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (Index i = 0; i < cloud.size(); ++i) {
+    const At at = (frame * (cloud.point(i) - origin)).head<2>();
+    spread += at * at.transpose();
+  }
+  const Eigen::Matrix2d turn = eigen_of(spread).vectors;
+  Matrix3 axes;
+  axes.row(0) = turn.col(1).transpose() * frame.topRows<2>();
+  axes.row(2) = frame.row(2);
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  return axes;
+}
+
+}  // namespace
+
+BentPlane::BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal)
+    : cloud_(&cloud),
+      origin_(point),
+      axes_(axes_along(cloud, point, normal)),
+      heights_(flat_over(cloud, point, axes_)),
+      energy_(heights_.bending_energy()),
+      feet_(cloud.size()) {
+  for (Index i = 0; i < cloud.size(); ++i) feet_[i] = enter(cloud.point(i)).head<2>();
+}
+
+// Newton's steps on the squared distance; where it is not convex, Gauss-Newton's.
+BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
+  constexpr int most_steps = 8;
+  constexpr double precision = 1e-7, longest_step = 0.1, least_determinant = 0.2;
+  for (int k = 0; k < most_steps; ++k) {
+    const HeightSpline::Jet jet = heights_.jet(at);
+    const double above = jet.h - x.z();
+    const At gradient = at - x.head<2>() + above * At(jet.u, jet.v);
+    Eigen::Matrix2d metric, curved;
+    metric << 1 + jet.u * jet.u, jet.u * jet.v, jet.u * jet.v, 1 + jet.v * jet.v;
+    curved << jet.uu, jet.uv, jet.uv, jet.vv;
+    curved = metric + above * curved;
+    const bool convex = curved.determinant() > least_determinant && curved.trace() > 0;
+    At step = (convex ? curved : metric).inverse() * gradient;
+    if (step.norm() > longest_step) step *= longest_step / step.norm();
+    const At next = heights_.clamped(at - step);
+    const bool found = (next - at).norm() < precision;
+    at = next;
+    if (found) break;
+  }
+  const HeightSpline::Jet jet = heights_.jet(at);
+  const Vector3 upwards(-jet.u, -jet.v, 1);
+  const double slant = upwards.norm();
+  return {at, Vector3(at.x(), at.y(), jet.h), upwards / slant, slant};
+}
+
+std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
+  constexpr double farthest = 3;  // tolerances
+  constexpr double least_cosine = 0.6;
+  const Vector3 x = enter(cloud_->point(i));
+  const Foot foot = this->foot(x, feet_[i]);
+  feet_[i] = foot.at;
+  const double distance = foot.normal.dot(x - foot.position);
+  // Near the mirror a point's neighbours are its image's, wherever the mirror is.
+  const double moved = std::clamp(std::abs(distance) / (1.5 * cloud_->spacing) - 0.5, 0.0, 1.0);
+  if (moved == 0) return std::nullopt;
+  const Vector3 image = x - 2 * distance * foot.normal;
+  const double reach = farthest * tolerance;
+  const Neighbour near = cloud_->tree.nearest(axes_.transpose() * image + origin_, reach * reach);
+  if (near.index < 0) return std::nullopt;
+  const Vector3 normal = axes_ * cloud_->normal(i), partner = axes_ * cloud_->normal(near.index);
+  const double cosine = std::abs(partner.dot(normal - 2 * foot.normal.dot(normal) * foot.normal));
+  if (cosine < least_cosine) return std::nullopt;
+
+  // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
+  // 2 d grad q.
+  Pull pull{heights_.weights(foot.at), {}, 0, 0};
+  const double u = -foot.normal.x() / foot.normal.z(), v = -foot.normal.y() / foot.normal.z();
+  Eigen::Matrix2d metric;
+  metric << 1 + u * u, u * v, u * v, 1 + v * v;
+  const At slopes =
+      metric.inverse() * At(partner.x() + u * partner.z(), partner.y() + v * partner.z());
+  pull.row = 2 / foot.slant *
+             (partner.dot(foot.normal) * pull.at.h +
+              distance * (slopes.x() * pull.at.u + slopes.y() * pull.at.v));
+  pull.miss = partner.dot(enter(cloud_->point(near.index)) - image);
+  const double far = near.squared_distance / (tolerance * tolerance);
+  pull.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
+  return pull;
+}
+
+void BentPlane::step(double tolerance, double stiffness, Index stride) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(heights_.size(), heights_.size());
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(heights_.size());
+  double total = 0;
+  Index looked = 0;
+  for (Index p = 0; p < cloud_->size(); p += stride, ++looked) {
+    const auto pull = pull_of(cloud_->tree.order()[p], tolerance);
+    if (!pull) continue;
+    total += pull->weight;
+    const Eigen::Matrix<double, Weights::count, Weights::count> products =
+        pull->weight * pull->row.transpose() * pull->row;
+    const auto& index = pull->at.index;
+    for (int a = 0; a < Weights::count; ++a) {
+      right[index[a]] += pull->weight * pull->miss * pull->row[a];
+      for (int b = 0; b < Weights::count; ++b) matrix(index[a], index[b]) += products(a, b);
+    }
+  }
+  agreed_ = total / static_cast<double>(looked);
+  if (total == 0) return;
+  const Eigen::MatrixXd energy = stiffness * energy_;
+  heights_.step(solved(matrix / total + energy, right / total - energy * heights_.coefficients()));
+}
+
+void BentPlane::subdivide() {
+  heights_ = heights_.subdivided();
+  energy_ = heights_.bending_energy();
+}
+
+Vector3 BentPlane::image(const Vector3& x) const {
+  const Vector3 inside = enter(x);
+  const Foot foot = this->foot(inside, inside.head<2>());
+  return x - 2 * foot.normal.dot(inside - foot.position) * (axes_.transpose() * foot.normal);
+}
+
+// The spline's second-order pieces about the nodes of a grid.
+std::shared_ptr<const FreeForm> BentPlane::free_form() const {
+  constexpr double apart = 0.02, overlap = 2.2;
+  constexpr Index around = 3;  // nodes about each foot
+  const At low = heights_.low();
+  const Eigen::Vector2i size = ((heights_.high() - low) / apart).array().floor().cast<int>() + 1;
+  std::vector<char> wanted(size.cast<Index>().prod(), 0);
+  for (Index i = 0; i < cloud_->size(); ++i) {
+    const At foot = this->foot(enter(cloud_->point(i)), feet_[i]).at;
+    const Eigen::Array2i at = ((foot - low) / apart).array().round().cast<int>();
+    const Eigen::Array2i from = (at - around).max(0), to = (at + around).min(size.array() - 1);
+    for (int x = from.x(); x <= to.x(); ++x)
+      for (int y = from.y(); y <= to.y(); ++y) wanted[static_cast<Index>(x) * size.y() + y] = 1;
+  }
+  std::vector<Patch> patches;
+  for (int x = 0; x < size.x(); ++x)
+    for (int y = 0; y < size.y(); ++y) {
+      if (!wanted[static_cast<Index>(x) * size.y() + y]) continue;
+      const At at = low + apart * At(x, y);
+      const HeightSpline::Jet jet = heights_.jet(at);
+      const Vector3 upwards(-jet.u, -jet.v, 1);
+      Patch patch;
+      patch.centre = axes_.transpose() * Vector3(at.x(), at.y(), jet.h) + origin_;
+      patch.frame = frame_of(axes_.transpose() * upwards.normalized());
+      patch.radius = overlap * apart * upwards.norm();
+      // Along a tangent the plane's coordinates change as its projection; heights above the tangent
+      // plane are those above the plane, less steep.
+      const Eigen::Matrix2d along = (patch.frame.topRows<2>() * axes_.transpose()).leftCols<2>();
+      Eigen::Matrix2d second;
+      second << jet.uu, jet.uv, jet.uv, jet.vv;
+      second = along * second * along.transpose() / upwards.norm();
+      patch.height << 0, 0, 0, second(0, 0) / 2, second(0, 1), second(1, 1) / 2;
+      patches.push_back(patch);
+    }
+  return std::make_shared<FreeForm>(std::move(patches));
+}
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <symsurf/free_form.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "methods/free_form/height_spline.h"
+#include "methods/free_form/search_cloud.h"
+
+namespace symsurf::perpendicular {
+
+/// A mirror that starts as a plane and is bent, step by step, until the points' images lie on the
+/// cloud.
+class BentPlane {
+ public:
+  /// Through a point of the plane, as wide as the cloud. The cloud must outlive it.
+  BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
+
+  /// One Gauss-Newton step on the points of every `stride`-th place of the tree's order: images are
+  /// drawn to the tangent planes of their partners, against the bending energy times `stiffness`.
+  /// Partners farther than `tolerance` have little say.
+  void step(double tolerance, double stiffness, Index stride);
+
+  void subdivide();
+
+  /// The share of those points whose images agreed with the cloud, as it was before the last step.
+  double agreed() const { return agreed_; }
+
+  Vector3 image(const Vector3& x) const;
+
+  /// The mirror near the feet of the points.
+  std::shared_ptr<const FreeForm> free_form() const;
+
+ private:
+  // The foot of a point, in the plane's frame.
+  struct Foot {
+    HeightSpline::At at;
+    Vector3 position, normal;
+    double slant;  // one over the cosine between the mirror's normal and the plane's
+  };
+
+  // How far a point's image is off its partner's tangent plane, and what each coefficient that has
+  // a say at the foot does about it.
+  struct Pull {
+    HeightSpline::Weights at;
+    HeightSpline::Weights::Row row;
+    double miss, weight;
+  };
+
+  Vector3 enter(const Vector3& x) const { return axes_ * (x - origin_); }
+  Foot foot(const Vector3& x, HeightSpline::At from) const;
+  std::optional<Pull> pull_of(Index i, double tolerance);
+
+  const SearchCloud* cloud_;
+  Vector3 origin_;
+  Matrix3 axes_;  // rows: two along the plane and its normal
+  HeightSpline heights_;
+  Eigen::MatrixXd energy_;              // theirs
+  std::vector<HeightSpline::At> feet_;  // of the points, as they were last
+  double agreed_ = 0;
+};
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,106 @@
+#include "methods/free_form/height_spline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+constexpr int support = 4;  // coefficients that have a say along a side
+
+// The cubic B-splines that overlap a cell, and their derivatives, at t of its length, 0 to 1.
+struct Cubics {
+  std::array<double, support> value, first, second;
+
+  Cubics(double t, double cell) {
+    const double s = 1 - t;
+    value = {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+             (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
+    first = {-s * s / 2, (3 * t * t - 4 * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
+    second = {s, 3 * t - 2, 3 * s - 2, t};
+    for (double& f : first) f /= cell;
+    for (double& f : second) f /= cell * cell;
+  }
+};
+
+// The refinement mask of cubic splines, (1 4 6 4 1) / 8, along the columns.
+Eigen::MatrixXd subdivided_columns(const Eigen::MatrixXd& c) {
+  Eigen::MatrixXd finer(2 * c.rows() - 3, c.cols());
+  for (Index k = 0; k < finer.rows(); ++k) {
+    const Index i = k / 2;
+    if (k % 2)
+      finer.row(k) = (c.row(i) + 6 * c.row(i + 1) + c.row(i + 2)) / 8;
+    else
+      finer.row(k) = (c.row(i) + c.row(i + 1)) / 2;
+  }
+  return finer;
+}
+
+}  // namespace
+
+HeightSpline::HeightSpline(const At& low, double cell, const Eigen::Vector2i& cells)
+    : low_(low),
+      cell_(cell),
+      cells_(cells),
+      coefficients_(Eigen::VectorXd::Zero((cells.array().cast<Index>() + (support - 1)).prod())) {}
+
+HeightSpline::HeightSpline(const At& low, const At& high, double cell)
+    : HeightSpline(low, cell, ((high - low) / cell).array().ceil().max(1).cast<int>().matrix()) {
+  low_ = (low + high - cell_ * cells_.cast<double>()) / 2;
+}
+
+HeightSpline HeightSpline::subdivided() const {
+  HeightSpline finer(low_, cell_ / 2, 2 * cells_);
+  const Eigen::MatrixXd c = Eigen::MatrixXd::Map(coefficients_.data(), cells_.y() + support - 1,
+                                                 cells_.x() + support - 1);
+  const Eigen::MatrixXd both = subdivided_columns(subdivided_columns(c).transpose()).transpose();
+  finer.coefficients_ = both.reshaped();
+  return finer;
+}
+
+HeightSpline::Weights HeightSpline::weights(const At& at) const {
+  const At place = (at - low_) / cell_;
+  const Eigen::Vector2i cell =
+      place.array().floor().cast<int>().max(0).min(cells_.array() - 1).matrix();
+  const At t = place - cell.cast<double>();
+  const Cubics along_u(t.x(), cell_), along_v(t.y(), cell_);
+  Weights w;
+  for (int i = 0, k = 0; i < support; ++i)
+    for (int j = 0; j < support; ++j, ++k) {
+      w.index[k] = static_cast<Index>(cell.x() + i) * (cells_.y() + support - 1) + cell.y() + j;
+      w.h[k] = along_u.value[i] * along_v.value[j];
+      w.u[k] = along_u.first[i] * along_v.value[j];
+      w.v[k] = along_u.value[i] * along_v.first[j];
+      w.uu[k] = along_u.second[i] * along_v.value[j];
+      w.uv[k] = along_u.first[i] * along_v.first[j];
+      w.vv[k] = along_u.value[i] * along_v.second[j];
+    }
+  return w;
+}
+
+HeightSpline::Jet HeightSpline::jet(const At& at) const {
+  const Weights w = weights(at);
+  Weights::Row c;
+  for (int k = 0; k < Weights::count; ++k) c[k] = coefficients_[w.index[k]];
+  return {w.h.dot(c), w.u.dot(c), w.v.dot(c), w.uu.dot(c), w.uv.dot(c), w.vv.dot(c)};
+}
+
+Eigen::MatrixXd HeightSpline::bending_energy() const {
+  const std::array<double, 2> gauss{0.5 - std::sqrt(3.0) / 6, 0.5 + std::sqrt(3.0) / 6};
+  Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(size(), size());
+  for (int x = 0; x < cells_.x(); ++x)
+    for (int y = 0; y < cells_.y(); ++y)
+      for (const double s : gauss)
+        for (const double t : gauss) {
+          const Weights w = weights(low_ + cell_ * At(x + s, y + t));
+          const Eigen::Matrix<double, Weights::count, Weights::count> products =
+              w.uu.transpose() * w.uu + 2 * w.uv.transpose() * w.uv + w.vv.transpose() * w.vv;
+          for (int i = 0; i < Weights::count; ++i)
+            for (int j = 0; j < Weights::count; ++j)
+              energy(w.index[i], w.index[j]) += products(i, j);
+        }
+  return energy / (4.0 * cells_.prod());
+}
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,144 @@
+#include "methods/height_field/field_search.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/quantile.h"
+#include "methods/height_field/direction_search.h"
+#include "methods/height_field/exact_partners.h"
+#include "methods/height_field/partner_evidence.h"
+#include "methods/height_field/sheet_refinement.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index peaks_a_scale = 6, explaining = 3;
+constexpr std::size_t most_examined = 6;  // directions, for partners
+constexpr Index searched_size = 2000;
+constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
+constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
+constexpr double evidence_reach = 1.7;                     // spacings
+constexpr double suspected = 3;
+constexpr double no_evidence = 5;         // standard deviations that chance reaches
+constexpr double known_scatter = 7;       // from here on the scatter is believed
+constexpr double strong_evidence = 9;     // no need to look further
+constexpr double evidence_weight = 0.15;  // share of explained points a deviation is worth
+constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
+constexpr double as_much = 0.03;          // explained
+constexpr double rough_sheets = 0.1;      // spacings off a plane: noise, or sharp bends
+constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
+constexpr int rounds = 6;
+
+// Ranks directions by what their surface explains and by the partners found along them.
+class Ranking {
+ public:
+  Ranking(const WorkingCloud& cloud, const Context& context)
+      : cloud_(cloud), context_(context), sheet_(cloud, context, evidence_reach) {}
+
+  // Partners are looked for along those that explain most; once there is no doubt, only along
+  // those that explain about as much: neighbours of one another, that show them more or less.
+  void consider(const std::vector<Vector3>& directions) {
+    std::vector<std::pair<double, std::size_t>> explained;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      context_.check();
+      explained.emplace_back(-sheet_.explained(directions[k]), k);
+    }
+    std::sort(explained.begin(), explained.end());
+    explained.resize(std::min(explained.size(), most_examined));
+    for (const auto& [negative, k] : explained) {
+      if (convinced() && explained.front().first < negative - as_much) break;
+      examine(directions[k]);
+    }
+  }
+  bool convinced() const {
+    return best_.significance > strong_evidence && best_.share > common_share;
+  }
+  const PartnerEvidence& best() const { return best_; }
+
+ private:
+  void examine(const Vector3& direction) {
+    const double explained = sheet_.explained(direction);
+    context_.check();
+    PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction, context_);
+    if (evidence.significance > suspected) {
+      // Partners that are there vote for better heights than chance does, and stand out more.
+      sheet_.explained(evidence.direction, evidence.scatter);
+      context_.check();
+      const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction, context_);
+      if (again.significance > evidence.significance) evidence = again;
+    }
+    const double common = std::min(1.0, evidence.share / common_share);
+    const double rank = explained + evidence_weight * common * common *
+                                        std::max(0.0, evidence.significance - no_evidence);
+    if (rank <= rank_) return;
+    rank_ = rank;
+    best_ = evidence;
+    if (best_.significance <= no_evidence) best_.direction = direction;
+    if (best_.significance <= known_scatter)
+      best_.scatter = std::numeric_limits<double>::infinity();
+  }
+
+  const WorkingCloud& cloud_;
+  const Context& context_;
+  MidSheet sheet_;
+  PartnerEvidence best_;
+  double rank_ = -1;
+};
+
+template <typename Directed>
+std::vector<Vector3> directions(const std::vector<Directed>& of) {
+  std::vector<Vector3> all;
+  for (const Directed& one : of) all.push_back(one.direction);
+  return all;
+}
+
+std::vector<Vector3> explaining_directions(const WorkingCloud& cloud,
+                                           const std::vector<ChordPeak>& peaks,
+                                           const Context& context) {
+  if (cloud.size() <= searched_size)
+    return directions(explaining_directions(cloud, peaks, explaining, context));
+  const WorkingCloud fewer(cloud.points, searched_size);
+  return directions(explaining_directions(fewer, peaks, explaining, context));
+}
+
+}  // namespace
+
+FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_direction,
+                                Values& statistics, const Context& context) {
+  std::vector<ChordPeak> peaks;
+  const bool given = !given_direction.isZero(0);
+  if (given)
+    peaks.push_back({given_direction.normalized(), 0});
+  else
+    peaks = chord_peaks(cloud, peaks_a_scale);
+  context.report(0.2);
+
+  const FieldEstimate exact = exact_partners(cloud, peaks, peak_cone, context);
+  statistics["partners"] = std::string("exact");
+  if (exact.explained > exact_share) return exact;
+  context.report(0.3);
+
+  Ranking ranking(cloud, context);
+  ranking.consider(directions(peaks));
+  context.report(0.4);
+  if (!given && ranking.best().significance < strong_evidence)
+    ranking.consider(explaining_directions(cloud, peaks, context.stage(0.4, 0.7)));
+  context.report(0.7);
+
+  const PartnerEvidence& start = ranking.best();
+  statistics["partner_significance"] = start.significance;
+  if (start.significance > strong_evidence) {
+    const FieldEstimate again =
+        exact_partners(cloud, {{start.direction, 0}}, evidence_cone, context);
+    if (again.explained > exact_share) return again;
+  }
+  statistics["partners"] = std::string("sheets");
+  const double roughness =
+      median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
+  const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch, context);
+  context.report(0.75);
+  return SheetRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
+}
+
+}  // namespace symsurf

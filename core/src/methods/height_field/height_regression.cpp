@@ -1,0 +1,135 @@
+#include "methods/height_field/height_regression.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/quantile.h"
+#include "base/semidefinite_solve.h"
+#include "methods/height_field/working_cloud.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index most_left_out = 300;  // observations that cross-validation predicts
+// Partners share patches, so that neighbours err together: prediction flatters few of them.
+constexpr double as_good = 1.25;
+constexpr double curvature_ridge = 1e-4;
+
+}  // namespace
+
+HeightRegression::HeightRegression(std::vector<HeightObservation> observations)
+    : observations_(std::move(observations)), tree_(places()) {}
+
+Points HeightRegression::places() const {
+  Points places(static_cast<Index>(observations_.size()), 3);
+  for (Index i = 0; i < places.rows(); ++i)
+    places.row(i) << observations_[i].place.x(), observations_[i].place.y(), 0;
+  return places;
+}
+
+Points HeightRegression::places_apart(double distance) const {
+  const Points all = places();
+  std::vector<char> covered(all.rows(), 0);
+  std::vector<Index> kept;
+  for (Index i = 0; i < all.rows(); ++i) {
+    if (covered[i]) continue;
+    kept.push_back(i);
+    tree_.within(all.row(i).transpose(), distance, [&](Index j, double) { covered[j] = 1; });
+  }
+  return all(kept, Eigen::indexing::all);
+}
+
+double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
+                                Index left_out) const {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  const double radius = std::sqrt(near.back().squared_distance) * 1.0001;
+  if (!(radius > 0)) return observations_[near.front().index].height;
+
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector6 right = Vector6::Zero();
+  const double level = observations_[near.front().index].height;
+  for (const Neighbour& n : near) {
+    if (n.index == left_out) continue;
+    const HeightObservation& o = observations_[n.index];
+    const double d = std::sqrt(n.squared_distance) / radius;
+    const double cubic = 1 - d * d * d;
+    const double weight = o.weight * cubic * cubic * cubic;
+    const double u = (o.place.x() - place.x()) / radius, v = (o.place.y() - place.y()) / radius;
+    const Vector6 row{1, u, v, u * u, u * v, v * v};
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    right += weight * (o.height - level) * row;
+  }
+  if (!(normal(0, 0) > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const double ridge = normal(0, 0) * curvature_ridge;
+  normal.diagonal() += ridge * Vector6{1e-9, 1e-2, 1e-2, 1, 1, 1};
+  return level + solved(normal, right)[0];
+}
+
+void HeightRegression::nearest(const Eigen::Vector2d& place, Index neighbours,
+                               std::vector<Neighbour>& near) const {
+  tree_.nearest({place.x(), place.y(), 0}, neighbours + 1, near);
+}
+
+Points HeightRegression::fitted(const Points& places, Index neighbours) const {
+  Points fits = places;
+  std::vector<Index> kept;
+  std::vector<Neighbour> near;
+  for (Index i = 0; i < places.rows(); ++i) {
+    const Eigen::Vector2d place(places(i, 0), places(i, 1));
+    nearest(place, neighbours, near);
+    fits(i, 2) = height(place, near, -1);
+    if (std::isfinite(fits(i, 2))) kept.push_back(i);
+  }
+  return fits(kept, Eigen::indexing::all);
+}
+
+void HeightRegression::reject_outliers(Index neighbours) {
+  const Index n = static_cast<Index>(observations_.size());
+  std::vector<double> residuals(n);
+  std::vector<Neighbour> near;
+  for (Index i = 0; i < n; ++i) {
+    nearest(observations_[i].place, neighbours, near);
+    residuals[i] = std::abs(observations_[i].height - height(observations_[i].place, near, i));
+  }
+  for (double& r : residuals)
+    if (!std::isfinite(r)) r = 0;
+  const double limit = 6 * median(residuals);
+  if (!(limit > 0)) return;
+  for (Index i = 0; i < n; ++i) {
+    const double ratio = std::min(1.0, residuals[i] / limit);
+    observations_[i].weight *= (1 - ratio * ratio) * (1 - ratio * ratio);
+  }
+}
+
+Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const {
+  const Index n = static_cast<Index>(observations_.size());
+  const Index step = std::max<Index>(1, n / most_left_out);
+  struct Error {
+    double sum = 0, weights = 0;
+  };
+  std::vector<Error> errors(offered.size());
+  std::vector<Neighbour> near;
+  for (Index i = 0; i < n; i += step) {
+    const HeightObservation& o = observations_[i];
+    if (!(o.weight > 0)) continue;
+    nearest(o.place, std::min(n - 1, offered.back()), near);
+    for (std::size_t k = 0; k < offered.size() && offered[k] < n; ++k) {
+      const double residual = o.height - height(o.place, std::span(near).first(offered[k] + 1), i);
+      if (!std::isfinite(residual)) continue;
+      errors[k].sum += o.weight * residual * residual;
+      errors[k].weights += o.weight;
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Error& e : errors)
+    if (e.weights > 0) least = std::min(least, e.sum / e.weights);
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < offered.size(); ++k)
+    if (errors[k].weights > 0 && errors[k].sum / errors[k].weights <= as_good * least) best = k;
+  return offered[best];
+}
+
+}  // namespace symsurf

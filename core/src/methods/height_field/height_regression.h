@@ -1,0 +1,51 @@
+#pragma once
+
+#include <symsurf/types.h>
+
+#include <span>
+#include <vector>
+
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+/// What is known of a surface's height at one place of the plane.
+struct HeightObservation {
+  Eigen::Vector2d place;
+  double height;
+  double weight;
+};
+
+/// Robust local quadratic regression (loess, Cleveland 1979) of heights over scattered places.
+class HeightRegression {
+ public:
+  explicit HeightRegression(std::vector<HeightObservation> observations);
+
+  /// The places (rows u, v, anything) with the heights fitted there, each from its `neighbours`
+  /// nearest observations, tricube weights; without places where all of these were rejected.
+  Points fitted(const Points& places, Index neighbours) const;
+
+  /// Lowers the weight of observations that do not fit their surroundings (Tukey's biweight, from
+  /// the median residual).
+  void reject_outliers(Index neighbours);
+
+  /// The largest of the numbers of neighbours offered that predicts left-out observations about as
+  /// well as the best does.
+  Index best_neighbours(const std::vector<Index>& offered) const;
+
+  /// Places of observations, as rows for fitted(), no two within `distance`: heights fitted side by
+  /// side differ a little, and a surface through them all would be steep between them.
+  Points places_apart(double distance) const;
+
+ private:
+  Points places() const;
+  void nearest(const Eigen::Vector2d& place, Index neighbours, std::vector<Neighbour>& near) const;
+  /// Height at a place from those near it, but for `left_out`; NaN where all were rejected.
+  double height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
+                Index left_out) const;
+
+  std::vector<HeightObservation> observations_;
+  PointTree tree_;
+};
+
+}  // namespace symsurf

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "methods/height_field/mid_sheet.h"
+
+namespace symsurf {
+
+/// Are there points whose partner lies just along the direction, more than chance puts there?
+struct PartnerEvidence {
+  Vector3 direction;        ///< moved to where most partners agree
+  double significance = 0;  ///< standard deviations above chance
+  double scatter = 0;       ///< of the partners across the direction, an axis
+  double share = 0;         ///< of the points that have such a partner, each by its squareness
+};
+
+/// Tries scatters from a fraction of the spacing up to the sheet's reach; at each, a mean shift
+/// of the direction, freed of the pull of the evenly spread chance partners.
+PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
+                                 const Vector3& direction, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "methods/height_field/working_cloud.h"
+
+namespace symsurf {
+
+/// Where the sheets of a cloud end. A mirror maps rims onto rims, and where no point has an exact
+/// partner that is what tells its direction: half-way between two sheets there is a surface along
+/// any direction.
+///
+/// A point near a rim has its neighbours on one side of it: their mean offset, as a share of their
+/// reach, grows from 0 inside to 4/(3 pi) on a straight rim.
+class SheetRims {
+ public:
+  explicit SheetRims(const WorkingCloud& cloud);
+
+  /// A piece of rim as it looks along a direction.
+  struct Rim {
+    Eigen::Vector2d inwards;  ///< unit, across the direction
+    double distance;          ///< of the point from it
+    double reach;             ///< beyond which a rim is not seen
+  };
+  /// The rim near point i; false where there is none, or where it points along the direction.
+  bool seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, Rim& rim) const;
+
+ private:
+  const WorkingCloud& cloud_;
+  Points lean_;  // mean offset of the neighbours within the sheet, as a share of their reach
+  Eigen::VectorXd reach_;  // of the neighbours
+};
+
+/// Least squares for the turn of a direction that carries rims onto rims. Sheets of different
+/// density end, as far as their points tell, differently far inside their rims: one common
+/// difference is an unknown too. A prior keeps the direction near where the search began, for
+/// sheets so close that turning moves no rim.
+class RimAlignment {
+ public:
+  RimAlignment(const SheetRims& rims, const Eigen::Matrix<double, 3, 2>& across)
+      : rims_(rims), across_(across) {}
+
+  /// A point whose image lies by `aside` away from its partner, and moves by `arm` times a turn.
+  void add(Index point, Index partner, const Eigen::Vector2d& aside, double arm, double weight);
+
+  /// From the present direction, the start of the search as it lies across it given.
+  Eigen::Vector2d turn(const Eigen::Vector2d& start) const;
+
+ private:
+  const SheetRims& rims_;
+  Eigen::Matrix<double, 3, 2> across_;
+  Matrix3 normal_ = Matrix3::Zero();  // of the turn and the common difference
+  Vector3 right_ = Vector3::Zero();
+};
+
+}  // namespace symsurf

@@ -1,0 +1,194 @@
+#include "methods/parametric/refinement.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+
+#include "base/quantile.h"
+#include "base/symmetric_eigen.h"
+#include "cloud/sheet_spacing.h"
+#include "methods/parametric/shapes.h"
+#include "score/agreement.h"
+
+namespace symsurf {
+
+namespace {
+
+// `held`: what changes cost on the sheets; `moved`: how far they move the images, summed over
+// `count`.
+Eigen::Matrix<double, Eigen::Dynamic, 2> loosest_changes(const Eigen::MatrixXd& held,
+                                                         Eigen::MatrixXd moved, double count) {
+  if (!(count > 0)) return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(moved.rows(), 2);
+  moved /= count;
+  moved.diagonal().array() += 1e-9 * moved.trace();
+  return eigen_of(held, moved).vectors.leftCols(2);
+}
+
+// The mean over tolerances from coarse to fine: images that meet a point exactly count in full,
+// chance agreement less the finer one looks.
+double closeness(const Agreement& agreement) {
+  constexpr std::array score_tolerances{0.01, 0.005, 0.0025, 0.00125};
+  double sum = 0;
+  for (const double tolerance : score_tolerances) sum += agreement.weight(tolerance);
+  return sum / static_cast<double>(score_tolerances.size());
+}
+
+}  // namespace
+
+ParametricRefinement::ParametricRefinement(const Cloud& cloud, const NearestPoints& points,
+                                           const PointTree& tree, const Surfels& surfels,
+                                           const Context& context)
+    : cloud_(cloud),
+      points_(points),
+      surfels_(surfels),
+      context_(context),
+      spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {
+  constexpr Index most_samples = 8192;
+  const Index n = cloud.points.size(), count = std::min(n, most_samples);
+  for (Index k = 0; k < count; ++k) {
+    const Vector3 x = cloud.frame.enter(cloud.points[tree.order()[k * n / count]]);
+    const Index surfel = surfels.containing(x);
+    if (surfel >= 0) samples_.push_back({x, &surfels[surfel]});
+  }
+}
+
+Index ParametricRefinement::stride_for(Index wanted) const {
+  return std::max<Index>(1, static_cast<Index>(samples_.size()) / wanted);
+}
+
+template <typename Shape>
+auto ParametricRefinement::matches(const Shape& shape, double limit, Index stride) const
+    -> std::vector<Match> {
+  std::vector<const Sample*> asked;
+  std::vector<Vector3> images, queries;
+  for (std::size_t i = 0; i < samples_.size(); i += stride) {
+    const Vector3 image = shape.reflect(samples_[i].position);
+    if (!image.allFinite()) continue;
+    asked.push_back(&samples_[i]);
+    images.push_back(image);
+    queries.push_back(cloud_.frame.leave(image));
+  }
+  std::vector<Match> found;
+  const std::vector<Vector3> nearest = points_.nearest(queries, limit * cloud_.frame.size);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (!nearest[k].allFinite()) continue;
+    const Vector3 partner = cloud_.frame.enter(nearest[k]);
+    const Index surfel = surfels_.containing(partner);
+    if (surfel >= 0) found.push_back({asked[k], images[k] - partner, &surfels_[surfel]});
+  }
+  return found;
+}
+
+template <typename Shape>
+Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Index wanted,
+                                              int steps) const {
+  constexpr double narrowest = 0.003;
+  constexpr double along_sheet = 0.01;
+  const Index stride = stride_for(wanted);
+  Candidate<Shape> candidate = start;
+  double tolerance = widest;
+  for (int step = 0; step < steps; ++step) {
+    typename Shape::Step sum(candidate.shape);
+    std::vector<double> residuals;
+    for (const Match& match : matches(candidate.shape, reach(), stride)) {
+      const Sample& s = *match.sample;
+      const double weight = displaced(candidate.shape.distance(s.position), widest);
+      if (weight <= 0) continue;
+      const Agreement agreement(match.gap,
+                                candidate.shape.reflect_direction(s.position, s.surfel->normal),
+                                s.surfel->flatness, *match.partner);
+      residuals.push_back(agreement.squared);
+      const double trusted =
+          agreement.weight(tolerance) * inside_sheet(match.gap, *match.partner, spacing_);
+      sum.add(s.position, match.gap, agreement.metric(along_sheet), weight * trusted);
+    }
+    if (residuals.size() < 5) break;
+    double moved;
+    candidate.shape = sum.taken(&moved);
+    tolerance = std::clamp(2.5 * std::sqrt(median(std::move(residuals))), narrowest, widest);
+    if (moved < 1e-5) break;
+  }
+  candidate.explained = explained(candidate.shape, wanted);
+  return candidate;
+}
+
+// By chance a tenth of all images comes within a fifth of the spacing at best.
+template <typename Shape>
+Candidate<Shape> ParametricRefinement::fitted_to_exact_pairs(const Candidate<Shape>& start) const {
+  constexpr int steps = 16;
+  constexpr double worth_trying = 0.12, exact = 0.01;  // of the spacing
+  const Index stride = stride_for(1200);
+  Candidate<Shape> candidate = start;
+  double typical = 0;
+  for (int step = 0; step < steps; ++step) {
+    std::vector<Match> found = matches(candidate.shape, spacing_, stride);
+    std::erase_if(found, [&](const Match& match) {
+      return displaced(candidate.shape.distance(match.sample->position), spacing_) < 1;
+    });
+    if (found.size() < 10) return start;
+    std::vector<double> gaps;
+    for (const Match& match : found) gaps.push_back(match.gap.norm());
+    typical = quantile(std::move(gaps), 0.1);
+    if (typical > worth_trying * spacing_) return start;
+    typename Shape::Step sum(candidate.shape);
+    for (const Match& match : found)
+      if (match.gap.norm() <= 3 * typical)
+        sum.add(match.sample->position, match.gap, Matrix3::Identity(), 1);
+    double moved;
+    candidate.shape = sum.taken(&moved);
+    if (moved < 1e-14) break;
+  }
+  if (typical >= exact * spacing_) return start;
+  candidate.explained = explained(candidate.shape, 1200);
+  return candidate;
+}
+
+template <typename Shape>
+Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Shape& shape) const {
+  typename Shape::Step held(shape), moved(shape);
+  double count = 0;
+  for (const Match& match : matches(shape, reach(), stride_for(400))) {
+    const Sample& s = *match.sample;
+    const double weight = displaced(shape.distance(s.position), widest);
+    if (weight <= 0) continue;
+    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
+                              s.surfel->flatness, *match.partner);
+    const Vector3& n = match.partner->normal;
+    held.add(s.position, match.gap, n * n.transpose(), weight * agreement.weight(widest));
+    moved.add(s.position, match.gap, Matrix3::Identity(), weight);
+    count += weight;
+  }
+  return loosest_changes(held.hessian(), moved.hessian(), count);
+}
+
+template <typename Shape>
+double ParametricRefinement::explained(const Shape& shape, Index wanted) const {
+  constexpr double least_moved = 0.35;
+  const Index stride = stride_for(wanted);
+  const double tolerance = std::max(0.01, spacing_ / 2);
+  double moved = 0, agreeing = 0;
+  Index looked = 0;
+  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
+    moved += displaced(shape.distance(samples_[i].position), tolerance);
+  for (const Match& match : matches(shape, reach(), stride)) {
+    const Sample& s = *match.sample;
+    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
+                              s.surfel->flatness, *match.partner);
+    agreeing += displaced(shape.distance(s.position), tolerance) * closeness(agreement);
+  }
+  return agreeing / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+template Candidate<UnitPlane> ParametricRefinement::fitted(const Candidate<UnitPlane>&, Index,
+                                                           int) const;
+template Candidate<UnitSphere> ParametricRefinement::fitted(const Candidate<UnitSphere>&, Index,
+                                                            int) const;
+template Candidate<UnitCylinder> ParametricRefinement::fitted(const Candidate<UnitCylinder>&, Index,
+                                                              int) const;
+template Candidate<UnitCylinder> ParametricRefinement::fitted_to_exact_pairs(
+    const Candidate<UnitCylinder>&) const;
+template Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(
+    const UnitSphere&) const;
+template double ParametricRefinement::explained(const UnitSphere&, Index) const;
+
+}  // namespace symsurf

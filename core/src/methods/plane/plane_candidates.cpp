@@ -1,0 +1,167 @@
+#include "methods/plane/plane_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/keep_unlike.h"
+#include "methods/parametric/plane_step.h"
+#include "methods/parametric/settling.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double shortest_chord = 0.04;
+constexpr double facing_cosine = 0.88;                           // 28 degrees
+constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
+constexpr double search_tolerance = 0.015;
+constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
+constexpr double least_explained = 0.1;
+constexpr double many = 1000;  // surfels; see Search
+constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
+
+// Two mirrors act alike where they send points to like places. Probes at the corners of a
+// tetrahedron as wide as the cloud.
+double difference(const UnitPlane& a, const UnitPlane& b) {
+  static const std::array<Vector3, 4> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
+                                             Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
+  double squared = 0;
+  for (const Vector3& x : probes) squared += (a.reflect(x) - b.reflect(x)).squaredNorm();
+  return std::sqrt(squared / probes.size());
+}
+
+// The mean of similar planes, each weighted by what it explains: Hruda et al. add the vectors
+// (a, b, c, d) of two planes, or subtract them where their normals point apart.
+struct Average {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  double weight = 0;
+
+  void add(const UnitPlane& plane, double explained) {
+    const double sign = plane.normal.dot(sum.head<3>()) < 0 ? -1 : 1;
+    sum.head<3>() += sign * explained * plane.normal;
+    sum[3] += sign * explained * plane.offset;
+    weight += explained;
+  }
+  UnitPlane plane() const {
+    const double length = sum.head<3>().norm();
+    return {sum.head<3>() / length, sum[3] / length};
+  }
+};
+
+// Planes with normals within about 10 degrees and offsets within a 25th of the size share a bin.
+std::int32_t bin(const UnitPlane& plane) {
+  constexpr double normal_bins = 6, offset_bins = 25;
+  int axis;
+  plane.normal.cwiseAbs().maxCoeff(&axis);
+  const double major = plane.normal[axis];
+  const auto cell = [](double value, double scale) {
+    return static_cast<std::int32_t>(std::lround(value * scale));
+  };
+  const std::int32_t u = cell(plane.normal[(axis + 1) % 3] / major, normal_bins) + 8;
+  const std::int32_t v = cell(plane.normal[(axis + 2) % 3] / major, normal_bins) + 8;
+  const std::int32_t w = cell(plane.offset / major * std::abs(major), offset_bins) + 64;
+  return ((axis * 16 + u) * 16 + v) * 128 + w;
+}
+
+// Thins pairs evenly and each by itself, so that one pair more or less changes no other's lot.
+std::uint32_t ticket(Index i, Index j) {
+  const std::uint32_t mixed =
+      static_cast<std::uint32_t>(i) * 2654435761u ^ static_cast<std::uint32_t>(j) * 2246822519u;
+  return mixed ^ mixed >> 15;
+}
+
+UnitPlane plane_between(const Vector3& a, const Vector3& b) {
+  const Vector3 normal = (b - a).normalized();
+  return {normal, -normal.dot(a + b) / 2};
+}
+
+void sort_best_first(std::vector<PlaneCandidate>& candidates) {
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.explained > b.explained; });
+}
+
+void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
+  if (static_cast<double>(candidates.size()) <= count) return;
+  sort_best_first(candidates);
+  candidates.resize(static_cast<std::size_t>(count));
+}
+
+}  // namespace
+
+double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
+                       double tolerance, Index stride) {
+  return agreeing_share(surfels, map, plane, tolerance, stride, contradiction);
+}
+
+std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
+                                             const Search& search, Index count) {
+  const Index step = std::max<Index>(1, surfels.size() / search.seeds);
+  const Index glancing = std::max<Index>(1, surfels.size() / glance);
+  const Index coarse = std::max<Index>(1, surfels.size() / first_look);
+  struct Pair {
+    std::uint32_t ticket;
+    std::int32_t i, j;
+  };
+  std::vector<Pair> pairs;
+  double telling = 0;
+  for (Index i = 0; i < surfels.size(); i += step)
+    for (Index j = i + step; j < surfels.size(); j += step) {
+      const Surfel &a = surfels[i], &b = surfels[j];
+      const Vector3 chord = b.position - a.position;
+      const double squared = chord.squaredNorm();
+      if (squared < shortest_chord * shortest_chord) continue;
+      const bool sheets = a.flatness * b.flatness > 0.25;
+      const double cosine =
+          a.normal.dot(b.normal) - 2 * chord.dot(a.normal) * chord.dot(b.normal) / squared;
+      if (sheets && std::abs(cosine) < facing_cosine) continue;
+      telling += sheets ? 1 : blind;
+      pairs.push_back({ticket(i, j), static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+    }
+
+  std::vector<PlaneCandidate> found;
+  const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
+  const double last_ticket =
+      sparser * search.pairs / telling * std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [ticket, i, j] : pairs) {
+    if (ticket > last_ticket) continue;
+    const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
+    const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
+    if (explained > least_explained) found.push_back({plane, explained});
+  }
+  keep_best(found, sparser * search.promising);
+
+  std::map<std::int32_t, Average> bins;
+  for (const auto& [plane, glanced] : found) {
+    const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);
+    if (explained > least_explained) bins[bin(plane)].add(plane, explained);
+  }
+  found.clear();
+  for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
+  keep_best(found, sparser * search.averages);
+  const Index fine = std::max<Index>(1, surfels.size() / second_look);
+  for (PlaneCandidate& candidate : found)
+    candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);
+  keep_distinct(found, 0.08, count);
+  return found;
+}
+
+PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
+                       double widest, double narrowest, int steps, Index stride) {
+  candidate.plane =
+      moved_onto_images(surfels, map, candidate.plane, widest, narrowest, steps, stride);
+  candidate.explained = explained_share(surfels, map, candidate.plane, narrowest, stride);
+  return candidate;
+}
+
+void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
+  sort_best_first(candidates);
+  keep_unlike(candidates, static_cast<std::size_t>(count),
+              [&](const PlaneCandidate& candidate, const PlaneCandidate& other) {
+                return difference(other.plane, candidate.plane) < distance;
+              });
+}
+
+}  // namespace symsurf

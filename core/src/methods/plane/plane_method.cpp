@@ -1,0 +1,231 @@
+#include <symsurf/plane.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/gathered.h"
+#include "base/maximise.h"
+#include "base/symmetric_eigen.h"
+#include "cloud/cloud.h"
+#include "methods/plane/exact_planes.h"
+#include "methods/plane/plane_candidates.h"
+#include "methods/plane/plane_refinement.h"
+#include "methods/registry.h"
+#include "score/mirror_score.h"
+#include "score/shared_matching.h"
+#include "score/symmetry_measure.h"
+#include "spatial/nearest_points.h"
+#include "spatial/slabs.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
+constexpr double maps_surface = 0.9;  // score of a plane that maps vertices onto vertices
+constexpr Index refined_at_most = 4;
+constexpr double worth_refining = 0.5;  // of the best score
+constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
+constexpr double alike_planes = 0.05;  // planes closer than this are one
+constexpr Index measured = 150;        // surfels that the measure is taken over
+
+struct Effort {
+  Search search;
+  Index started;         // candidates that are settled on the surfels, roughly
+  Index settled_well;    // of these, are settled closely
+  Index quickly_fitted;  // of these, are fitted to the full cloud
+  Index finalists;       // of these, are fitted carefully
+  double hopeless;       // below the best by this share of it: not worth fitting
+};
+
+constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.4};
+// For clouds that a usual search explains no better than this: where most of one side is missing,
+// few pairs tell of the mirror, and patches tell it badly from others.
+constexpr double unexplained = 0.15;
+constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
+
+// Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
+void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
+  const SymmetryMeasure measure(surfels.positions(measured));
+  Eigen::Vector4d p;
+  p << candidate.plane.normal, candidate.plane.offset;
+  p = maximise<4>(measure, p, 0.02, 5);
+  const double length = p.head<3>().norm();
+  const UnitPlane plane{p.head<3>() / length, p[3] / length};
+  const double explained = explained_share(surfels, map, plane, 0.02, 3);
+  if (explained > candidate.explained) candidate = {plane, explained};
+}
+
+double below(double best, double share) { return best - share * std::max(best, meagre); }
+
+void drop_hopeless(std::vector<PlaneCandidate>& candidates, double share) {
+  const double least = below(candidates.front().explained, share);
+  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
+}
+
+// On the thinned cloud alone.
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const SurfelMap& map,
+                                             const Effort& effort, const Context& context) {
+  std::vector<PlaneCandidate> candidates =
+      candidate_planes(surfels, map, effort.search, effort.started);
+  if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
+  for (PlaneCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
+  keep_distinct(candidates, alike_planes, effort.started);
+  context.report(0.5);
+  climb(surfels, map, candidates.front());
+  drop_hopeless(candidates, effort.hopeless);
+  keep_distinct(candidates, alike_planes, effort.settled_well);
+  for (PlaneCandidate& candidate : candidates)
+    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
+  keep_distinct(candidates, alike_planes, effort.quickly_fitted);
+  context.report(1);
+  return candidates;
+}
+
+// Each by itself.
+template <typename Step>
+void improve(std::vector<PlaneCandidate>& candidates, const Context& context, const Step& step) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i] = step(candidates[i]);
+    context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
+  }
+}
+
+// Moved a little, and told apart, on samples of the full cloud.
+void fit(const Refinement& refinement, const Effort& effort,
+         std::vector<PlaneCandidate>& candidates, const Context& context) {
+  improve(candidates, context.stage(0, 0.5),
+          [&](const PlaneCandidate& c) { return refinement.quick(c); });
+  keep_distinct(candidates, alike_planes, effort.finalists);
+  drop_hopeless(candidates, effort.hopeless);
+  improve(candidates, context.stage(0.5, 1),
+          [&](const PlaneCandidate& c) { return refinement.careful(c); });
+  keep_distinct(candidates, alike_planes, effort.finalists);
+}
+
+// Where the cloud extends most along the mirror: processes look for partners in slabs across it.
+Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
+  const Matrix3 onto = Matrix3::Identity() - plane.normal * plane.normal.transpose();
+  return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
+}
+
+std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
+  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
+}
+
+// Of a mesh whose vertices these are. What maps them onto themselves may triangulate the surface
+// otherwise: then its samples have no exact partners.
+std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
+                                       const MirrorScore& score, const Context& context) {
+  std::vector<UnitPlane> planes;
+  if (vertices.empty()) return planes;
+  const Context unreported = context.stage(0, 0);
+  const Cloud corners = checked_cloud(vertices, {}, 1, unreported);
+  const Surfels samples(corners, vertices.size(), unreported);
+  const PointTree tree(vertices, unreported);
+  const NearestPoints points(vertices, tree, context);
+  for (const UnitPlane& plane : exact_planes(corners, points, samples, unreported)) {
+    const Plane found = in_input_units(plane, corners.frame);
+    if (score.fit(found).share >= maps_surface) planes.push_back(in_frame(found, cloud.frame));
+  }
+  return planes;
+}
+
+// The best that a search finds, refined.
+std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
+                                       const SurfelMap& map, const Refinement& refinement,
+                                       const MirrorScore& score,
+                                       std::vector<PlaneCandidate> candidates,
+                                       const Context& context) {
+  fit(refinement, usual, candidates, context.stage(0, 0.3));
+  if (candidates.front().explained < unexplained) {
+    std::vector<PlaneCandidate> more =
+        promising_planes(surfels, map, thorough, context.stage(0.3, 0.5));
+    fit(refinement, thorough, more, context.stage(0.5, 0.6));
+    candidates.insert(candidates.end(), more.begin(), more.end());
+    keep_distinct(candidates, alike_planes, thorough.finalists);
+  }
+  improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
+    return PlaneCandidate{c.plane, score.glance(*mirror_of(c.plane, cloud)).share};
+  });
+  keep_distinct(candidates, alike_planes, refined_at_most);
+  std::erase_if(candidates, [best = candidates.front().explained](const PlaneCandidate& c) {
+    return c.explained < worth_refining * best;
+  });
+  // Of a body thinner than the patches these say nothing about the plane along it.
+  if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
+    candidates.push_back({{Vector3::UnitZ(), 0}, 0});
+  improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
+    return PlaneCandidate{refinement.refined(c.plane), c.explained};
+  });
+  keep_distinct(candidates, alike_planes, static_cast<Index>(candidates.size()));
+  std::vector<UnitPlane> planes;
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
+  return planes;
+}
+
+Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const Index sample_size = values.integer("sample_size");
+  const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
+  const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
+  const SurfelMap map(coarse);
+  const std::vector<PlaneCandidate> promising =
+      promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
+
+  const Slabs slabs(cloud, along_mirror(promising.front().plane, cloud.frame),
+                    context.stage(0.25, 0.3));
+  PointTree tree(slabs.points(), context.stage(0.3, 0.4));
+  const NearestPoints points(slabs, tree, context);
+  const Refinement refinement(cloud, points, coarse, fine);
+  const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
+  std::vector<UnitPlane> planes =
+      exact_planes_of(cloud.vertices, cloud, score, context.stage(0.45, 0.45));
+  if (planes.empty()) {
+    planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
+    for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  }
+  if (planes.empty())
+    planes = searched_planes(cloud, coarse, map, refinement, score, promising,
+                             context.stage(0.46, 0.55));
+
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
+  Result best = score.ranked("plane", mirrors);
+  const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
+  if (best.candidates.size() > most) best.candidates.resize(most);
+  add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
+                   values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
+  const Index pairs = summed(context, best.pairs.rows());
+  best.statistics["unpaired_points"] = cloud.total - pairs;
+  best.statistics["mean_residual"] =
+      pairs ? summed(context, best.residuals.sum()) / static_cast<double>(pairs) : 0.0;
+  return best;
+}
+
+}  // namespace
+
+Method plane_method() {
+  Method method;
+  method.name = "plane";
+  method.title = "Mirror plane";
+  method.summary =
+      "Finds the plane that mirrors the shape best (Hruda, Kolingerova and Vasa 2022), refined on "
+      "the full cloud.";
+  method.parameters = {
+      Parameter::integer("sample_size", 1000, 100, 100000, "points",
+                         "Patches of the cloud that the search for the plane works on."),
+      Parameter::integer("max_candidates", 64, 0, 64, "",
+                         "Other planes to report at the most, best first."),
+      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
+                      "A point whose image has no point of the cloud nearer than this has no "
+                      "partner."),
+  };
+  method.automatic = true;
+  method.takes_shares = true;
+  method.sees_copies = true;  // a share does not know of those in others
+  method.run = run_plane;
+  return method;
+}
+
+}  // namespace symsurf

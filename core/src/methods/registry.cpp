@@ -1,0 +1,42 @@
+#include "methods/registry.h"
+
+#include <symsurf/errors.h>
+
+#include "score/verdict.h"
+
+namespace symsurf {
+
+namespace {
+
+Parameter minimum_score() {
+  return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
+                         "Below it the verdict is \"none\": what was found is no symmetry of the "
+                         "shape.");
+}
+
+}  // namespace
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> list = [] {
+    std::vector<Method> all{
+        auto_method(),          plane_method(),         sphere_method(),
+        cylinder_method(),      quadric_method(),       fixed_direction_method(),
+        perpendicular_method(), separation_method(),    separation_normals_method(),
+        normals_only_method(),  sphere_thesis_method(),
+    };
+    for (Method& each : all) each.parameters.push_back(minimum_score());
+    return all;
+  }();
+  return list;
+}
+
+const Method& method(std::string_view name) {
+  std::string names;
+  for (const Method& candidate : methods()) {
+    if (candidate.name == name) return candidate;
+    names += (names.empty() ? "" : ", ") + candidate.name;
+  }
+  throw InvalidParameter("there is no method '" + std::string(name) + "'; there are " + names);
+}
+
+}  // namespace symsurf

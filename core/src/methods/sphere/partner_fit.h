@@ -1,0 +1,67 @@
+#pragma once
+
+#include <symsurf/method.h>
+
+#include <vector>
+
+#include "methods/sphere/sphere_candidates.h"
+#include "spatial/nearest_points.h"
+
+namespace symsurf {
+
+/// Fits spheres where the same points stand on both sides. A sheet that slides along itself holds a
+/// sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point and
+/// its partner, its normal u there along their line, so that two of them tell the curvature k and
+/// whether they agree, u1 - u2 = k (m1 - m2). Partners are sought among the points near the images.
+class PartnerFit {
+ public:
+  /// The spacing of the points, in the principal frame.
+  PartnerFit(const Cloud& cloud, const NearestPoints& points, const PointTree& tree, double spacing,
+             const Context& context);
+
+  /// The candidate on its partners, `partnered` the share that have met them beyond chance; as it
+  /// was where points have no partners.
+  SphereCandidate operator()(const SphereCandidate& start) const;
+
+  /// The same through noise that moves partners apart by about their spacing: slides the sphere
+  /// over the plane of its two loosest changes (ParametricRefinement::loosest), to where images
+  /// come clearly nearer to points than elsewhere on the way.
+  SphereCandidate slid(const SphereCandidate& start,
+                       const Eigen::Matrix<double, 4, 2>& loosest) const;
+
+  /// The same sphere on up to `most` of the points, to rounding where partners are exact.
+  UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
+
+  /// How close images come to points, in [0, 1]: half for those within about the spacing, half for
+  /// exact partners.
+  double closeness(const UnitSphere& sphere) const;
+
+  /// The points, in input units, whose images meet no other.
+  Points unmet(const UnitSphere& sphere) const;
+
+ private:
+  struct Meeting {
+    Vector3 position, gap;  // gap: from the nearest point to the image
+  };
+  /// A point and one that may be its partner.
+  struct Chord {
+    Vector3 middle, along;  // along: as the sphere's normal
+  };
+
+  std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
+  std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
+                                Index* asked = nullptr) const;
+  /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
+  /// moves.
+  double nearness(const UnitSphere& sphere, Index wanted) const;
+  Index at_least_a_quarter(Index asked, Index wanted) const;
+  double share_met(const UnitSphere& sphere, Index wanted) const;
+
+  const Cloud& cloud_;
+  const NearestPoints& points_;
+  const PointTree& tree_;
+  double spacing_;
+  const Context context_;
+};
+
+}  // namespace symsurf

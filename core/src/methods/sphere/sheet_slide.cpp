@@ -1,0 +1,105 @@
+#include "methods/sphere/sheet_slide.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/semidefinite_solve.h"
+#include "base/symmetric_eigen.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double step = 0.5;          // of the spacing
+constexpr std::array farthest{7, 4};  // steps to either side, of the loosest and the next
+
+constexpr int slides = 4;
+constexpr Index glance = 120, look = 800;  // samples
+constexpr std::size_t attempts = 4;
+constexpr double clearly_more = 1e-3;
+
+constexpr std::array rounds{1.0, 0.6};                               // their steps, in spacings
+constexpr int few = 2;                                               // steps to either side
+constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
+
+// Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
+// along an axis where it has no maximum, on the side that it rises to.
+Eigen::Vector2d highest(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& values) {
+  using Powers = Eigen::Vector<double, 6>;
+  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+  Powers products = Powers::Zero();
+  for (Index k = 0; k < places.cols(); ++k) {
+    const double x = places(0, k), y = places(1, k);
+    const Powers powers{{1, x, y, x * x, x * y, y * y}};
+    squares += powers * powers.transpose();
+    products += values[k] * powers;
+  }
+  const Powers fit = solved(squares, products);
+  Eigen::Matrix2d bend;
+  bend << 2 * fit[3], fit[4], fit[4], 2 * fit[5];
+  const SymmetricEigen<2> axes = eigen_of(bend);
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector2d axis = axes.vectors.col(k);
+    const double bent = axes.values[k], rise = axis.dot(fit.segment<2>(1));
+    at += (bent < 0 ? std::clamp(-rise / bent, -1.0, 1.0) : std::copysign(1.0, rise)) * axis;
+  }
+  return at;
+}
+
+}  // namespace
+
+std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
+                                       const Eigen::Matrix<double, 4, 2>& loosest, double spacing) {
+  std::vector<UnitSphere> around;
+  for (int i = -farthest[0]; i <= farthest[0]; ++i)
+    for (int j = -farthest[1]; j <= farthest[1]; ++j) {
+      const Eigen::Vector4d by = step * spacing * loosest * Eigen::Vector2d(i, j);
+      around.push_back(sphere.changed(by));
+    }
+  return around;
+}
+
+SphereCandidate slid_along_sheets(SphereCandidate candidate,
+                                  const ParametricRefinement& refinement) {
+  candidate.explained = refinement.explained(candidate.shape, look);
+  for (int slide = 0; slide < slides; ++slide) {
+    std::vector<SphereCandidate> places;
+    for (const UnitSphere& sphere :
+         spheres_around(candidate.shape, refinement.loosest(candidate.shape), refinement.spacing()))
+      places.push_back({sphere, refinement.explained(sphere, glance)});
+    sort_best_first(places);
+    places.resize(std::min(attempts, places.size()));
+    const double before = candidate.explained;
+    for (const SphereCandidate& place : places) {
+      const SphereCandidate fitted = refinement.fitted(place, look, 6);
+      if (fitted.explained > candidate.explained + clearly_more) candidate = fitted;
+    }
+    if (candidate.explained == before) break;
+  }
+  return candidate;
+}
+
+SphereCandidate settled_on_sheets(const SphereCandidate& candidate,
+                                  const ParametricRefinement& refinement) {
+  constexpr int side = 2 * few + 1;
+  Eigen::Matrix2Xd places(2, side * side);
+  for (int k = 0; k < side * side; ++k)
+    places.col(k) = Eigen::Vector2d(k / side - few, k % side - few) / few;
+  SphereCandidate settled = candidate;
+  for (const double step : rounds) {
+    const Eigen::Matrix<double, 4, 2> around =
+        few * step * refinement.spacing() * refinement.loosest(settled.shape);
+    Eigen::VectorXd values(places.cols());
+    for (Index k = 0; k < places.cols(); ++k)
+      values[k] = refinement.explained(settled.shape.changed(around * places.col(k)), settling);
+    settled.shape = settled.shape.changed(around * highest(places, values));
+    settled = refinement.fitted(settled, refitted, 3);
+  }
+  settled.explained = refinement.explained(settled.shape, look_again);
+  return settled.explained > refinement.explained(candidate.shape, look_again) ? settled
+                                                                               : candidate;
+}
+
+}  // namespace symsurf

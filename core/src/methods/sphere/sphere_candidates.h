@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "methods/parametric/candidate.h"
+#include "methods/parametric/unit_sphere.h"
+
+namespace symsurf {
+
+using SphereCandidate = Candidate<UnitSphere>;
+
+/// Spheres closer than this are one, for keep_distinct.
+constexpr double alike_spheres = 0.04;
+
+/// The best `count` spheres that differ, on the thinned cloud alone: from pairs of surfels, of any
+/// radius, settled on the surfels; the first of them at a maximum of Hruda's measure. Behind them
+/// the best of those that the surfels cannot tell from a plane.
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
+                                               std::uint64_t seed, Index count,
+                                               const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,69 @@
+#include "methods/thesis/sheet_score.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/symmetric_eigen.h"
+#include "cloud/sheet_spacing.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index samples = 2000;
+constexpr Index grain = 64;
+
+Index stride(Index count) { return std::max<Index>(1, count / samples); }
+
+// Distance of the first of the neighbours from the plane through the others.
+double off_sheet(PointsView surface, const std::vector<Neighbour>& neighbours) {
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t k = 1; k < neighbours.size(); ++k) mean += surface[neighbours[k].index];
+  mean /= static_cast<double>(neighbours.size() - 1);
+  Matrix3 scatter = Matrix3::Zero();
+  for (std::size_t k = 1; k < neighbours.size(); ++k) {
+    const Vector3 w = surface[neighbours[k].index] - mean;
+    scatter.noalias() += w * w.transpose();
+  }
+  const Vector3 normal = eigen_of(scatter).vectors.col(0);
+  return std::abs(normal.dot(surface[neighbours[0].index] - mean));
+}
+
+}  // namespace
+
+double sheet_score(PointsView points, const PointTree& tree, const Result& result,
+                   const Context& context) {
+  constexpr Index neighbours = 11;
+  const PointsView surface(result.surface_points);
+  if (surface.size() < neighbours) return 0;
+  const double tolerance = sheet_spacing(points, tree);
+  if (!(tolerance > 0)) return 0;
+
+  const PointTree feet(surface, context.stage(0, 0.3));
+  const Index step = stride(surface.size()), looked_at = (surface.size() + step - 1) / step;
+  const double agreeing =
+      parallel_sum(context.stage(0.3, 1), looked_at, grain, 0.0, [&](Index begin, Index end) {
+        double sum = 0;
+        std::vector<Neighbour> found;
+        for (Index k = begin; k < end; ++k) {
+          const Index row = k * step;
+          feet.nearest(surface[row], neighbours, found);
+          // Equal surface points come in any number; each stands for itself first.
+          found.front().index = row;
+          const double off = std::hypot(result.residuals[row], 2 * off_sheet(surface, found));
+          const Vector3 chord = points[result.pairs(row, 0)] - points[result.pairs(row, 1)];
+          const double moved = std::clamp(chord.norm() / 2 / tolerance - 1, 0.0, 1.0);
+          sum += moved * std::exp(-off * off / (2 * tolerance * tolerance));
+        }
+        return sum;
+      });
+
+  std::vector<char> paired(points.size(), 0);
+  for (const Index i : result.pairs.reshaped()) paired[i] = 1;
+  const double covered = static_cast<double>(std::count(paired.begin(), paired.end(), 1)) /
+                         static_cast<double>(points.size());
+  return covered * agreeing / static_cast<double>(looked_at);
+}
+
+}  // namespace symsurf

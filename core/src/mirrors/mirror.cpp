@@ -1,0 +1,62 @@
+#include <symsurf/errors.h>
+#include <symsurf/mirror.h>
+
+#include <limits>
+#include <string>
+
+#include "base/parallel.h"
+#include "cloud/cloud.h"
+
+namespace symsurf {
+
+namespace {
+
+// A foot of a free-form mirror takes some ten microseconds.
+constexpr Index grain = 1024;
+
+template <typename Function>
+Points each(PointsView points, const Context& context, const Function& function) {
+  Points out(points.size(), 3);
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) out.row(i) = function(points[i]).transpose();
+  });
+  return out;
+}
+
+}  // namespace
+
+Vector3 Mirror::no_point() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+Vector3 Mirror::reflect(const Vector3& x) const {
+  return has_image(x) ? Vector3(x + 2 * (foot(x) - x)) : no_point();
+}
+
+Points Mirror::reflect(PointsView points, const Context& context) const {
+  return each(points, context, [this](const Vector3& x) { return reflect(x); });
+}
+
+Points Mirror::project(PointsView points, const Context& context) const {
+  return each(points, context, [this](const Vector3& x) { return foot(x); });
+}
+
+Eigen::VectorXd Mirror::signed_distance(PointsView points, const Context& context) const {
+  Eigen::VectorXd out(points.size());
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) out[i] = signed_distance(points[i]);
+  });
+  return out;
+}
+
+Mesh Mirror::mesh(PointsView object, int resolution) const {
+  if (object.empty())
+    throw InvalidInput(
+        "there are no points to lay the mesh over: a mirror made by hand has no "
+        "footprint of its own, give the points of the object");
+  require_finite(object, "point");
+  if (resolution < 1)
+    throw InvalidParameter("resolution is " + std::to_string(resolution) +
+                           "; allowed is 1 and above");
+  return mesh_over(object, resolution);
+}
+
+}  // namespace symsurf

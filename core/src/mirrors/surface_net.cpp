@@ -1,0 +1,155 @@
+#include "mirrors/surface_net.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "base/rows_of.h"
+#include "base/symmetric_eigen.h"
+#include "cloud/sheet_spacing.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+using Cell = std::array<int, 3>;
+
+// A grid along the principal axes of the points.
+struct Grid {
+  Vector3 origin;
+  Matrix3 axes;
+  double cell = 0;
+
+  Vector3 corner(const Cell& c) const { return origin + axes * (cell * Vector3(c[0], c[1], c[2])); }
+  Vector3 middle(const Cell& c) const { return corner(c) + axes * Vector3::Constant(cell / 2); }
+  Cell cell_of(const Vector3& x) const {
+    const Vector3 at = axes.transpose() * (x - origin) / cell;
+    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+            static_cast<int>(std::floor(at.z()))};
+  }
+};
+
+Grid grid_along(const Points& points, int resolution) {
+  Grid grid;
+  const Eigen::RowVector3d centre = points.colwise().mean();
+  const Points centred = points.rowwise() - centre;
+  grid.axes = eigen_of_scatter(centred).vectors;
+  const Points along = centred * grid.axes;
+  const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
+  const double longest = (high - low).maxCoeff();
+  grid.cell = longest > 0 ? longest / resolution : 1;
+  // Half a cell off the extremes, so that flat pieces do not fall between two layers of cells.
+  grid.origin = centre.transpose() + grid.axes * (low - Vector3::Constant(grid.cell / 2));
+  return grid;
+}
+
+Cell moved(Cell c, int axis, int by) {
+  c[axis] += by;
+  return c;
+}
+
+}  // namespace
+
+Mesh surface_net(const Points& on_surface, int resolution,
+                 const std::function<double(const Vector3&)>& value,
+                 const std::function<Vector3(const Vector3&)>& foot) {
+  const Grid grid = grid_along(on_surface, resolution);
+  std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
+  for (Index i = 0; i < on_surface.rows(); ++i) {
+    const Cell c = grid.cell_of(on_surface.row(i));
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) vertex_of[{c[0] + x, c[1] + y, c[2] + z}] = -1;
+  }
+
+  std::map<Cell, double> values;
+  const auto at = [&](const Cell& c) {
+    const auto [entry, fresh] = values.try_emplace(c, std::nan(""));
+    if (fresh) entry->second = value(grid.corner(c));
+    return entry->second;
+  };
+  const auto crosses = [&](const Cell& c) {
+    int below = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const double v = at({c[0] + (corner & 1), c[1] + (corner >> 1 & 1), c[2] + (corner >> 2)});
+      if (!std::isfinite(v)) return false;
+      below += v < 0;
+    }
+    return below > 0 && below < 8;
+  };
+
+  // Between points spread over a sheet there are no gaps as wide; both points of an exact pair
+  // stand at one place.
+  constexpr double gap = 1.4;  // spacings
+  const PointTree tree(on_surface);
+  const double reach = std::max(grid.cell, gap * sheet_spacing(on_surface, tree, 2));
+  std::vector<Cell> open;
+  for (const auto& entry : vertex_of) open.push_back(entry.first);
+  while (!open.empty()) {
+    const Cell c = open.back();
+    open.pop_back();
+    if (!crosses(c)) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int by : {-1, 1}) {
+        const Cell next = moved(c, axis, by);
+        if (vertex_of.contains(next)) continue;
+        if (tree.nearest(grid.middle(next), reach * reach).index < 0) continue;
+        vertex_of[next] = -1;
+        open.push_back(next);
+      }
+  }
+
+  std::vector<Vector3> vertices;
+  for (auto& [c, vertex] : vertex_of) {
+    Vector3 sum = Vector3::Zero();
+    int crossings = 0;
+    bool defined = true;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int corner = 0; corner < 4; ++corner) {
+        Cell a = moved(c, (axis + 1) % 3, corner & 1);
+        a = moved(a, (axis + 2) % 3, corner >> 1);
+        const Cell b = moved(a, axis, 1);
+        const double fa = at(a), fb = at(b);
+        defined = defined && std::isfinite(fa) && std::isfinite(fb);
+        if (!defined || (fa < 0) == (fb < 0)) continue;
+        sum += grid.corner(a) + fa / (fa - fb) * (grid.corner(b) - grid.corner(a));
+        ++crossings;
+      }
+    if (!defined || crossings == 0) continue;
+    vertex = static_cast<Index>(vertices.size());
+    const Vector3 near = sum / crossings, on = foot(near);
+    vertices.push_back((on - near).norm() < grid.cell ? on : near);
+  }
+
+  std::vector<std::array<Index, 3>> triangles;
+  for (const auto& [c, vertex] : vertex_of) {
+    if (vertex < 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double fa = at(c), fb = at(moved(c, axis, 1));
+      if (!std::isfinite(fa) || !std::isfinite(fb) || (fa < 0) == (fb < 0)) continue;
+      // The four cells around the edge from c along the axis.
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const std::array<Cell, 4> around{c, moved(c, u, -1), moved(moved(c, u, -1), v, -1),
+                                       moved(c, v, -1)};
+      std::array<Index, 4> q{};
+      bool complete = true;
+      for (int k = 0; k < 4; ++k) {
+        const auto found = vertex_of.find(around[k]);
+        complete = complete && found != vertex_of.end() && found->second >= 0;
+        if (complete) q[k] = found->second;
+      }
+      if (!complete) continue;
+      if (fa < 0) std::swap(q[1], q[3]);  // triangles face the side where the function is positive
+      triangles.push_back({q[0], q[1], q[2]});
+      triangles.push_back({q[0], q[2], q[3]});
+    }
+  }
+
+  return {rows_of(vertices), rows_of(triangles)};
+}
+
+}  // namespace symsurf

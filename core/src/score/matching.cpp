@@ -1,0 +1,85 @@
+#include "score/matching.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "spatial/point_grid.h"
+
+namespace symsurf {
+
+Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                       const Context& context) {
+  constexpr Index grain = 1024;
+  Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
+  const auto set = [&](Index i, const Neighbour& found) {
+    partners.index[i] = static_cast<std::int32_t>(found.index);
+    partners.squared[i] = found.squared_distance;
+  };
+  if (const std::optional<PointGrid> grid = PointGrid::where_faster(points)) {
+    parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i)
+        set(i, grid->nearest(mirror.reflect(points[i]), limit * limit));
+    });
+    return partners;
+  }
+  const std::vector<std::int32_t>& order = tree.order();
+  parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
+    Index near = begin;
+    for (Index p = begin; p < end; p += PointTree::block) {
+      const Index last = end - 1;
+      PointTree::Queries images;
+      for (Index i = 0; i < PointTree::block; ++i)
+        images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
+      const auto found = tree.nearest(images, limit * limit, near);
+      for (Index i = 0; i < PointTree::block && p + i < end; ++i) set(order[p + i], found[i]);
+    }
+  });
+  return partners;
+}
+
+// Little is held beside the tree, and beside the result: at a million points that is what counts.
+void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
+               double limit, const Context& context) {
+  Partners partners;
+  {
+    const PointTree consumed = std::move(tree);
+    partners = find_partners(points, consumed, mirror, limit, context);
+  }
+  const Index size = points.size();
+  const Index found = size - std::count(partners.index.begin(), partners.index.end(), -1);
+  // The largest first, into the space that the tree left.
+  result.surface_points.resize(found, 3);
+  Pairs& pairs = result.pairs;
+  pairs.resize(found, 2);
+  Index row = 0;
+  interruptible_for(context, size, [&](Index i) {
+    const Index partner = partners.index[i];
+    if (partner < 0) return;
+    partners.squared[row] = partners.squared[i];
+    pairs.row(row++) << i, partner;
+  });
+  partners.index = std::vector<std::int32_t>();
+  result.residuals = std::move(partners.squared);
+  result.residuals.conservativeResize(found);
+  result.residuals = result.residuals.cwiseSqrt();
+  interruptible_for(context, found, [&](Index k) {
+    result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
+  });
+}
+
+void count_unpaired(Result& result, Index points) {
+  const auto unpaired = result.statistics.find("unpaired_points");
+  if (unpaired != result.statistics.end()) unpaired->second = points - result.pairs.rows();
+}
+
+void keep_pairs(Result& result, const std::vector<Index>& rows) {
+  result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
+  result.residuals = Eigen::VectorXd(result.residuals(rows));
+  result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
+}
+
+}  // namespace symsurf

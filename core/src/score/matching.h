@@ -1,0 +1,38 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/mirror.h>
+#include <symsurf/result.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+/// Of each point the index of its partner, -1 none, and the squared distance of that from its
+/// image.
+struct Partners {
+  std::vector<std::int32_t> index;
+  Eigen::VectorXd squared;
+};
+
+/// For each point the nearest of the tree's points (the same cloud) to its image, where that is no
+/// farther than `limit` (input units); of equally near ones that with the lowest index.
+Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                       const Context& context);
+
+/// Fills the result's pairs, residuals and surface points with what find_partners() finds, in the
+/// order of the points. Frees the tree as soon as partners are known: it and the pairs never need
+/// memory together.
+void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
+               double limit, const Context& context);
+
+/// Sets what the statistics say of points without a partner, where they do, `points` in all.
+void count_unpaired(Result& result, Index points);
+
+/// Keeps these rows of the result's pairs, residuals and surface points.
+void keep_pairs(Result& result, const std::vector<Index>& rows);
+
+}  // namespace symsurf

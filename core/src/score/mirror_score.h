@@ -1,0 +1,114 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/method.h>
+#include <symsurf/mirror.h>
+#include <symsurf/result.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cloud/surfels.h"
+#include "spatial/nearest_points.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+/// How well a mirror maps a cloud onto itself.
+struct MirrorFit {
+  double share = 0;         ///< mean support of the points that the mirror moves, at most 1
+  double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
+  double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
+};
+
+/// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
+///
+/// A point whose image is a point of the cloud has support 1. Around any other the cloud and its
+/// mirror image are compared within a ball. With r the distance of their means across the surface
+/// and c = (n . n')^2 the agreement of their normals,
+///
+///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
+///
+/// near 1 where the image lies on the surface, negative where it just misses it, 0 in the void. The
+/// balls have a fixed size, and the cloud is thinned to a fixed number of points: from some
+/// thousand points on the score hardly depends on the sampling nor, as means lose noise, on noise.
+/// Inside a volume, where any image has neighbours, only a partner nearer than chance would put it
+/// counts.
+class MirrorScore {
+ public:
+  /// The cloud and its points must outlive the score. Collective, as all that follows.
+  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
+
+  MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
+  /// The same of a third of the points: enough to see which mirrors are worth refining.
+  MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
+
+  /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
+  void fill(Result& result) const;
+
+  /// The result with the best of at least one mirror, the others its candidates, best first.
+  Result ranked(const std::string& method,
+                const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
+
+ private:
+  // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
+  struct Ball {
+    double count = 0;                // of points, sparse ones less
+    double effective = 0;            // how many points of equal weight tell as much
+    Vector3 mean = Vector3::Zero();  // from the centre
+    Matrix3 covariance = Matrix3::Zero();
+  };
+  // How a ball's points spread along their principal axes.
+  struct Spread {
+    Vector3 variances;  // ascending
+    Matrix3 axes;
+    Vector3 thinness;  // 0..1: 1 where they spread as little as a surface's, 0 as a volume's
+    double flatness;   // 0..1: do they have a normal?
+
+    Spread(const Matrix3& covariance, double radius);
+    double surface() const { return thinness.maxCoeff(); }
+  };
+  struct Sample {
+    Vector3 position;
+    Ball ball;
+    double surface;  // 0..1: does the ball tell where the surface lies?
+    double density;  // 0..1: less where next to no others are, as among clutter
+
+    double weight() const;
+  };
+
+  MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
+  void choose_radius();
+  double measured_noise() const;
+  // The thinned points, or their images.
+  struct PointSet {
+    PointSet(Points rows, std::vector<double> weights)
+        : points(std::move(rows)), weights(std::move(weights)), tree(points) {}
+    Points points;
+    std::vector<double> weights;  // 0..1: less where the cloud is sparse, as among clutter
+    PointTree tree;
+  };
+
+  Ball ball_of(const PointSet& set, const Vector3& x) const;
+  static PointSet thinned(const Surfels& fine);
+  PointSet mirrored(const Mirror& mirror) const;
+  double supported(const Sample& sample, const PointSet& mirrored, double& surface) const;
+
+  const Cloud& cloud_;
+  const NearestPoints& points_;
+  Surfels coarse_, fine_;
+  PointSet thinned_;  // the means of fine cells
+  double radius_;     // of the balls
+  double noise_ = 0;  // standard deviation, in diagonals
+  double moved_;      // displacement from which on a point counts in full
+  std::vector<Sample> samples_;
+};
+
+/// The score: what is left of a fit after what mirrors of its kind fit by chance.
+double score_of(const MirrorFit& fit, std::string_view kind);
+
+}  // namespace symsurf
