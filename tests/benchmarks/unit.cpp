@@ -34,7 +34,6 @@ double unit_seconds(PointsView points) {
   const std::clock_t start = std::clock();
   const Adaptor adaptor{points};
   Tree tree(3, adaptor);
-  tree.buildIndex();
   double sum = 0;
   for (Index i = 0; i < points.size(); ++i) {
     const Vector3 query = points[i] + shift;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -13,6 +12,8 @@
 
 namespace symsurf {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(PointTree, FindsTheNearestOfEveryCloud) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
@@ -68,32 +69,24 @@ TEST(PointTree, BreaksTiesByTheLowestIndex) {
   }
 }
 
-TEST(PointTree, AnswersBlocksOfQueriesAsItAnswersEach) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    RandomCloud random(seed);
-    for (const Points& points : {random.lattice(2000, 6), random.box(2000), random.sphere(500)}) {
-      const PointTree tree(points);
-      for (const Index k : {1, 10, 40, 100}) {
-        std::array<std::vector<Neighbour>, PointTree::block> found;
-        std::vector<Neighbour> expected;
-        double reach = std::numeric_limits<double>::infinity();
-        for (Index p = 0; p + PointTree::block <= tree.size(); p += PointTree::block) {
-          PointTree::Queries queries;
-          for (Index q = 0; q < PointTree::block; ++q)
-            queries.col(q) = points.row(tree.order()[p + q]).transpose();
-          tree.nearest(queries, k, p, reach, found);
-          for (Index q = 0; q < PointTree::block; ++q) {
-            tree.nearest(queries.col(q), k, expected);
-            ASSERT_EQ(found[q].size(), expected.size());
-            for (std::size_t i = 0; i < expected.size(); ++i) {
-              ASSERT_EQ(found[q][i].index, expected[i].index);
-              ASSERT_EQ(found[q][i].squared_distance, expected[i].squared_distance);
-            }
-          }
-        }
-      }
-    }
+TEST(PointTree, FindsNothingThatIsNotFinite) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  RandomCloud random(0);
+  const Points finite = random.box(200);
+  Points points = finite;
+  for (Index i = 0; i < points.rows(); i += 3) points(i, i % 2) = i % 2 ? nan : infinity;
+  const PointTree tree(points);
+  std::vector<Neighbour> found;
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Index nearest = tree.nearest(finite.row(i)).index;
+    EXPECT_TRUE(points.row(nearest).allFinite());
+    if (points.row(i).allFinite()) EXPECT_EQ(nearest, i);
   }
+  tree.nearest(finite.row(0), points.rows(), found);
+  EXPECT_EQ(found.size(), 133u);
+  EXPECT_EQ(tree.nearest({0, nan, 0}).index, -1);
+  EXPECT_EQ(tree.nearest({0, infinity, 0}).index, -1);
+  EXPECT_EQ(PointTree(Points::Constant(5, 3, nan)).nearest({0, 0, 0}).index, -1);
 }
 
 TEST(PointTree, VisitsAllWithinARadiusAndNoOther) {

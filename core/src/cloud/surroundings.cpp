@@ -1,11 +1,8 @@
 #include "cloud/surroundings.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
-#include "base/infinity.h"
 #include "base/parallel.h"
 
 namespace symsurf {
@@ -39,17 +36,11 @@ void visit_surroundings(PointsView points, const PointTree& tree, Index k,
                         const std::function<void(Index, const Surroundings&)>& visit) {
   constexpr Index grain = 1024;
   parallel_for(context, static_cast<Index>(places.size()), grain, [&](Index begin, Index end) {
-    std::array<std::vector<Neighbour>, PointTree::block> found;
-    double reach = infinity;
-    for (Index v = begin; v < end; v += PointTree::block) {
-      const auto at = [&](Index lane) {
-        return points[tree.order()[places[std::min(v + lane, end - 1)]]];
-      };
-      PointTree::Queries queries;
-      for (Index lane = 0; lane < PointTree::block; ++lane) queries.col(lane) = at(lane);
-      tree.nearest(queries, k + 1, places[v], reach, found);  // the point itself is the nearest
-      for (Index lane = 0; lane < PointTree::block && v + lane < end; ++lane)
-        visit(v + lane, surroundings_of(at(lane), points, found[lane]));
+    std::vector<Neighbour> found;
+    for (Index v = begin; v < end; ++v) {
+      const Vector3 x = points[tree.order()[places[v]]];
+      tree.nearest(x, k + 1, found);  // the point itself is the nearest
+      visit(v, surroundings_of(x, points, found));
     }
   });
 }

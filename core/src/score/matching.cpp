@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
-#include "spatial/point_grid.h"
 
 namespace symsurf {
 
@@ -15,27 +13,13 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
                        const Context& context) {
   constexpr Index grain = 1024;
   Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
-  const auto set = [&](Index i, const Neighbour& found) {
-    partners.index[i] = static_cast<std::int32_t>(found.index);
-    partners.squared[i] = found.squared_distance;
-  };
-  if (const std::optional<PointGrid> grid = PointGrid::where_faster(points)) {
-    parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i)
-        set(i, grid->nearest(mirror.reflect(points[i]), limit * limit));
-    });
-    return partners;
-  }
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
-    Index near = begin;
-    for (Index p = begin; p < end; p += PointTree::block) {
-      const Index last = end - 1;
-      PointTree::Queries images;
-      for (Index i = 0; i < PointTree::block; ++i)
-        images.col(i) = mirror.reflect(points[order[std::min(p + i, last)]]);
-      const auto found = tree.nearest(images, limit * limit, near);
-      for (Index i = 0; i < PointTree::block && p + i < end; ++i) set(order[p + i], found[i]);
+    for (Index p = begin; p < end; ++p) {
+      const std::int32_t i = order[p];
+      const Neighbour found = tree.nearest(mirror.reflect(points[i]), limit * limit);
+      partners.index[i] = static_cast<std::int32_t>(found.index);
+      partners.squared[i] = found.squared_distance;
     }
   });
   return partners;

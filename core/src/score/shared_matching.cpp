@@ -96,21 +96,9 @@ class SharedMatching {
     const Index count = static_cast<Index>(questions.size());
     std::vector<Partner> partners(questions.size());
     parallel_for(context_.stage(0, 0), count, grain, [&](Index begin, Index end) {
-      Index near = 0;
-      for (Index q = begin; q < end; q += PointTree::block) {
-        double farthest = 0;
-        PointTree::Queries images;
-        for (Index k = 0; k < PointTree::block; ++k) {
-          const Question& asked = questions[std::min(q + k, end - 1)];
-          images.col(k) = asked.image;
-          farthest = std::max(farthest, asked.limit);
-        }
-        const auto found = tree_->nearest(images, farthest, near);
-        for (Index k = 0; k < PointTree::block && q + k < end; ++k) {
-          const auto& [index, squared] = found[k];
-          if (index >= 0 && squared <= questions[q + k].limit)
-            partners[q + k] = {slabs_.points()[index], {slabs_.number(index), squared}};
-        }
+      for (Index q = begin; q < end; ++q) {
+        const auto [index, squared] = tree_->nearest(questions[q].image, questions[q].limit);
+        if (index >= 0) partners[q] = {slabs_.points()[index], {slabs_.number(index), squared}};
       }
     });
     return partners;

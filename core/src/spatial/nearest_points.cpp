@@ -20,7 +20,7 @@ const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN())
 const NearestPoints::Found NearestPoints::nothing{none, infinity};
 
 NearestPoints::NearestPoints(PointsView points, const PointTree& tree, const Context& context)
-    : own_(points), tree_(tree), grid_(PointGrid::where_faster(points)), context_(context) {}
+    : own_(points), tree_(tree), context_(context) {}
 
 NearestPoints::NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context)
     : NearestPoints(slabs.points(), tree, context) {
@@ -51,9 +51,7 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   best.reserve(queries.size());
   for (const Vector3& query : queries) {
     if (best.size() % grain == 0) context_.check();
-    best.push_back(!may_be_here(query, reach) ? nothing
-                   : grid_                    ? found(grid_->nearest(query, limit))
-                                              : found(tree_.nearest(query, limit)));
+    best.push_back(may_be_here(query, reach) ? found(tree_.nearest(query, limit)) : nothing);
   }
   if (context_.communicator()) {
     const auto all = gathered(context_, best);
@@ -68,15 +66,9 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
   return points;
 }
 
-// Copies of a point stand in one place. The grid and the tree know them as points: it takes more
-// of these then.
+// Duplicates of a point are one position, but several points of the tree: it takes more then.
 NearestPoints::Two NearestPoints::two_nearest(const Vector3& query) const {
   constexpr Index most = 64;
-  if (grid_) {
-    const auto [first, second] = grid_->two_nearest(query);
-    const Two two{found(first), found(second)};
-    if (two[0].point != two[1].point) return two;
-  }
   std::vector<Neighbour> near;
   for (Index k = 2;; k *= 4) {
     tree_.nearest(query, k, near);

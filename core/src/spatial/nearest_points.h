@@ -4,10 +4,8 @@
 #include <symsurf/points_view.h>
 
 #include <array>
-#include <optional>
 #include <vector>
 
-#include "spatial/point_grid.h"
 #include "spatial/point_tree.h"
 #include "spatial/slabs.h"
 
@@ -44,7 +42,6 @@ class NearestPoints {
 
   PointsView own_;
   const PointTree& tree_;
-  std::optional<PointGrid> grid_;  // of the same points, where it is faster
   const Slabs* slabs_ = nullptr;
   const Context context_;
 };

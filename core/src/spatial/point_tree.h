@@ -3,11 +3,10 @@
 #include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <nanoflann.hpp>
 #include <vector>
 
 namespace symsurf {
@@ -24,157 +23,109 @@ struct Neighbour {
   }
 };
 
-/// Exact nearest neighbours of many coherent queries in one big cloud.
-///
-/// A packed R-tree: the points sorted along the Z-order curve, boxes over runs of 8, boxes over
-/// runs of 8 boxes and so on (Kamel and Faloutsos 1993, bulk loading). Built by a radix sort, in
-/// about a third of a KD-tree's time, 31 bytes a point; queries in the tree's own order find the
-/// boxes they need in cache.
+/// A k-d tree of a cloud: exact nearest neighbours, ties broken by index (nanoflann). The points
+/// are stored along the Z-order curve, so that queries in that order stay in cache. Points that are
+/// not finite are never found.
 class PointTree {
  public:
   explicit PointTree(PointsView points, const Context& context = {});
 
   Index size() const { return static_cast<Index>(order_.size()); }
 
-  /// The cloud's indices along the curve: query in this order to stay in cache.
+  /// The cloud's indices along the Z-order curve; last those of points that are not finite.
   const std::vector<std::int32_t>& order() const { return order_; }
 
-  /// The nearest point whose squared distance is no more than `limit`; a good limit saves time.
+  /// The nearest point whose squared distance is no more than `limit`; none to a query that is not
+  /// finite.
   Neighbour nearest(const Vector3& query,
                     double limit = std::numeric_limits<double>::infinity()) const;
 
   /// The k nearest points, nearest first.
   void nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const;
 
-  /// Queries that lie close together, answered in one descent: a mirror's images of points that
-  /// follow each other along the curve. Column by column what nearest() gives; a column of NaN has
-  /// no neighbour. `near`, a point's place in order(), is a guess where the answers lie.
-  static constexpr int block = 8;
-  using Queries = Eigen::Matrix<double, 3, block>;
-  std::array<Neighbour, block> nearest(const Queries& queries, double limit, Index& near) const;
-
-  /// The same for the k nearest points of each: column by column what nearest() with k gives.
-  /// `reach`, infinite at first, is a guess at the square of how far they lie, and becomes it: what
-  /// the block before needed spares this one from sorting what it does not.
-  void nearest(const Queries& queries, Index k, Index near, double& reach,
-               std::array<std::vector<Neighbour>, block>& found) const;
-
   /// visit(index, squared distance) for all points no farther than radius.
   template <typename Visit>
   void within(const Vector3& query, double radius, const Visit& visit) const {
-    double limit = radius * radius;
-    search(query, limit, [&](Index position, double squared) {
-      if (squared <= limit) visit(static_cast<Index>(order_[position]), squared);
-    });
+    search(query, WithinRadius<Visit>{radius * radius, visit, order_.data()});
   }
 
  private:
-  static constexpr Index fan = 8;
+  // Coordinates from the middle of the cloud, point by point along the curve.
+  struct SortedPoints {
+    std::vector<double> coordinates;
+    const Context* building;  // checked for cancellation while the tree is built
 
-  // Eight sibling boxes side by side, so that one pass over an array tests them all; in a unit of
-  // their own.
-  struct Boxes {
-    std::array<std::array<float, fan>, 3> low, high;
+    std::size_t kdtree_get_point_count() const { return coordinates.size() / 3; }
+    // Read by the construction alone, which passes over all points on every level of the tree.
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+      constexpr std::size_t stretch = 1 << 16;  // points, a fraction of a millisecond
+      if (i % stretch == 0) building->check();
+      return coordinates[3 * i + axis];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
   };
 
-  // A coordinate from origin_ in the boxes' unit. What is farther off than squares can hold is
-  // moved nearer, which prunes less.
-  float in_boxes(double coordinate) const {
-    constexpr double farthest = 1e18;
-    return static_cast<float>(std::clamp(coordinate * to_boxes_, -farthest, farthest));
+  // nanoflann's own metric would count as reads what queries compare.
+  struct SquaredDistance {
+    using ElementType = double;
+    using DistanceType = double;
+
+    explicit SquaredDistance(const SortedPoints& points) : points(points) {}
+    double evalMetric(const double* query, std::int32_t position, std::size_t) const {
+      const double* x = &points.coordinates[3 * static_cast<std::size_t>(position)];
+      const double dx = query[0] - x[0], dy = query[1] - x[1], dz = query[2] - x[2];
+      return dx * dx + dy * dy + dz * dz;
+    }
+    double accum_dist(double a, double b, std::size_t) const { return (a - b) * (a - b); }
+
+    const SortedPoints& points;
+  };
+
+  using KdTree =
+      nanoflann::KDTreeSingleIndexAdaptor<SquaredDistance, SortedPoints, 3, std::int32_t>;
+
+  struct Nodes {
+    explicit Nodes(SortedPoints sorted);
+
+    SortedPoints points;
+    KdTree tree;
+  };
+
+  // What nanoflann calls a result set: told of candidates nearer than worstDist(), it decides. That
+  // is a little beyond the limit, since the tree compares with "<" and its bounds are rounded.
+  template <typename Visit>
+  struct WithinRadius {
+    double limit;
+    const Visit& visit;
+    const std::int32_t* order;
+
+    double worstDist() const { return padded(limit); }
+    bool addPoint(double squared, std::int32_t position) const {
+      if (squared <= limit) visit(static_cast<Index>(order[position]), squared);
+      return true;
+    }
+    bool full() const { return true; }
+    void sort() const {}
+  };
+  static double padded(double squared) { return squared * (1 + 1e-12) + 1e-300; }
+
+  struct Nearest;
+  struct NearestFew;
+
+  template <typename ResultSet>
+  void search(const Vector3& query, ResultSet&& found) const {
+    const Vector3 q = query - origin_;
+    if (nodes_ && q.allFinite()) nodes_->tree.findNeighbors(found, q.data(), {});
   }
 
-  // Squared distances of the boxes from low..high, each side less by slack.
-  static void measure_boxes(const Boxes* boxes, const float* low, const float* high, float slack,
-                            float* squared);
-
-  // Queries from origin_, coordinate by coordinate, and the box around them.
-  struct Block {
-    std::array<double, 3 * block> coordinates;
-    std::array<float, 3> low, high;
-  };
-
-  // The k nearest of each, found among the points at `near` and then all others.
-  void nearest_near(const Block& queries, Index k, Index near,
-                    std::array<std::vector<Neighbour>, block>& found) const;
-  // The same if no query needs to look farther than the root of `reach`; false where one does.
-  bool nearest_within(const Block& queries, Index k, double reach,
-                      std::array<std::vector<Neighbour>, block>& found) const;
-
-  void sort(PointsView points, const Context& context);
-  void stack_boxes(const Context& context);
-
-  // Calls leaf(l) for every run l of `fan` points that may come nearer than sqrt(limit) to the box
-  // low..high, near ones first; leaf may lower the limit as it goes.
-  template <typename Leaf>
-  void descend(const std::array<float, 3>& low, const std::array<float, 3>& high, double& limit,
-               const Leaf& leaf) const;
-
-  // Calls visit(position, squared distance) for every point that may be within `limit`.
-  template <typename Visit>
-  void search(const Vector3& query, double& limit, const Visit& visit) const;
+  void sort(PointsView points, double extent, const Context& context);
 
   Vector3 origin_ = Vector3::Zero();
-  double to_boxes_ = 1;  // from the cloud's unit
-  float reach_ = 0;      // the largest extent, in the boxes' unit
   std::vector<std::int32_t> order_;
-  std::vector<double> coordinates_;         // from origin_, along the curve
-  std::vector<std::vector<Boxes>> levels_;  // leaves first; the last has one entry
+  std::unique_ptr<const Nodes> nodes_;  // none where no point is finite
 };
-
-template <typename Leaf>
-void PointTree::descend(const std::array<float, 3>& low, const std::array<float, 3>& high,
-                        double& limit, const Leaf& leaf) const {
-  struct Node {
-    std::int32_t level, index;
-    float squared;
-  };
-  // Distances between boxes are in float, from rounded coordinates: never prune by less than this.
-  float slack = reach_;
-  for (int axis = 0; axis < 3; ++axis) slack += std::max(std::abs(low[axis]), std::abs(high[axis]));
-  slack *= 4e-7f;
-
-  const auto bound = [&] {
-    constexpr double padding = std::numeric_limits<float>::max();  // lies farther, at infinity
-    return std::min(limit * to_boxes_ * to_boxes_, padding);
-  };
-  std::array<Node, 8 * 16> stack;
-  int top = 0;
-  stack[top++] = {static_cast<std::int32_t>(levels_.size()) - 1, 0, 0.0f};
-  while (top > 0) {
-    const Node node = stack[--top];
-    const double farthest = bound();
-    if (node.squared > farthest) continue;
-    if (node.level < 0) {
-      leaf(node.index);
-      continue;
-    }
-    const Boxes& boxes = levels_[node.level][node.index];
-    std::array<float, fan> squared;
-    measure_boxes(&boxes, low.data(), high.data(), slack, squared.data());
-    const int first = top;
-    for (int i = 0; i < fan; ++i) {
-      if (squared[i] > farthest) continue;
-      const Node child{node.level - 1, static_cast<std::int32_t>(node.index * fan + i), squared[i]};
-      int at = top++;
-      for (; at > first && stack[at - 1].squared < child.squared; --at) stack[at] = stack[at - 1];
-      stack[at] = child;
-    }
-  }
-}
-
-template <typename Visit>
-void PointTree::search(const Vector3& query, double& limit, const Visit& visit) const {
-  const Vector3 q = query - origin_;
-  const std::array<float, 3> at{in_boxes(q.x()), in_boxes(q.y()), in_boxes(q.z())};
-  descend(at, at, limit, [&](Index leaf) {
-    const Index end = std::min((leaf + 1) * fan, size());
-    for (Index p = leaf * fan; p < end; ++p) {
-      const double* x = &coordinates_[3 * p];
-      const double dx = q.x() - x[0], dy = q.y() - x[1], dz = q.z() - x[2];
-      visit(p, dx * dx + dy * dy + dz * dz);
-    }
-  });
-}
 
 }  // namespace symsurf

@@ -90,7 +90,7 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
 std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, Index wanted,
                                                       double reach, Index* asked) const {
   // In runs along the tree's order, whose images are close as well.
-  constexpr Index run = PointTree::block;
+  constexpr Index run = 8;  // points
   const Index n = tree_.size(), runs = (std::min(n, wanted) + run - 1) / run;
   std::vector<Vector3> positions, images, queries;
   Index places = 0;

@@ -30,13 +30,11 @@ void ParallelNormals::list_most_parallel() {
     if (as_lines_) places.row(count + i) = -normals_[i].transpose();
   });
   const PointTree tree(places, context_);
-  std::vector<Index> place;
   interruptible_for(context_, tree.size(), [&](Index p) {
     const std::int32_t i = tree.order()[p];
     if (i >= count) return;
     position_[i] = static_cast<std::int32_t>(order_.size());
     order_.push_back(i);
-    place.push_back(p);
   });
 
   sorted_points_.resize(count, 3);
@@ -48,26 +46,19 @@ void ParallelNormals::list_most_parallel() {
 
   // Itself, the listed and one more, which tells whether the last is tied.
   const auto neighbours = std::min<Index>(std::tuple_size_v<List> + 2, tree.size());
-  constexpr Index grain = 2048, block = PointTree::block;
+  constexpr Index grain = 2048;
   parallel_for(context_, count, grain, [&](Index begin, Index end) {
-    std::array<std::vector<Neighbour>, block> found;
-    double reach = std::numeric_limits<double>::infinity();
-    for (Index first = begin; first < end; first += block) {
-      PointTree::Queries queries;
-      for (Index k = 0; k < block; ++k)
-        queries.col(k) = normals_[order_[std::min(first + k, end - 1)]];
-      tree.nearest(queries, neighbours, place[first], reach, found);
-      for (Index p = first; p < std::min(first + block, end); ++p) {
-        // Farther apart than this, cosines tell angles apart as well.
-        constexpr double rounding = 1e-14;
-        const std::vector<Neighbour>& nearest = found[p - first];
-        auto next = lists_[p].begin();
-        for (Index k = 0; k + 1 < neighbours && next != lists_[p].end(); ++k) {
-          const std::int32_t position = position_[nearest[k].index % count];
-          if (position == p) continue;
-          const double gap = nearest[k + 1].squared_distance - nearest[k].squared_distance;
-          *next++ = {position, gap <= rounding};
-        }
+    std::vector<Neighbour> nearest;
+    for (Index p = begin; p < end; ++p) {
+      tree.nearest(normals_[order_[p]], neighbours, nearest);
+      // Farther apart than this, cosines tell angles apart as well.
+      constexpr double rounding = 1e-14;
+      auto next = lists_[p].begin();
+      for (Index k = 0; k + 1 < neighbours && next != lists_[p].end(); ++k) {
+        const std::int32_t position = position_[nearest[k].index % count];
+        if (position == p) continue;
+        const double gap = nearest[k + 1].squared_distance - nearest[k].squared_distance;
+        *next++ = {position, gap <= rounding};
       }
     }
   });
