@@ -75,10 +75,17 @@ class Pipeline {
     return result;
   }
 
+  // Of a mirror beyond chance what is inside may tell more: an exact partner of each point.
   Result run_on_skin(const Cloud& cloud) const {
+    constexpr double by_chance = 0.4;
+    constexpr Index few = 20000;
     const auto run = [&](const Cloud& cloud) { return method_.run(cloud, values_, context_); };
     const auto skin = Skin::where_filled(cloud, method_, values_, unreported_);
-    return skin ? run_on(*skin, cloud, method_.minimum_points, context_, run) : run(cloud);
+    if (!skin) return run(cloud);
+    Result result = run_on(*skin, cloud, method_.minimum_points, context_, run);
+    if (result.score <= by_chance || result.score == 1 || cloud.points.size() > few) return result;
+    Result of_all = method_.run(cloud, values_, unreported_);
+    return of_all.score == 1 ? of_all : result;
   }
 
   std::uint64_t seed_;

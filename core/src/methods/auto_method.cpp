@@ -1,5 +1,6 @@
 #include "cloud/cloud.h"
 #include "methods/registry.h"
+#include "preprocess/fills_bodies.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -12,11 +13,19 @@ namespace {
 constexpr double enough = 0.75;
 constexpr double tie = 0.01;           // of two scores as close the simpler mirror's wins
 constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
+constexpr Index few = 1000;            // points whose score tells little
 
 // A result without an exact partner for every point may be improved on by a freer mirror.
 bool is_exact(const Result& result) {
   const auto share = result.statistics.find("exact_share");
   return share != result.statistics.end() && std::get<double>(share->second) == 1;
+}
+
+// Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
+// hide where the score looks least closely: among few points, and inside bodies.
+bool may_hide_exact_one(const Cloud& cloud, const Context& context) {
+  return cloud.points.size() <= few ||
+         (cloud.points.size() <= thinned_size && fills_bodies(cloud, context));
 }
 
 std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
@@ -57,11 +66,13 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
   Values scores{{"score_plane", best.score}};
   std::string reason;
+  const bool content = best.score >= enough;
+  const std::string contented = "plane scores " + text(best.score) + ": at least " + text(enough) +
+                                ", which leaves freer mirrors nothing to explain";
   if (is_exact(best)) {
     reason = "every point has an exact partner over the plane";
-  } else if (best.score >= enough) {
-    reason = "plane scores " + text(best.score) + ": at least " + text(enough) +
-             ", which leaves freer mirrors nothing to explain";
+  } else if (content && !may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {
+    reason = contented;
   } else {
     const ThinnedCloud thinned(cloud, context.stage(0.2, 0.2));
     const Method* winner = &plane;
@@ -71,18 +82,21 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
       if (is_exact(best)) break;
+      if (content && freer.name == "perpendicular") continue;  // it meets hardly each point
       Result result = run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
       done += 0.2;
       scores["score_" + freer.name] = result.score;
       others += ", " + freer.name + " " + text(result.score);
-      if (!(result.score > best.score + tie || (is_exact(result) && result.score > best.score)))
+      if (!(is_exact(result) ? result.score > best.score
+                             : !content && result.score > best.score + tie))
         continue;
       best = std::move(result);
       winner = &freer;
     }
     if (winner != &plane && thinned.is_thinner())
       best = run_with_defaults(*winner, cloud, context.stage(done, 1));
-    reason = winner->name + " is the simplest of the best: " + others;
+    reason = content && winner == &plane ? contented
+                                         : winner->name + " is the simplest of the best: " + others;
   }
   scores["reason"] = reason;
   best.statistics.merge(scores);

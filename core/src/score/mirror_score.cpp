@@ -31,6 +31,7 @@ constexpr double by_chance = 0.1;  // probability of a neighbour: likelier ones 
 // From which distance from the mirror on a point counts in full, near which any surface is
 // symmetric: at least, in standard deviations of the noise, in shares of the cloud's extent.
 constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
+constexpr double most_moved = 0.1;     // of few points scattered at random all passes for noise
 constexpr double layer_of_noise = 15;  // standard deviations: what lies farther apart is no layer
 constexpr double least_share = 0.2;    // of all points, that the mean is taken over
 constexpr double rounding = 1e-6;      // single precision
@@ -83,7 +84,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
   noise_ = measured_noise();
-  moved_ = std::max(least_moved, moved_by_noise * noise_);
+  moved_ = std::clamp(moved_by_noise * noise_, least_moved, most_moved);
   std::vector<double> counts;
   for (Sample& sample : samples_) {
     sample.ball = ball_of(thinned_, sample.position);
@@ -139,8 +140,8 @@ MirrorScore::Ball MirrorScore::ball_of(const PointSet& set, const Vector3& x) co
   return ball;
 }
 
-double MirrorScore::Sample::weight() const {
-  return density * (surface + in_volume * (1 - surface));
+double MirrorScore::Sample::weighed(double surface, double on_surface, double in_body) const {
+  return density * (surface * on_surface + in_volume * (1 - surface) * in_body);
 }
 
 MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine) {
@@ -252,9 +253,8 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                            static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);
-    const double counted = displacement * sample->density;
-    weights += counted * (surface + in_volume * (1 - surface));
-    support += counted * (surface * on_surface + in_volume * (1 - surface) * in_body);
+    weights += displacement * sample->weighed(surface, 1, 1);
+    support += displacement * sample->weighed(surface, on_surface, in_body);
   }
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;

@@ -78,7 +78,9 @@ class MirrorScore {
     double surface;  // 0..1: does the ball tell where the surface lies?
     double density;  // 0..1: less where next to no others are, as among clutter
 
-    double weight() const;
+    double weight() const { return weighed(surface, 1, 1); }
+    // Of what the surface, and what the inside of a body says, so much of each as there is.
+    double weighed(double surface, double on_surface, double in_body) const;
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;

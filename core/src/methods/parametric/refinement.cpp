@@ -185,6 +185,8 @@ template Candidate<UnitSphere> ParametricRefinement::fitted(const Candidate<Unit
                                                             int) const;
 template Candidate<UnitCylinder> ParametricRefinement::fitted(const Candidate<UnitCylinder>&, Index,
                                                               int) const;
+template Candidate<UnitSphere> ParametricRefinement::fitted_to_exact_pairs(
+    const Candidate<UnitSphere>&) const;
 template Candidate<UnitCylinder> ParametricRefinement::fitted_to_exact_pairs(
     const Candidate<UnitCylinder>&) const;
 template Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(

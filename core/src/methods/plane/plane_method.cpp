@@ -114,10 +114,9 @@ std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
   return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
 }
 
-// Of a mesh whose vertices these are. What maps them onto themselves may triangulate the surface
-// otherwise: then its samples have no exact partners.
+// Of a mesh whose vertices these are.
 std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
-                                       const MirrorScore& score, const Context& context) {
+                                       const Context& context) {
   std::vector<UnitPlane> planes;
   if (vertices.empty()) return planes;
   const Context unreported = context.stage(0, 0);
@@ -125,10 +124,8 @@ std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
   const Surfels samples(corners, vertices.size(), unreported);
   const PointTree tree(vertices, unreported);
   const NearestPoints points(vertices, tree, context);
-  for (const UnitPlane& plane : exact_planes(corners, points, samples, unreported)) {
-    const Plane found = in_input_units(plane, corners.frame);
-    if (score.fit(found).share >= maps_surface) planes.push_back(in_frame(found, cloud.frame));
-  }
+  for (const UnitPlane& plane : exact_planes(corners, points, samples, unreported))
+    planes.push_back(in_frame(in_input_units(plane, corners.frame), cloud.frame));
   return planes;
 }
 
@@ -179,19 +176,25 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
   const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
-  std::vector<UnitPlane> planes =
-      exact_planes_of(cloud.vertices, cloud, score, context.stage(0.45, 0.45));
-  if (planes.empty()) {
+  const auto ranked = [&](const std::vector<UnitPlane>& planes) {
+    std::vector<std::shared_ptr<Mirror>> mirrors;
+    for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
+    return score.ranked("plane", mirrors);
+  };
+  // What maps vertices onto vertices may triangulate the surface otherwise: then the samples have
+  // no exact partners, or miss it.
+  std::vector<UnitPlane> planes = exact_planes_of(cloud.vertices, cloud, context.stage(0.45, 0.45));
+  Result best;
+  if (!planes.empty()) best = ranked(planes);
+  std::erase_if(best.candidates, [](const Result& r) { return r.score < maps_surface; });
+  if (!(best.score >= maps_surface)) {
     planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
     for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+    if (planes.empty())
+      planes = searched_planes(cloud, coarse, map, refinement, score, promising,
+                               context.stage(0.46, 0.55));
+    best = ranked(planes);
   }
-  if (planes.empty())
-    planes = searched_planes(cloud, coarse, map, refinement, score, promising,
-                             context.stage(0.46, 0.55));
-
-  std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
-  Result best = score.ranked("plane", mirrors);
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
   add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,

@@ -119,7 +119,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate = refinement.fitted(candidate, 3000, 3);
+      candidate = refinement.fitted_to_exact_pairs(refinement.fitted(candidate, 3000, 3));
     else
       candidate.shape = partner_fit.refined(candidate.shape, 3000);
   }
@@ -130,15 +130,9 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   if (candidates.empty()) return best;
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
 
-  // Partners tell more than sheets, which many spheres map onto each other about as well.
-  const auto loose =
-      std::stable_partition(candidates.begin(), candidates.end(),
-                            [](const SphereCandidate& c) { return c.partnered > 0; });
-  for (auto c = candidates.begin(); c != loose; ++c) c->partnered = partner_fit.closeness(c->shape);
-  std::stable_sort(candidates.begin(), loose,
-                   [](const auto& a, const auto& b) { return a.partnered > b.partnered; });
-  if (candidates.front().partnered < exact)
-    candidates.front().shape = settled_on_sheets(candidates.front(), refinement).shape;
+  SphereCandidate& first = candidates.front();
+  if (first.partnered == 0 || partner_fit.closeness(first.shape) < exact)
+    first.shape = settled_on_sheets(first, refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
@@ -159,7 +153,7 @@ Method sphere_method() {
       "Finds the sphere that mirrors the shape best, of any radius: candidates from pairs of "
       "points, Hruda's measure over all pairs, refined on the full cloud.";
   method.parameters = {
-      Parameter::integer("sample_size", 700, 100, 100000, "points",
+      Parameter::integer("sample_size", 2000, 100, 100000, "points",
                          "Patches of the cloud that the search for the sphere works on."),
       Parameter::integer("max_candidates", 5, 0, 7, "",
                          "Other spheres to report at the most, best first."),
