@@ -6,14 +6,14 @@
 
 namespace {
 
-constexpr int swap_tag = 7120;
+constexpr int message_tag = 7120;
 
 const char* chars(const std::byte* bytes) { return reinterpret_cast<const char*>(bytes); }
 char* chars(std::byte* bytes) { return reinterpret_cast<char*>(bytes); }
 
 }  // namespace
 
-std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::gather(
+std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::all_gather(
     std::span<const std::byte> mine) const {
   const auto length = static_cast<vtkIdType>(mine.size());
   std::vector<vtkIdType> lengths(size()), offsets(size());
@@ -32,19 +32,19 @@ std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::gather(
 }
 
 // The lower rank speaks first: neither waits for the other to listen.
-symsurf::Communicator::Bytes ControllerCommunicator::swap(int other,
-                                                          std::span<const std::byte> mine) const {
+symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
+    int other, std::span<const std::byte> mine) const {
   const auto send = [&] {
     const auto length = static_cast<vtkIdType>(mine.size());
-    controller_->Send(&length, 1, other, swap_tag);
-    if (length > 0) controller_->Send(chars(mine.data()), length, other, swap_tag);
+    controller_->Send(&length, 1, other, message_tag);
+    if (length > 0) controller_->Send(chars(mine.data()), length, other, message_tag);
   };
   Bytes theirs;
   const auto receive = [&] {
     vtkIdType length = 0;
-    controller_->Receive(&length, 1, other, swap_tag);
+    controller_->Receive(&length, 1, other, message_tag);
     theirs.resize(length);
-    if (length > 0) controller_->Receive(chars(theirs.data()), length, other, swap_tag);
+    if (length > 0) controller_->Receive(chars(theirs.data()), length, other, message_tag);
   };
   meet(controller_, other, other);
   if (rank() < other) {

@@ -13,8 +13,8 @@ class ControllerCommunicator : public symsurf::Communicator {
 
   int rank() const override { return controller_ ? controller_->GetLocalProcessId() : 0; }
   int size() const override { return controller_ ? controller_->GetNumberOfProcesses() : 1; }
-  std::vector<Bytes> gather(std::span<const std::byte> mine) const override;
-  Bytes swap(int other, std::span<const std::byte> mine) const override;
+  std::vector<Bytes> all_gather(std::span<const std::byte> mine) const override;
+  Bytes send_recv(int other, std::span<const std::byte> mine) const override;
 
  private:
   vtkMultiProcessController* controller_;

@@ -42,7 +42,7 @@ vtkNew<Array> filled(const char* name, vtkIdType size, Value value) {
 // How many points the processes before this one have.
 symsurf::Index points_before(const ControllerCommunicator& processes, symsurf::Index own) {
   if (processes.size() == 1) return 0;
-  const auto counts = processes.gather(std::as_bytes(std::span(&own, 1)));
+  const auto counts = processes.all_gather(std::as_bytes(std::span(&own, 1)));
   symsurf::Index before = 0;
   for (int rank = 0; rank < processes.rank(); ++rank) {
     symsurf::Index count;
@@ -55,7 +55,7 @@ symsurf::Index points_before(const ControllerCommunicator& processes, symsurf::I
 // Of all processes together: one that threw alone would keep the others waiting.
 void require_normals(const ControllerCommunicator& processes, bool missing) {
   if (processes.size() > 1)
-    for (const auto& theirs : processes.gather(std::as_bytes(std::span(&missing, 1))))
+    for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(&missing, 1))))
       missing = missing || theirs.front() != std::byte{0};
   if (missing)
     throw symsurf::InvalidInput(

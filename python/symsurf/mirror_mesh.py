@@ -11,7 +11,7 @@ from ._core import InvalidInput
 from .result import Result
 
 # Statistics that say that other points were searched than were given.
-_SEARCHED = {"nonfinite_points", "stray_points", "surface_samples"}
+_SEARCHED = {"nonfinite_points", "outliers", "surface_samples"}
 
 
 def mirror_mesh(

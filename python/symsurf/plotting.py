@@ -74,7 +74,7 @@ def draw(
         title: a line above the picture.
     """
     object_, residuals = _object(result, shape, points)
-    seen = _without_strays(result, object_)
+    seen = _without_outliers(result, object_)
     plotter.set_background(BACKGROUND)
     plotter.enable_anti_aliasing("ssaa")
     plotter.enable_lightkit()
@@ -124,14 +124,14 @@ def _object(
     return _pyvista().PolyData.from_regular_faces(kept, faces), residuals[finite]
 
 
-def _without_strays(result: Result, object_: pyvista.PolyData) -> pyvista.PolyData:
+def _without_outliers(result: Result, object_: pyvista.PolyData) -> pyvista.PolyData:
     """What a picture should show: the object, or its points without those that lie far off."""
-    strays = result.statistics.get("stray_points", 0)
-    if not strays:
+    outliers = result.statistics.get("outliers", 0)
+    if not outliers:
         return object_
     points = np.asarray(object_.points)
     distances = np.linalg.norm(points - np.median(points, axis=0), axis=1)
-    return _pyvista().PolyData(points[np.argsort(distances, kind="stable")[:-strays]])
+    return _pyvista().PolyData(points[np.argsort(distances, kind="stable")[:-outliers]])
 
 
 def _residuals(result: Result, count: int) -> NDArray[np.float64]:

@@ -42,8 +42,8 @@ class Result:
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
     """Whatever else the method reports, and, where there are some, how many "nonfinite_points" were
-    left out as not finite and how many "stray_points" as lying far off: they have no partners.
-    "surface_samples": how many points were added on the faces. "skin_points" where the points fill
+    left out as not finite and how many "outliers" as lying far off: they have no partners.
+    "surface_samples": how many points were added on the faces. "boundary_points" where the points fill
     a body, and the mirror and the score are those of its skin: how many it has."""
     seconds: float
     points: NDArray[np.float64] | None = None

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 // The folders of core/src from the lowest layer up: a file includes from its own layer and from
 // lower ones.
-constexpr std::array layers{"base",  "spatial",    "mesh",    "cloud",      "mirrors",
-                            "score", "preprocess", "methods", "operations", "detection"};
+constexpr std::array layers{"base",  "distributed", "spatial", "mesh",       "cloud",    "mirrors",
+                            "score", "preprocess",  "methods", "operations", "detection"};
 // Used by no layer; may use all of them.
 constexpr std::array leaves{"synthetic"};
 
@@ -93,6 +93,21 @@ TEST(Dependencies, LayersIncludeOnlyLowerOnes) {
     if (!is_leaf(from))
       EXPECT_TRUE(layer_of(include.header) <= layer_of(from))
           << from << " includes " << include.header;
+  }
+}
+
+// Others get a Partition, which is the same for any number of processes.
+TEST(Dependencies, OnlyDistributedPartsKnowTheProcesses) {
+  const std::regex processes("[Cc]ommunicator|processes\\(\\)");
+  for (const auto& entry : fs::recursive_directory_iterator(source_root)) {
+    const fs::path path = fs::relative(entry.path(), source_root);
+    const fs::path folder = *path.begin();
+    if (!entry.is_regular_file() || folder == "distributed" || folder == "detection" ||
+        path == "base/context.cpp" || path == "score/distributed_matching.cpp")
+      continue;
+    std::ifstream source(entry.path());
+    for (std::string line; std::getline(source, line);)
+      EXPECT_FALSE(std::regex_search(line, processes)) << path << ": " << line;
   }
 }
 

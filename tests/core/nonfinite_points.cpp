@@ -92,14 +92,14 @@ TEST(NonfinitePoints, GoWithTheirNormals) {
                              [&] { detect(all, {.method = "plane", .normals = normals}); });
 }
 
-TEST(NonfinitePoints, AreStraysToo) {
+TEST(NonfinitePoints, WithOutliers) {
   RandomCloud random(3);
   Points points(1010, 3);
   points << 200 * random.sphere(10), ball(random, 1000);
   const std::vector<Index> rows = finite_rows_of(points.rows());
   const Points all = spread(points, rows);
   const Result with = detect(all, {.method = "plane"});
-  EXPECT_EQ(std::get<Index>(with.statistics.at("stray_points")), 10);
+  EXPECT_EQ(std::get<Index>(with.statistics.at("outliers")), 10);
   expect_the_same(with, detect(points, {.method = "plane"}), rows, all.rows() - points.rows());
 }
 

@@ -35,13 +35,13 @@ class ProcessThreads {
 
     int rank() const override { return rank_; }
     int size() const override { return all_.count_; }
-    std::vector<Bytes> gather(std::span<const std::byte> mine) const override {
+    std::vector<Bytes> all_gather(std::span<const std::byte> mine) const override {
       for (int to = 0; to < size(); ++to) all_.send(rank_, to, {mine.begin(), mine.end()});
       std::vector<Bytes> parts;
       for (int from = 0; from < size(); ++from) parts.push_back(all_.receive(from, rank_));
       return parts;
     }
-    Bytes swap(int other, std::span<const std::byte> mine) const override {
+    Bytes send_recv(int other, std::span<const std::byte> mine) const override {
       all_.send(rank_, other, {mine.begin(), mine.end()});
       return all_.receive(other, rank_);
     }

@@ -33,8 +33,8 @@ Points scan(unsigned seed) {
     Vector3 x = (1 + 0.3 * std::sin(3 * u.y() + u.z()) + 0.2 * u.y() * u.z()) * u;
     x.x() += 2;
     if (i % 2) x = mirror.reflect(x);
-    const bool clutter = seed % 2 && i % 50 == 0, stray = seed % 2 && i % 600 == 1;
-    if (clutter || stray) x = (stray ? 50 : 1) * Vector3(normal(random), normal(random), 2);
+    const bool clutter = seed % 2 && i % 50 == 0, outlier = seed % 2 && i % 600 == 1;
+    if (clutter || outlier) x = (outlier ? 50 : 1) * Vector3(normal(random), normal(random), 2);
     points.row(i) = (x + 0.003 * Vector3(normal(random), normal(random), normal(random)));
   }
   return points;
@@ -100,7 +100,7 @@ TEST_P(SharedPoints, GiveThePlaneOfTheWhole) {
       EXPECT_LT((sign * found.normal() - expected.normal()).norm(), 1e-9);
       EXPECT_NEAR(sign * found.offset(), expected.offset(), 1e-9 * diagonal);
       EXPECT_NEAR(result.score, whole.score, 1e-9);
-      EXPECT_EQ(result.statistics.count("stray_points"), seed);
+      EXPECT_EQ(result.statistics.count("outliers"), seed);
       EXPECT_EQ(result.statistics.at("unpaired_points"), whole.statistics.at("unpaired_points"));
       EXPECT_NEAR(std::get<double>(result.statistics.at("mean_residual")),
                   std::get<double>(whole.statistics.at("mean_residual")), 1e-9 * diagonal);
@@ -144,17 +144,17 @@ Result found_by_all_alike(const Points& points, const Case& shared, const std::s
   return whole;
 }
 
-// Where points fill a body, one process looks at the skin of the whole.
+// Where points fill a body, one process extracts the boundary of the whole.
 TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
   RandomCloud random(5);
   Points points = random.sphere(10000);
   for (auto x : points.rowwise())
     x *= std::cbrt(random.uniform(0, 1)) * (1 + 0.4 * std::sin(3 * x.y() + 1) * x.z());
   const Result whole = found_by_all_alike(points, GetParam(), "plane");
-  EXPECT_EQ(whole.statistics.count("skin_points"), 1u);
+  EXPECT_EQ(whole.statistics.count("boundary_points"), 1u);
 }
 
-// Methods that do not take shares get the whole, on one process.
+// Methods that are not distributed get the whole, on one process.
 TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
   found_by_all_alike(scan(4).topRows(1000), GetParam(), "sphere");
 }

@@ -1,4 +1,4 @@
-#include "spatial/slabs.h"
+#include "distributed/slabs.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/plane.h>
@@ -8,11 +8,11 @@
 #include <mutex>
 #include <numeric>
 
-#include "detection/shared_cloud.h"
+#include "cloud/cloud.h"
 #include "process_threads.h"
 #include "random_cloud.h"
+#include "score/distributed_matching.h"
 #include "score/matching.h"
-#include "score/shared_matching.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -38,11 +38,19 @@ struct Shared {
     ProcessThreads(processes).run([&](const Communicator& communicator) {
       const Index begin = begins[communicator.rank()], end = begins[communicator.rank() + 1];
       const PointsView own(points.data() + 3 * begin, end - begin);
-      const Context context = Context({}, 1).sharing(&communicator);
-      body(checked_shared_cloud(own, 4, context), context);
+      const Context context({}, 1);
+      Cloud cloud;
+      cloud.points = own;
+      cloud.partition = Partition(own.size(), &communicator);
+      validate(cloud, 4, context);
+      body(cloud, context);
     });
   }
 };
+
+Slabs slabs_of(const Cloud& cloud, const Vector3& along, const Context& context) {
+  return Slabs(cloud.points, cloud.partition, along, cloud.frame.centroid, cloud.diagonal, context);
+}
 
 class SharedSlabs : public testing::TestWithParam<int> {};
 
@@ -54,7 +62,7 @@ TEST_P(SharedSlabs, ShareOutThePoints) {
     std::vector<int> owners(size);
     std::mutex mutex;
     shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs(cloud, along, context);
+      const Slabs slabs = slabs_of(cloud, along, context);
       const Index now = slabs.points().size();
       EXPECT_NEAR(static_cast<double>(now), static_cast<double>(cloud.points.size()), 0.02 * size);
       const std::scoped_lock lock(mutex);
@@ -75,8 +83,8 @@ TEST_P(SharedSlabs, AreNoNearerThanTheySay) {
   const Vector3 along = random.direction();
   const Points places = 2 * random.box(50);
   shared.run([&](const Cloud& cloud, const Context& context) {
-    const Slabs slabs(cloud, along, context);
-    const int here = context.communicator()->rank();
+    const Slabs slabs = slabs_of(cloud, along, context);
+    const int here = cloud.partition.processes()->rank();
     for (Index k = 0; k < slabs.points().size(); ++k) {
       EXPECT_EQ(slabs.distance(slabs.points()[k], here), 0);
       for (Index q = 0; q < places.rows(); ++q) {
@@ -87,17 +95,17 @@ TEST_P(SharedSlabs, AreNoNearerThanTheySay) {
   });
 }
 
-TEST_P(SharedSlabs, HandBackToWhoHadThePoint) {
+TEST_P(SharedSlabs, SendBackToTheProcessThatHadThePoint) {
   RandomCloud random(2);
   const Shared shared(random.box(size), GetParam(), random);
   const Vector3 along = random.direction();
   shared.run([&](const Cloud& cloud, const Context& context) {
-    const Slabs slabs(cloud, along, context);
+    const Slabs slabs = slabs_of(cloud, along, context);
     std::vector<Index> numbers(cloud.points.size(), -1);
-    slabs.hand_back<Index>(
-        *context.communicator(), [&](Index k) { return slabs.number(k); },
-        [&](Index i, Index number) { numbers[i] = number; });
-    for (Index i = 0; i < cloud.points.size(); ++i) EXPECT_EQ(numbers[i], cloud.first + i);
+    slabs.send_back<Index>([&](Index k) { return slabs.number(k); },
+                           [&](Index i, Index number) { numbers[i] = number; });
+    for (Index i = 0; i < cloud.points.size(); ++i)
+      EXPECT_EQ(numbers[i], cloud.partition.first() + i);
   });
 }
 
@@ -115,9 +123,9 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
         Index row = 0;
         std::vector<Result> results(GetParam());
         shared.run([&](const Cloud& cloud, const Context& context) {
-          const Slabs slabs(cloud, along, context);
-          add_shared_pairs(results[context.communicator()->rank()], cloud, slabs,
-                           PointTree(slabs.points()), mirror, limit, context);
+          const Slabs slabs = slabs_of(cloud, along, context);
+          add_pairs(results[cloud.partition.processes()->rank()], cloud, slabs,
+                    PointTree(slabs.points()), mirror, limit, context);
         });
         for (const Result& result : results) {
           const Index rows = result.pairs.rows();
@@ -145,7 +153,7 @@ TEST_P(SharedSlabs, HaveTheNearestPointsOfTheWhole) {
     for (Index i = 0; i < size; i += 10) places.emplace_back(shared.points.row(i));
     for (int k = 0; k < 100; ++k) places.push_back(1.5 * random.in_box());
     shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs(cloud, along, context);
+      const Slabs slabs = slabs_of(cloud, along, context);
       const PointTree own(slabs.points());
       const NearestPoints points(slabs, own, context);
       EXPECT_EQ(points.second_nearest(places), whole.second_nearest(places));
@@ -166,11 +174,11 @@ TEST_P(SharedSlabs, StayWhereTheyAreSlabsAlready) {
   const Shared shared(points(order, Eigen::indexing::all), GetParam(), random);
   for (const double sign : {-1, 1})
     shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs(cloud, sign * along, context);
+      const Slabs slabs = slabs_of(cloud, sign * along, context);
       Index others = 0;
       for (Index k = 0; k < slabs.points().size(); ++k)
-        others +=
-            slabs.number(k) < cloud.first || slabs.number(k) >= cloud.first + cloud.points.size();
+        others += slabs.number(k) < cloud.partition.first() ||
+                  slabs.number(k) >= cloud.partition.first() + cloud.points.size();
       EXPECT_LT(static_cast<double>(others), 0.02 * size);
     });
 }
@@ -182,7 +190,8 @@ TEST(Slabs, LeaveTheCloudOfOneWhereItLies) {
   const Points points = random.box(size);
   Cloud cloud;
   cloud.points = points;
-  const Slabs slabs(cloud, Vector3::UnitX(), {});
+  cloud.partition = Partition(size);
+  const Slabs slabs = slabs_of(cloud, Vector3::UnitX(), {});
   EXPECT_EQ(slabs.points().data(), points.data());
   EXPECT_EQ(slabs.number(7), 7);
 }

@@ -13,6 +13,7 @@
 
 #include "cloud/cloud.h"
 #include "expect_error.h"
+#include "methods/registry.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -53,11 +54,11 @@ struct TestMesh {
 };
 
 Points samples_of(const TestMesh& mesh) {
-  const Cloud cloud = checked_cloud(mesh.vertices, {}, 1, {});
-  const Method& plane = method("plane");
-  const ParameterValues values(plane.name, plane.parameters, {});
-  const auto samples = SurfaceSamples::where_coarse(cloud, mesh.faces, values, {});
-  return samples ? samples->points() : mesh.vertices;
+  Cloud cloud = checked_cloud(mesh.vertices, {}, 1, {});
+  cloud.faces = mesh.faces;
+  SurfaceSamples samples;
+  samples.apply(cloud, {});
+  return cloud.points.matrix();
 }
 
 Result detected(const TestMesh& mesh, const char* method, const Points& normals = Points(0, 3)) {
@@ -289,11 +290,11 @@ TEST(SurfaceSamples, FindEveryKindOfMirror) {
   const TestMesh mesh = chair(0);
   for (const Method& method : methods()) {
     const Result result = detected(mesh, method.name.c_str());
-    EXPECT_EQ(result.statistics.count("surface_samples"), method.sees_strays ? 0u : 1u)
-        << method.name;
+    const bool samples = implementation(method.name).preprocessing.sample_faces;
+    EXPECT_EQ(result.statistics.count("surface_samples"), samples ? 1u : 0u) << method.name;
     for (Index row = 0; row < result.pairs.rows(); ++row) {
       ASSERT_LT(result.pairs.row(row).maxCoeff(), mesh.vertices.rows()) << method.name;
-      if (method.sees_strays || !result.mirror) continue;
+      if (!samples || !result.mirror) continue;
       const Vector3 from = mesh.vertices.row(result.pairs(row, 0));
       const Vector3 to = mesh.vertices.row(result.pairs(row, 1));
       EXPECT_NEAR((result.mirror->reflect(from) - to).norm(), result.residuals[row], 1e-9)
@@ -320,15 +321,15 @@ TEST(SurfaceSamples, FacesOfPointsLeftOutGo) {
   EXPECT_EQ(std::get<Index>(result.statistics.at("nonfinite_points")), 2);
   EXPECT_TRUE(is_plane(result, Vector3::UnitX(), {0.5, 0, 0}));
   EXPECT_EQ(result.pairs.rows(), had);
-  // Single points far off, in a sliver of a face or in none, are strays.
+  // Single points far off, in a sliver of a face or in none, are outliers.
   mesh = chair(1);
   mesh.add(Points::Constant(1, 3, 40), (Triangles(1, 3) << 0, -had, 1 - had).finished());
   mesh.faces.conservativeResize(mesh.faces.rows() - 1, 3);
-  EXPECT_EQ(std::get<Index>(detected(mesh, "plane").statistics.at("stray_points")), 1);
+  EXPECT_EQ(std::get<Index>(detected(mesh, "plane").statistics.at("outliers")), 1);
 }
 
-// A shade of many small faces and a foot of few large ones, far below: no strays.
-TEST(SurfaceSamples, LargeFacesOfFewVerticesAreNoStrays) {
+// A shade of many small faces and a foot of few large ones, far below: no outliers.
+TEST(SurfaceSamples, LargeFacesOfFewVerticesAreNoOutliers) {
   TestMesh mesh;
   const Index around = 60;
   Points rings(8 * around, 3);
@@ -345,9 +346,9 @@ TEST(SurfaceSamples, LargeFacesOfFewVerticesAreNoStrays) {
     }
   mesh.add(rings, faces);
   mesh.add_box({-0.7, -0.7, 0}, {0.7, 0.7, 0.1});
-  EXPECT_EQ(detect(mesh.vertices, {.method = "plane"}).statistics.count("stray_points"), 1u);
+  EXPECT_EQ(detect(mesh.vertices, {.method = "plane"}).statistics.count("outliers"), 1u);
   const Result result = detected(mesh, "plane");
-  EXPECT_EQ(result.statistics.count("stray_points"), 0u);
+  EXPECT_EQ(result.statistics.count("outliers"), 0u);
   EXPECT_GT(result.score, 0.9);
 }
 

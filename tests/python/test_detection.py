@@ -123,7 +123,7 @@ def test_cylinder_of_a_closed_tube(seed):
     assert abs(mirror.axis @ rotation[:, 2]) == pytest.approx(1, abs=1e-9)
 
 
-def test_the_mirror_of_a_mask_is_that_of_its_skin():
+def test_the_mirror_of_a_mask_is_that_of_its_boundary():
     z, y, x = np.mgrid[:60, :70, :80]
     mask = ((x - 40) / 30) ** 2 + ((y - 35) / 20) ** 2 + ((z - 30) / 14) ** 2 < 1
     mask |= (np.abs(x - 40) - 24) ** 2 + (y - 50) ** 2 + (z - 36) ** 2 < 60
@@ -131,5 +131,5 @@ def test_the_mirror_of_a_mask_is_that_of_its_skin():
     result = symsurf.detect(voxels)
     assert result.mirror.kind == "plane"
     assert np.abs(result.mirror.signed_distance([[0, 0, 40], [60, 0, 40], [0, 70, 40]])).max() < 1e-9
-    assert result.statistics["skin_points"] < len(voxels) / 4
+    assert result.statistics["boundary_points"] < len(voxels) / 4
     assert len(result.pairs) == len(voxels) and result.residuals.max() < 1e-9

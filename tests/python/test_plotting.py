@@ -118,20 +118,20 @@ def test_the_verdict_is_written_above(result, tmp_path):
     assert ink[0] == 0 and 300 < ink[1] < ink[2]
 
 
-def test_strays_are_out_of_the_picture(tmp_path):
+def test_outliers_are_out_of_the_picture(tmp_path):
     """What is drawn fills about as much of the picture without them, and the mirror is no larger."""
     pyvista = pytest.importorskip("pyvista")
     points, _ = mirrored_surface(800, 0)
-    strays = 300 * np.random.default_rng(0).normal(size=(5, 3))
+    outliers = 300 * np.random.default_rng(0).normal(size=(5, 3))
     shares, sizes = [], []
-    for given in points, np.vstack([points, strays]):
+    for given in points, np.vstack([points, outliers]):
         result = symsurf.detect(given, "plane")
         result.plot(tmp_path / "given.png")
         picture = pixels(tmp_path / "given.png")
         shares.append([(picture != BACKGROUND).any(axis=1).mean(), bluish(picture)])
         result.save(tmp_path / "given.vtp")
         sizes.append(pyvista.read(tmp_path / "given.vtp").length)
-    assert result.statistics["stray_points"] == 5
+    assert result.statistics["outliers"] == 5
     np.testing.assert_allclose(shares[1], shares[0], rtol=0.6)
     assert sizes[1] < 1.2 * sizes[0]
 

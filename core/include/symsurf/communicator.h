@@ -6,8 +6,8 @@
 
 namespace symsurf {
 
-/// The processes that share out a point set. A host makes one from what its processes talk by. The
-/// calls are collective: all processes make the same ones in the same order.
+/// The processes that share a point set, and two calls of MPI. A host makes one from its message
+/// passing. The calls are collective: all processes make the same ones in the same order.
 class Communicator {
  public:
   using Bytes = std::vector<std::byte>;
@@ -15,13 +15,13 @@ class Communicator {
   virtual ~Communicator() = default;
 
   virtual int rank() const = 0;  ///< of this process, from 0
-  virtual int size() const = 0;  ///< how many there are
+  virtual int size() const = 0;  ///< number of processes
 
-  /// What every process gives, by rank; each gets all.
-  virtual std::vector<Bytes> gather(std::span<const std::byte> mine) const = 0;
+  /// What every process passes, by rank.
+  virtual std::vector<Bytes> all_gather(std::span<const std::byte> own) const = 0;
 
-  /// Gives to another process and takes what that one gives.
-  virtual Bytes swap(int other, std::span<const std::byte> mine) const = 0;
+  /// Sends bytes to another process and returns those that it sends.
+  virtual Bytes send_recv(int other, std::span<const std::byte> bytes) const = 0;
 };
 
 }  // namespace symsurf

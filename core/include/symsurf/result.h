@@ -25,9 +25,9 @@ struct Result {
   Values parameters;  ///< as used
   /// "verdict", "found" or "none"; "reason", a sentence that says why; whatever else the method
   /// reports; and, where there are some, how many "nonfinite_points" were left out as not finite
-  /// and how many "stray_points" as lying far off: they have no partners. "surface_samples": how
-  /// many points were added on the faces. "skin_points" where the points fill a body, and the
-  /// mirror and the score are those of its skin: how many it has.
+  /// and how many "outliers" as lying far off: they have no partners. "surface_samples": how many
+  /// points were added on the faces. "boundary_points" of a volumetric cloud, where the mirror and
+  /// the score are those of its boundary: how many it has.
   Values statistics;
   double seconds = 0;
 

@@ -3,6 +3,9 @@
 #include <symsurf/errors.h>
 
 #include <string>
+#include <vector>
+
+#include "cloud/footprint.h"
 
 namespace symsurf {
 
@@ -17,6 +20,34 @@ constexpr double least_extent = 1e-50, greatest_extent = 1e50;
 // In one process: they, and twice as many, are counted in 32 bits.
 constexpr Index most_points = Index{1} << 30;
 
+void require_numerable(Index own) {
+  if (!is_numerable(own))
+    throw InvalidInput(std::to_string(own) + " points given; at most " +
+                       std::to_string(most_points) + " in one process are allowed");
+}
+
+// `extremes`: the lowest and the highest point along each axis.
+void require_area(PointsView own, const Partition& partition, const std::vector<Vector3>& extremes,
+                  const Vector3& size) {
+  const std::string all = "all " + std::to_string(partition.total()) + " points ";
+  Index longest;
+  const double extent = size.maxCoeff(&longest);
+  if (!(extent > 0)) throw InvalidInput(all + "are equal");
+  if (extent < least_extent || extent > greatest_extent)
+    throw InvalidInput("the points extend over " + to_string(Value(extent)) + "; allowed is " +
+                       to_string(Value(least_extent)) + " to " + to_string(Value(greatest_extent)));
+  const Vector3 start = extremes[2 * longest];
+  const Vector3 direction = ((extremes[2 * longest + 1] - start) / extent).normalized();
+  const auto is_beside_line = [&](Index i) {
+    const Vector3 x = (own[i] - start) / extent;
+    return (x - direction.dot(x) * direction).norm() > line_thinness;
+  };
+  // Mostly one of the first points ends the search.
+  Index i = 0;
+  while (i < own.size() && !is_beside_line(i)) ++i;
+  if (partition.sum(Index{i < own.size()}) == 0) throw InvalidInput(all + "lie on one line");
+}
+
 }  // namespace
 
 void require_count(Index given, Index needed) {
@@ -26,34 +57,6 @@ void require_count(Index given, Index needed) {
 }
 
 bool is_numerable(Index own) { return own <= most_points; }
-
-void require_numerable(Index own) {
-  if (!is_numerable(own))
-    throw InvalidInput(std::to_string(own) + " points given; at most " +
-                       std::to_string(most_points) + " in one process are allowed");
-}
-
-void require_area(PointsView points, Index total) {
-  const std::string all = "all " + std::to_string(total) + " points ";
-  const Vector3 low = points.matrix().colwise().minCoeff();
-  const Vector3 high = points.matrix().colwise().maxCoeff();
-  Index longest;
-  const double extent = (high - low).maxCoeff(&longest);
-  if (!(extent > 0)) throw InvalidInput(all + "are equal");
-  if (extent < least_extent || extent > greatest_extent)
-    throw InvalidInput("the points extend over " + to_string(Value(extent)) + "; allowed is " +
-                       to_string(Value(least_extent)) + " to " + to_string(Value(greatest_extent)));
-  Index first, last;
-  points.matrix().col(longest).minCoeff(&first);
-  points.matrix().col(longest).maxCoeff(&last);
-  const Vector3 direction = ((points[last] - points[first]) / extent).normalized();
-  // Mostly one of the first points ends the search.
-  for (Index i = 0; i < points.size(); ++i) {
-    const Vector3 x = (points[i] - points[first]) / extent;
-    if ((x - direction.dot(x) * direction).norm() > line_thinness) return;
-  }
-  throw InvalidInput(all + "lie on one line");
-}
 
 bool are_finite(PointsView rows) {
   double sum = 0;  // NaN from the first that is not, without branches
@@ -87,21 +90,39 @@ void require_normals(PointsView points, PointsView normals, Index first) {
   }
 }
 
+void require_corners(TrianglesView faces, Index points) {
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 3; ++c)
+      if (faces[f][c] < 0 || faces[f][c] >= points)
+        throw InvalidInput("face " + std::to_string(f) + " names point " +
+                           std::to_string(faces[f][c]) + "; allowed is 0 to " +
+                           std::to_string(points - 1));
+}
+
+void validate(Cloud& cloud, Index minimum_points, const Context& context) {
+  const PointsView own = cloud.points;
+  const Partition partition = cloud.partition.resized(own.size());
+  require_count(partition.total(), minimum_points);
+  partition.require([&] {
+    require_numerable(own.size());
+    require_finite(own, "point", partition.first());
+  });
+  const std::vector<Vector3> extremes = extreme_points(own, partition);
+  const Vector3 low(extremes[0].x(), extremes[2].y(), extremes[4].z());
+  const Vector3 high(extremes[1].x(), extremes[3].y(), extremes[5].z());
+  require_area(own, partition, extremes, high - low);
+  partition.require([&] { require_normals(own, cloud.normals, partition.first()); });
+  cloud.partition = partition;
+  cloud.diagonal = (high - low).norm();
+  cloud.frame = principal_frame(own, partition, context);
+}
+
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {
-  require_count(points.size(), minimum_points);
-  require_numerable(points.size());
-  require_finite(points, "point");
-  require_area(points, points.size());
-  require_normals(points, normals);
-  const Vector3 low = points.matrix().colwise().minCoeff();
-  const Vector3 high = points.matrix().colwise().maxCoeff();
   Cloud cloud;
   cloud.points = points;
   cloud.normals = normals;
-  cloud.diagonal = (high - low).norm();
-  cloud.frame = principal_frame(points, context);
-  cloud.total = points.size();
+  validate(cloud, minimum_points, context);
   return cloud;
 }
 

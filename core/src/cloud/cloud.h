@@ -1,20 +1,44 @@
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+
+#include <cstdint>
+
+#include "cloud/principal_frame.h"
+#include "distributed/partition.h"
 
 namespace symsurf {
 
-/// Checks what every method relies on: at least minimum_points points and no more than can be
-/// numbered, all finite, not all on one line; normals, where given, one a point, finite and not
-/// zero. Throws InvalidInput.
+/// A point cloud or mesh on its way to a method. Points, normals and faces are those of this
+/// process; the rest, once validated, is that of all.
+struct Cloud {
+  PointsView points;
+  PointsView normals;    ///< empty: none given; otherwise one line direction a point, sign ignored
+  TrianglesView faces;   ///< between the points, until their samples are among the points
+  PointsView vertices;   ///< of the mesh, where the points are samples of its faces
+  PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
+  Partition partition;
+  std::uint64_t seed = 0;
+  double diagonal = 0;  ///< of the axis-aligned bounding box
+  PrincipalFrame frame;
+};
+
+/// Sets partition, diagonal and frame, and checks what every method relies on: at least
+/// minimum_points points and no more than can be numbered, all finite, not all on one line;
+/// normals, where given, one a point, finite and not zero. Throws InvalidInput, on all processes
+/// the same. Collective.
+void validate(Cloud& cloud, Index minimum_points, const Context& context);
+
+/// A validated cloud in one process.
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
 
 bool are_finite(PointsView rows);
 
 /// Throws InvalidInput naming the first of the rows that is not finite, as "point 3" where `what`
-/// is "point".
-/// `first`: the number of the first row.
+/// is "point". `first`: the number of the first row.
 void require_finite(PointsView rows, const char* what, Index first = 0);
 
 /// Throws InvalidInput for no points, or naming the first that is not finite.
@@ -27,14 +51,10 @@ void require_count(Index given, Index needed);
 /// finite and not zero. `first`: the number of the first row.
 void require_normals(PointsView points, PointsView normals, Index first = 0);
 
+/// Throws InvalidInput naming the first face with a corner that is none of so many points.
+void require_corners(TrianglesView faces, Index points);
+
 /// Whether one process can number so many points.
 bool is_numerable(Index own);
-
-/// Throws InvalidInput for more points than one process numbers.
-void require_numerable(Index own);
-
-/// Throws InvalidInput where all points are equal, lie on one line, or extend less than 1e-50 or
-/// more than 1e50; `total`: how many they stand for.
-void require_area(PointsView points, Index total);
 
 }  // namespace symsurf

@@ -1,5 +1,6 @@
 #include <symsurf/downsample.h>
 #include <symsurf/errors.h>
+#include <symsurf/value.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,9 @@
-#include <symsurf/principal_frame.h>
+#include "cloud/principal_frame.h"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
-#include "base/gathered.h"
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
 
@@ -40,23 +39,24 @@ Vector3 PrincipalFrame::enter(const Vector3& x) const {
 
 Vector3 PrincipalFrame::leave(const Vector3& x) const { return centroid + size * (axes * x); }
 
-PrincipalFrame principal_frame(PointsView points, const Context& context) {
-  const double count = static_cast<double>(share_of(context, points.size()).total);
+PrincipalFrame principal_frame(PointsView points, const Partition& partition,
+                               const Context& context) {
+  const double count = static_cast<double>(partition.total());
   PrincipalFrame frame;
   // About the first point: far-off clouds keep their digits.
-  const Vector3 first = concatenated(context, first_of(points)).front();
+  const Vector3 first = partition.concatenate(first_of(points)).front();
   frame.centroid =
-      first + summed(context, parallel_sum(context, points.size(), grain, Vector3(0, 0, 0),
-                                           [&](Index begin, Index end) {
-                                             Vector3 sum = Vector3::Zero();
-                                             for (Index i = begin; i < end; ++i)
-                                               sum += points[i] - first;
-                                             return sum;
-                                           })) /
+      first + partition.sum(parallel_sum(context, points.size(), grain, Vector3(0, 0, 0),
+                                         [&](Index begin, Index end) {
+                                           Vector3 sum = Vector3::Zero();
+                                           for (Index i = begin; i < end; ++i)
+                                             sum += points[i] - first;
+                                           return sum;
+                                         })) /
                   count;
   Matrix3 scatter = Matrix3::Zero();
-  scatter = summed(
-      context, parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
+  scatter = partition.sum(
+      parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
         Matrix3 sum = Matrix3::Zero();
         for (Index i = begin; i < end; ++i) {
           const Vector3 x = points[i] - frame.centroid;
@@ -68,8 +68,8 @@ PrincipalFrame principal_frame(PointsView points, const Context& context) {
   frame.axes = eigen.vectors.rowwise().reverse();
   frame.variance = eigen.values.reverse() / count;
 
-  const Extent extent = summed(
-      context, parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
+  const Extent extent = partition.sum(
+      parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
         Extent part;
         for (Index i = begin; i < end; ++i) {
           const Vector3 x = frame.axes.transpose() * (points[i] - frame.centroid);
@@ -86,10 +86,10 @@ PrincipalFrame principal_frame(PointsView points, const Context& context) {
     // Across an exact mirror the skewness is rounding, which depends on the order of the points.
     constexpr double rounding = 1e-6;
     const double skewness = extent.skewness[axis] / count;
-    const bool told = std::abs(skewness) > rounding * std::pow(frame.variance[axis], 1.5);
+    const bool is_skew = std::abs(skewness) > rounding * std::pow(frame.variance[axis], 1.5);
     Index largest;
     frame.axes.col(axis).cwiseAbs().maxCoeff(&largest);
-    if ((told ? skewness : frame.axes(largest, axis)) >= 0) continue;
+    if ((is_skew ? skewness : frame.axes(largest, axis)) >= 0) continue;
     frame.axes.col(axis) *= -1;
     frame.low[axis] = -extent.high[axis];
     frame.high[axis] = -extent.low[axis];

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "base/gathered.h"
 #include "base/symmetric_eigen.h"
 #include "spatial/point_tree.h"
 
@@ -118,7 +117,7 @@ Surfels::Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> unclut
     : count_(count), uncluttered_(std::move(uncluttered)) {
   // More than one point a cell: alone it tells of no patch.
   const double wanted =
-      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.total));
+      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.partition.total()));
   choose_cell(cloud, wanted, guess, context.stage(0, 0.5));
   std::vector<Patch> patches = patches_of(cloud, context.stage(0.5, 1));
   // Without the clutter, cells are smaller, and what is clutter is seen better.
@@ -152,8 +151,8 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
       const Vector3 x = cloud.frame.enter(cloud.points[i]);
       if (!is_clutter(x)) grid_.occupy(grid_.cells().cell_of(x));
     }
-    if (context.communicator())
-      for (const OccupiedCells::Words& part : gathered(context, grid_.words())) grid_.occupy(part);
+    for (const OccupiedCells::Words& part : cloud.partition.gather(grid_.words()))
+      grid_.occupy(part);
     grid_.number_them();
     const double occupied = static_cast<double>(grid_.count());
     context.report((k + 1.0) / guesses);
@@ -172,13 +171,14 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
     Patch& patch = patches[grid_.number(c)];
     patch.cell = c;
     patch.moments.add(x - grid_.cells().low());
-    patch.sample({cloud.first + i, (x - grid_.cells().middle(c)).squaredNorm()}, x);
+    patch.sample({cloud.partition.first() + i, (x - grid_.cells().middle(c)).squaredNorm()}, x);
     if (i % grain == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 
-  if (context.communicator()) join(patches, context);
-  return patches;
+  std::erase_if(patches, [](const Patch& patch) { return patch.moments.count() == 0; });
+  return cloud.partition.reduce(std::move(patches),
+                                [&](const auto& parts) { return merged(parts); });
 }
 
 // Whether there was any.
@@ -229,11 +229,9 @@ void Surfels::make_surfels(const std::vector<Patch>& patches) {
   }
 }
 
-// The patches of all processes, those of one cell made one.
-void Surfels::join(std::vector<Patch>& patches, const Context& context) const {
-  std::erase_if(patches, [](const Patch& patch) { return patch.moments.count() == 0; });
-  const auto parts = gathered(context, patches);
-  patches.assign(grid_.count(), {});
+// One patch a cell.
+std::vector<Surfels::Patch> Surfels::merged(const std::vector<std::vector<Patch>>& parts) const {
+  std::vector<Patch> patches(grid_.count());
   for (const std::vector<Patch>& part : parts)
     for (const Patch& other : part) {
       Patch& patch = patches[grid_.number(other.cell)];
@@ -241,6 +239,7 @@ void Surfels::join(std::vector<Patch>& patches, const Context& context) const {
       patch.moments += other.moments;
       patch.sample(other.nearest, other.sampled);
     }
+  return patches;
 }
 
 const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <symsurf/method.h>
-
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "spatial/cell_grid.h"
 
 namespace symsurf {
@@ -70,7 +69,7 @@ class Surfels {
   bool is_clutter(const Vector3& x) const { return uncluttered_ && uncluttered_->number_at(x) < 0; }
   void choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context);
   std::vector<Patch> patches_of(const Cloud& cloud, const Context& context) const;
-  void join(std::vector<Patch>& patches, const Context& context) const;
+  std::vector<Patch> merged(const std::vector<std::vector<Patch>>& parts) const;
   bool drop_clutter(std::vector<Patch>& patches);
   void make_surfels(const std::vector<Patch>& patches);
 

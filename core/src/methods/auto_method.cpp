@@ -54,7 +54,8 @@ class ThinnedCloud {
   bool is_thinner_ = false;
 };
 
-Result run_with_defaults(const Method& method, const Cloud& cloud, const Context& context) {
+Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
+                         const Context& context) {
   const ParameterValues defaults(method.name, method.parameters, {});
   Result result = method.run(cloud, defaults, context);
   result.parameters = defaults.all();
@@ -62,7 +63,7 @@ Result run_with_defaults(const Method& method, const Cloud& cloud, const Context
 }
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  const Method& plane = method("plane");
+  const MethodImplementation& plane = implementation("plane");
   Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
   Values scores{{"score_plane", best.score}};
   std::string reason;
@@ -75,10 +76,10 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     reason = contented;
   } else {
     const ThinnedCloud thinned(cloud, context.stage(0.2, 0.2));
-    const Method* winner = &plane;
+    const MethodImplementation* winner = &plane;
     std::string others = "plane " + text(best.score);
     double done = 0.2;
-    for (const Method& freer : methods()) {
+    for (const MethodImplementation& freer : implementations()) {
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
       if (is_exact(best)) break;
@@ -106,8 +107,8 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
 
 }  // namespace
 
-Method auto_method() {
-  Method method;
+MethodImplementation auto_method() {
+  MethodImplementation method;
   method.name = "auto";
   method.title = "Mirror (best of all kinds)";
   method.summary =

@@ -16,27 +16,36 @@ Parameter minimum_score() {
 
 }  // namespace
 
-const std::vector<Method>& methods() {
-  static const std::vector<Method> list = [] {
-    std::vector<Method> all{
+const std::vector<MethodImplementation>& implementations() {
+  static const std::vector<MethodImplementation> list = [] {
+    std::vector<MethodImplementation> all{
         auto_method(),          plane_method(),         sphere_method(),
         cylinder_method(),      quadric_method(),       fixed_direction_method(),
         perpendicular_method(), separation_method(),    separation_normals_method(),
         normals_only_method(),  sphere_thesis_method(),
     };
-    for (Method& each : all) each.parameters.push_back(minimum_score());
+    for (MethodImplementation& each : all) each.parameters.push_back(minimum_score());
     return all;
   }();
   return list;
 }
 
-const Method& method(std::string_view name) {
+const std::vector<Method>& methods() {
+  static const std::vector<Method> descriptions(implementations().begin(), implementations().end());
+  return descriptions;
+}
+
+const MethodImplementation& implementation(std::string_view name) {
   std::string names;
-  for (const Method& candidate : methods()) {
+  for (const MethodImplementation& candidate : implementations()) {
     if (candidate.name == name) return candidate;
     names += (names.empty() ? "" : ", ") + candidate.name;
   }
   throw InvalidParameter("there is no method '" + std::string(name) + "'; there are " + names);
+}
+
+const Method& method(std::string_view name) {
+  return methods()[&implementation(name) - implementations().data()];
 }
 
 }  // namespace symsurf

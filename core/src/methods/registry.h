@@ -1,21 +1,42 @@
 #pragma once
 
 #include <symsurf/method.h>
+#include <symsurf/result.h>
 
-// The list of methods. A new one is its own source file, a line here and a line in methods.cpp.
+#include <functional>
+
+#include "cloud/cloud.h"
+#include "preprocess/preprocessing.h"
+
+// The list of methods. A new one is its own source file, a line here and a line in registry.cpp.
 
 namespace symsurf {
 
-Method auto_method();
-Method plane_method();
-Method sphere_method();
-Method fixed_direction_method();
-Method perpendicular_method();
-Method cylinder_method();
-Method quadric_method();
-Method separation_method();
-Method separation_normals_method();
-Method normals_only_method();
-Method sphere_thesis_method();
+/// A method as the pipeline runs it: its description, its pre-processing and its function.
+struct MethodImplementation : Method {
+  Preprocessing preprocessing;
+  bool reports_unpaired_points = false;  ///< the pipeline adds "unpaired_points" to the statistics
+  bool reports_mean_residual = false;    ///< and "mean_residual"
+  /// Gets a validated cloud after pre-processing.
+  std::function<Result(const Cloud&, const ParameterValues&, const Context&)> run;
+};
+
+MethodImplementation auto_method();
+MethodImplementation plane_method();
+MethodImplementation sphere_method();
+MethodImplementation fixed_direction_method();
+MethodImplementation perpendicular_method();
+MethodImplementation cylinder_method();
+MethodImplementation quadric_method();
+MethodImplementation separation_method();
+MethodImplementation separation_normals_method();
+MethodImplementation normals_only_method();
+MethodImplementation sphere_thesis_method();
+
+/// In the order of methods().
+const std::vector<MethodImplementation>& implementations();
+
+/// Throws InvalidParameter, listing the names there are.
+const MethodImplementation& implementation(std::string_view name);
 
 }  // namespace symsurf

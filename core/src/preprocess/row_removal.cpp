@@ -1,38 +1,46 @@
 #include "preprocess/row_removal.h"
 
-#include <algorithm>
-#include <utility>
+#include <symsurf/errors.h>
 
-#include "base/gathered.h"
+#include <algorithm>
+#include <string>
 
 namespace symsurf {
 
-RowRemoval::RowRemoval(std::vector<Index> own, Index first, const Context& context)
-    : own_(std::move(own)), all_(own_) {
-  for (Index& i : all_) i += first;
-  all_ = concatenated(context, all_);
+bool RowRemoval::remove(Cloud& cloud, const std::vector<Index>& own) {
+  removed_ = own;
+  for (Index& i : removed_) i += cloud.partition.first();
+  removed_ = cloud.partition.concatenate(removed_);
+  if (removed_.empty()) return false;
+  faces_ = without(cloud.faces, own, cloud.points.size());
+  cloud.faces = faces_;
+  replace(cloud, without(cloud.points, own),
+          cloud.normals.empty() ? Points(0, 3) : without(cloud.normals, own));
+  return true;
 }
 
-Points RowRemoval::apply(PointsView rows) const {
-  Points left(rows.size() - static_cast<Index>(own_.size()), 3);
+Points RowRemoval::without(PointsView rows, const std::vector<Index>& removed) {
+  Points left(rows.size() - static_cast<Index>(removed.size()), 3);
   Index begin = 0, written = 0;
   const auto copy_up_to = [&](Index end) {
     left.middleRows(written, end - begin) = rows.matrix().middleRows(begin, end - begin);
     written += end - begin;
     begin = end + 1;
   };
-  for (const Index removed : own_) copy_up_to(removed);
+  for (const Index i : removed) copy_up_to(i);
   copy_up_to(rows.size());
   return left;
 }
 
-Triangles RowRemoval::apply(TrianglesView faces, Index points) const {
+Triangles RowRemoval::without(TrianglesView faces, const std::vector<Index>& removed,
+                              Index points) {
+  if (faces.empty()) return Triangles(0, 3);
   std::vector<Index> number(points);
-  auto next = own_.begin();
+  auto next = removed.begin();
   for (Index i = 0, left = 0; i < points; ++i) {
-    const bool removed = next != own_.end() && *next == i;
-    number[i] = removed ? -1 : left++;
-    if (removed) ++next;
+    const bool is_removed = next != removed.end() && *next == i;
+    number[i] = is_removed ? -1 : left++;
+    if (is_removed) ++next;
   }
   Triangles left(faces.size(), 3);
   Index row = 0;
@@ -45,17 +53,36 @@ Triangles RowRemoval::apply(TrianglesView faces, Index points) const {
   return left;
 }
 
-void RowRemoval::map_back(Result& result) const {
+void RowRemoval::map_back(Result& result, double, const Context&) const {
   // As many removed points are before a point as have no more others before them than it has.
   const auto numbered = [&](Index other) {
     const auto is_before = [&](const Index& removed) {
-      return removed - (&removed - all_.data()) <= other;
+      return removed - (&removed - removed_.data()) <= other;
     };
-    return other + (std::partition_point(all_.begin(), all_.end(), is_before) - all_.begin());
+    const auto after = std::partition_point(removed_.begin(), removed_.end(), is_before);
+    return other + (after - removed_.begin());
   };
   result.pairs = result.pairs.unaryExpr(numbered).eval();
-  const auto unpaired = result.statistics.find("unpaired_points");
-  if (unpaired != result.statistics.end()) std::get<Index>(unpaired->second) += count();
+  result.statistics[statistic_] = static_cast<Index>(removed_.size());
+}
+
+bool NonfiniteRemoval::apply(Cloud& cloud, const Context&) {
+  const PointsView own = cloud.points;
+  std::vector<Index> nonfinite;
+  if (!refuse_ && is_numerable(own.size()) && !are_finite(own))
+    for (Index i = 0; i < own.size(); ++i)
+      if (!own[i].allFinite()) nonfinite.push_back(i);
+  const Partition& partition = cloud.partition;
+  const Index count = partition.sum(static_cast<Index>(nonfinite.size()));
+  if (count == 0) return false;
+  partition.require([&] { require_normals(own, cloud.normals, partition.first()); });
+  const Index left = partition.total() - count;
+  const Index needed = needed_points(cloud, minimum_points_);
+  if (left < needed)
+    throw InvalidInput(std::to_string(left) + " of " + std::to_string(partition.total()) +
+                       " points given are finite; at least " + std::to_string(needed) +
+                       (needed == 1 ? " is needed" : " are needed"));
+  return remove(cloud, nonfinite);
 }
 
 }  // namespace symsurf

@@ -1,37 +1,46 @@
 #pragma once
 
-#include <symsurf/context.h>
-#include <symsurf/points_view.h>
-#include <symsurf/result.h>
-#include <symsurf/triangles_view.h>
-
 #include <vector>
+
+#include "preprocess/preprocessing.h"
 
 namespace symsurf {
 
-/// Some points of a cloud removed: what a pre-processing stage does that leaves points out. Of all
-/// processes, where several share the cloud out.
-class RowRemoval {
+/// A stage that removes points: they have no partners, and `statistic` counts them.
+class RowRemoval : public Stage {
  public:
-  RowRemoval() = default;
-  /// `own`: this process's removed points, in their order; `first`: how many points the processes
-  /// before this one have. Collective.
-  RowRemoval(std::vector<Index> own, Index first, const Context& context);
+  void map_back(Result& result, double pair_distance, const Context& context) const override;
 
-  /// Of all processes.
-  Index count() const { return static_cast<Index>(all_.size()); }
+ protected:
+  explicit RowRemoval(const char* statistic) : statistic_(statistic) {}
 
-  /// Of these rows, one a point of this process, those of the points that stay.
-  Points apply(PointsView rows) const;
-  /// The faces between points that stay, by their new numbers. `points`: how many there were.
-  Triangles apply(TrianglesView faces, Index points) const;
+  /// `own`: the points of this process to remove, ascending. False: there are none in any process.
+  bool remove(Cloud& cloud, const std::vector<Index>& own);
 
-  /// From what was found of the points that stay to what it says of all: the others have no
-  /// partners.
-  void map_back(Result& result) const;
+  static Points without(PointsView rows, const std::vector<Index>& removed);
+  /// The faces between points that stay, by their new indices. `points`: how many there were.
+  static Triangles without(TrianglesView faces, const std::vector<Index>& removed, Index points);
 
  private:
-  std::vector<Index> own_, all_;  // in the order of the points; own ones from this process's first
+  const char* statistic_;
+  std::vector<Index> removed_;  // of all processes, ascending
+  Triangles faces_;
+};
+
+/// Removal of points with a NaN or infinite coordinate.
+class NonfiniteRemoval : public RowRemoval {
+ public:
+  /// With `refuse` it changes nothing, and validation throws.
+  NonfiniteRemoval(Index minimum_points, bool refuse)
+      : RowRemoval("nonfinite_points"), minimum_points_(minimum_points), refuse_(refuse) {}
+
+  /// Throws InvalidInput where some points are not finite and too few are. More points than a
+  /// process can number are left to validation.
+  bool apply(Cloud& cloud, const Context& context) override;
+
+ private:
+  Index minimum_points_;
+  bool refuse_;
 };
 
 }  // namespace symsurf

@@ -1,19 +1,16 @@
 #include "preprocess/surface_samples.h"
 
-#include <symsurf/errors.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
-#include "score/rematching.h"
+#include "score/matching.h"
 
 namespace symsurf {
 
@@ -116,7 +113,7 @@ void for_each_inside(const Face& face, double spacing, const Visit& visit) {
 
 // An edge of a face.
 struct Edge {
-  Index low, high;  // the places of its ends
+  Index low, high;  // the vertices at its ends
   Index face;
   bool is_diagonal;  // of the rectangle that a grid is half of
 
@@ -267,23 +264,15 @@ bool are_even(PointsView vertices, TrianglesView faces, double area) {
          longest_edge(vertices, faces) < even * std::sqrt(area / static_cast<double>(count));
 }
 
-void append(Points& rows, const std::vector<Vector3>& more) {
-  const Index had = rows.rows();
-  rows.conservativeResize(had + static_cast<Index>(more.size()), 3);
+Points with(PointsView rows, const std::vector<Vector3>& more) {
+  Points all(rows.size() + static_cast<Index>(more.size()), 3);
+  all.topRows(rows.size()) = rows.matrix();
   for (std::size_t i = 0; i < more.size(); ++i)
-    rows.row(had + static_cast<Index>(i)) = more[i].transpose();
+    all.row(rows.size() + static_cast<Index>(i)) = more[i].transpose();
+  return all;
 }
 
 }  // namespace
-
-void require_corners(TrianglesView faces, Index points) {
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c)
-      if (faces[f][c] < 0 || faces[f][c] >= points)
-        throw InvalidInput("face " + std::to_string(f) + " names point " +
-                           std::to_string(faces[f][c]) + "; allowed is 0 to " +
-                           std::to_string(points - 1));
-}
 
 double surface_area(PointsView points, TrianglesView faces) {
   double area = 0;
@@ -294,29 +283,29 @@ double surface_area(PointsView points, TrianglesView faces) {
   return area;
 }
 
-std::optional<SurfaceSamples> SurfaceSamples::where_coarse(const Cloud& cloud, TrianglesView faces,
-                                                           const ParameterValues& values,
-                                                           const Context& context) {
+bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
+  const TrianglesView faces = cloud.faces;
+  cloud.faces = {};
   const double area = surface_area(cloud.points, faces);
-  if (!(area > 0) || are_even(cloud.points, faces, area)) return std::nullopt;
-  const Sampler sampler(cloud.points, faces, area, context);
-  std::vector<Vector3> points, normals;
-  sampler.for_each([&](const Vector3& x, const Vector3& normal) {
-    points.push_back(x);
-    if (!cloud.normals.empty()) normals.push_back(normal);
-  });
-  if (points.empty()) return std::nullopt;
-  SurfaceSamples samples(cloud, values, context);
-  samples.points_ = cloud.points.matrix();
-  append(samples.points_, points);
-  samples.normals_ = cloud.normals.matrix();
-  append(samples.normals_, normals);
-  return samples;
+  if (!(area > 0) || are_even(cloud.points, faces, area)) return false;
+  std::vector<Vector3> samples, normals;
+  Sampler(cloud.points, faces, area, context)
+      .for_each([&](const Vector3& x, const Vector3& normal) {
+        samples.push_back(x);
+        if (!cloud.normals.empty()) normals.push_back(normal);
+      });
+  if (samples.empty()) return false;
+  vertices_ = cloud.points;
+  diagonal_ = cloud.diagonal;
+  count_ = static_cast<Index>(samples.size());
+  cloud.vertices = vertices_;
+  replace(cloud, with(cloud.points, samples), with(cloud.normals, normals));
+  return true;
 }
 
-void SurfaceSamples::map_back(Result& result) const {
-  result.statistics["surface_samples"] = points_.rows() - cloud_.points.size();
-  match_again(result, cloud_, values_, context_);
+void SurfaceSamples::map_back(Result& result, double pair_distance, const Context& context) const {
+  result.statistics["surface_samples"] = count_;
+  pair_anew(result, vertices_, pair_distance * diagonal_, context);
 }
 
 }  // namespace symsurf

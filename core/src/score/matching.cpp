@@ -55,15 +55,21 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   });
 }
 
-void count_unpaired(Result& result, Index points) {
-  const auto unpaired = result.statistics.find("unpaired_points");
-  if (unpaired != result.statistics.end()) unpaired->second = points - result.pairs.rows();
-}
-
 void keep_pairs(Result& result, const std::vector<Index>& rows) {
   result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
   result.residuals = Eigen::VectorXd(result.residuals(rows));
   result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
+}
+
+void pair_anew(Result& result, PointsView points, double limit, const Context& context) {
+  if (!result.mirror) return;
+  add_pairs(result, points, PointTree(points, context), *result.mirror, limit, context);
+  if (result.mirror->kind() != "free-form" && result.mirror->kind() != "quadric") return;
+  result.surface_points = result.mirror->project(result.surface_points, context);
+  std::vector<Index> reached;
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    if (result.surface_points.row(row).allFinite()) reached.push_back(row);
+  keep_pairs(result, reached);
 }
 
 }  // namespace symsurf

@@ -29,8 +29,10 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
 
-/// Sets what the statistics say of points without a partner, where they do, `points` in all.
-void count_unpaired(Result& result, Index points);
+/// The same over the mirror that was found of other points: of some of these, or of more on the
+/// same surface. Surface points of mirrors of any shape are projected onto them, as their methods
+/// do.
+void pair_anew(Result& result, PointsView points, double limit, const Context& context);
 
 /// Keeps these rows of the result's pairs, residuals and surface points.
 void keep_pairs(Result& result, const std::vector<Index>& rows);

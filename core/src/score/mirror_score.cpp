@@ -249,7 +249,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
     double surface = sample->surface;
     const double on_surface = supported(*sample, image_set, surface);
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
-    const double density = sample->ball.count * static_cast<double>(cloud_.total) /
+    const double density = sample->ball.count * static_cast<double>(cloud_.partition.total()) /
                            static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/method.h>
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "cloud/surfels.h"
 #include "spatial/nearest_points.h"
 #include "spatial/point_tree.h"

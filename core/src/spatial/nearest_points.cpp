@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/gathered.h"
 #include "base/infinity.h"
 
 namespace symsurf {
@@ -25,6 +24,7 @@ NearestPoints::NearestPoints(PointsView points, const PointTree& tree, const Con
 NearestPoints::NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context)
     : NearestPoints(slabs.points(), tree, context) {
   slabs_ = &slabs;
+  partition_ = slabs.partition();
 }
 
 NearestPoints::Two NearestPoints::nearer_two(Two a, Two b) {
@@ -40,8 +40,7 @@ NearestPoints::Found NearestPoints::found(const Neighbour& neighbour) const {
 }
 
 bool NearestPoints::may_be_here(const Vector3& query, double reach) const {
-  const Communicator* processes = context_.communicator();
-  return !processes || slabs_->distance(query, processes->rank()) <= reach;
+  return !slabs_ || slabs_->distance(query) <= reach;
 }
 
 std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
@@ -53,13 +52,13 @@ std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
     if (best.size() % grain == 0) context_.check();
     best.push_back(may_be_here(query, reach) ? found(tree_.nearest(query, limit)) : nothing);
   }
-  if (context_.communicator()) {
-    const auto all = gathered(context_, best);
-    best = all.front();
-    for (const std::vector<Found>& other : all)
-      for (std::size_t q = 0; q < best.size(); ++q)
-        if (other[q].squared < best[q].squared) best[q] = other[q];
-  }
+  best = partition_.reduce(std::move(best), [](std::vector<std::vector<Found>> parts) {
+    std::vector<Found> nearest = std::move(parts.front());
+    for (const std::vector<Found>& part : parts)
+      for (std::size_t q = 0; q < part.size(); ++q)
+        if (part[q].squared < nearest[q].squared) nearest[q] = part[q];
+    return nearest;
+  });
   std::vector<Vector3> points;
   points.reserve(best.size());
   for (const Found& one : best) points.push_back(one.point);
@@ -85,7 +84,6 @@ std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& q
   std::vector<Two> best(queries.size(), {nothing, nothing});
   // A query's own slab mostly holds both, and tells how far off others may have nearer ones.
   for (const bool home : {true, false}) {
-    if (!home && !context_.communicator()) break;
     std::vector<Two> own(queries.size(), {nothing, nothing});
     for (std::size_t q = 0; q < queries.size(); ++q) {
       if (q % (2 * grain) == 0) context_.check();
@@ -94,7 +92,7 @@ std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& q
                                     may_be_here(queries[q], std::sqrt(best[q][1].squared));
       if (asked) own[q] = two_nearest(queries[q]);
     }
-    for (const std::vector<Two>& part : gathered(context_, own))
+    for (const std::vector<Two>& part : partition_.gather(own))
       for (std::size_t q = 0; q < queries.size(); ++q) best[q] = nearer_two(best[q], part[q]);
   }
   std::vector<Vector3> points;

@@ -6,19 +6,19 @@
 #include <array>
 #include <vector>
 
+#include "distributed/slabs.h"
 #include "spatial/point_tree.h"
-#include "spatial/slabs.h"
 
 namespace symsurf {
 
-/// Nearest points of the cloud, whichever process holds them. Collective: all processes ask the
-/// same.
+/// Nearest neighbours in a point set that may be distributed. Collective: the queries are the same
+/// on all processes.
 class NearestPoints {
  public:
-  /// Of a process that has all points. The tree is that of the points.
+  /// Of all points in this process. The tree is that of the points.
   NearestPoints(PointsView points, const PointTree& tree, const Context& context);
 
-  /// Of processes that each have a slab. The tree is that of this one's.
+  /// Of the points of all slabs. The tree is that of this process's.
   NearestPoints(const Slabs& slabs, const PointTree& tree, const Context& context);
 
   /// The nearest point to each query, NaN where none is within `reach`.
@@ -43,6 +43,7 @@ class NearestPoints {
   PointsView own_;
   const PointTree& tree_;
   const Slabs* slabs_ = nullptr;
+  Partition partition_;
   const Context context_;
 };
 

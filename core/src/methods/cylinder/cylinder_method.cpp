@@ -99,8 +99,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
 
 }  // namespace
 
-Method cylinder_method() {
-  Method method;
+MethodImplementation cylinder_method() {
+  MethodImplementation method;
   method.name = "cylinder";
   method.title = "Mirror cylinder";
   method.summary =

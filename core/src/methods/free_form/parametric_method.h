@@ -1,7 +1,9 @@
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/parameter.h>
+#include <symsurf/result.h>
 
+#include "cloud/cloud.h"
 #include "methods/free_form/parametric_search.h"
 
 namespace symsurf::perpendicular {

@@ -17,7 +17,8 @@ std::shared_ptr<Mirror> in_input_units(const perpendicular::SearchCloud& cloud,
   return sheet.mirror->transformed(cloud.diagonal, Matrix3::Identity(), cloud.centroid);
 }
 
-Result find_free_form(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
+                         const Context& context) {
   const perpendicular::Search search =
       perpendicular::search(cloud, values.integer("sample_size"), context.stage(0, 0.7));
   Result result;
@@ -44,15 +45,10 @@ Result find_free_form(const Cloud& cloud, const ParameterValues& values, const C
   return result;
 }
 
-Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
-                         const Context& context) {
-  return perpendicular::run_on_what_tells(cloud, values, context, find_free_form);
-}
-
 }  // namespace
 
-Method perpendicular_method() {
-  Method method;
+MethodImplementation perpendicular_method() {
+  MethodImplementation method;
   method.name = "perpendicular";
   method.title = "Curved mirror, perpendicular mapping";
   method.summary =
@@ -60,7 +56,7 @@ Method perpendicular_method() {
       "oriented midpoints and by bending planes.";
   method.parameters = perpendicular::search_parameters();
   method.minimum_points = perpendicular::least_points;
-  method.sees_inside = true;
+  method.preprocessing.keep_interior = perpendicular::has_exact_partners;
   method.automatic = true;
   method.run = run_perpendicular;
   return method;

@@ -7,9 +7,6 @@
 #include "methods/free_form/bending.h"
 #include "methods/free_form/exploration.h"
 #include "methods/free_form/seeds.h"
-#include "preprocess/fills_bodies.h"
-#include "preprocess/run_on.h"
-#include "preprocess/skin.h"
 
 namespace symsurf::perpendicular {
 
@@ -46,17 +43,9 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   return search;
 }
 
-Result run_on_what_tells(const Cloud& cloud, const ParameterValues& values, const Context& context,
-                         Result (*run)(const Cloud&, const ParameterValues&, const Context&)) {
-  const Context unreported = context.stage(0, 0), rest = context.stage(0.2, 1);
-  if (!fills_bodies(cloud, unreported)) return run(cloud, values, context);
-  const SearchCloud all(cloud, values.integer("sample_size"), context.stage(0, 0.1));
-  if (has_exact_partners(all, find_seeds(all, cloud.seed, context.stage(0.1, 0.2))))
-    return run(cloud, values, rest);
-  const Skin skin(cloud, values, unreported);
-  if (skin.size() < least_points) return run(cloud, values, rest);
-  return run_on(skin, cloud, least_points, rest,
-                [&](const Cloud& of_skin) { return run(of_skin, values, rest); });
+bool has_exact_partners(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const SearchCloud all(cloud, values.integer("sample_size"), context);
+  return has_exact_partners(all, find_seeds(all, cloud.seed, context));
 }
 
 }  // namespace symsurf::perpendicular

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/parameter.h>
 #include <symsurf/result.h>
 
 #include <vector>
@@ -17,10 +18,9 @@ struct Search {
 
 Search search(const Cloud& cloud, Index sample_size, const Context& context);
 
-/// run(cloud, values, context), on the skin alone where the cloud fills bodies: unless points have
-/// exact partners, of which those inside have as many.
-Result run_on_what_tells(const Cloud& cloud, const ParameterValues& values, const Context& context,
-                         Result (*run)(const Cloud&, const ParameterValues&, const Context&));
+/// Whether points have exact partners. Those inside a volumetric cloud then have as many as those
+/// of its boundary.
+bool has_exact_partners(const Cloud& cloud, const ParameterValues& values, const Context& context);
 
 /// Of methods that search in this way.
 constexpr Index least_points = 12;

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <symsurf/method.h>
-
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf::perpendicular {

@@ -40,7 +40,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 0.9));
   result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 0.95));
-  const double working_share = static_cast<double>(work.size()) / static_cast<double>(cloud.total);
+  const double working_share =
+      static_cast<double>(work.size()) / static_cast<double>(cloud.partition.total());
   keep_credible_pairs(result, work.spacing * std::sqrt(working_share) * frame.size,
                       context.stage(0.95, 1));
   return result;
@@ -48,8 +49,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
 
 }  // namespace
 
-Method fixed_direction_method() {
-  Method method;
+MethodImplementation fixed_direction_method() {
+  MethodImplementation method;
   method.name = "fixed_direction";
   method.title = "Curved mirror, fixed direction";
   method.summary =
@@ -65,7 +66,7 @@ Method fixed_direction_method() {
                       "partner."),
   };
   method.minimum_points = 20;
-  method.sees_inside = true;
+  method.preprocessing.extract_boundary = false;
   method.run = run_fixed_direction;
   return method;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <symsurf/plane.h>
-#include <symsurf/principal_frame.h>
+
+#include "cloud/principal_frame.h"
 
 namespace symsurf {
 

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <symsurf/principal_frame.h>
 #include <symsurf/sphere.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "cloud/principal_frame.h"
 
 namespace symsurf {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/gathered.h"
 #include "base/keep_unlike.h"
 
 namespace symsurf {
@@ -19,7 +18,7 @@ constexpr std::size_t farthest = 512;  // points that are looked at
 using Shell = std::vector<Vector3>;
 
 // The outermost shells, each whole.
-std::vector<Shell> outer_shells(const Cloud& cloud, const Context& context) {
+std::vector<Shell> outer_shells(const Cloud& cloud) {
   const auto farther = [](const Vector3& a, const Vector3& b) {
     return a.squaredNorm() > b.squaredNorm();
   };
@@ -40,8 +39,8 @@ std::vector<Shell> outer_shells(const Cloud& cloud, const Context& context) {
     if (points.size() >= 4 * farthest) keep_farthest();
   }
   keep_farthest();
-  points = concatenated(context, points);
-  const bool is_all = static_cast<Index>(points.size()) == cloud.total;
+  points = cloud.partition.concatenate(points);
+  const bool is_all = static_cast<Index>(points.size()) == cloud.partition.total();
   std::stable_sort(points.begin(), points.end(), farther);
   if (points.size() > farthest) points.resize(farthest);
 
@@ -99,10 +98,9 @@ void keep_exact(std::vector<UnitPlane>& planes, const Points& positions, const C
 }  // namespace
 
 std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& points,
-                                    const Surfels& samples, const Context& context) {
+                                    const Surfels& samples) {
   std::vector<UnitPlane> planes;
-  for (const Vector3& normal : possible_normals(outer_shells(cloud, context)))
-    planes.push_back({normal, 0});
+  for (const Vector3& normal : possible_normals(outer_shells(cloud))) planes.push_back({normal, 0});
   for (const Index count : {Index{4}, Index{64}, samples.size()}) {
     Points positions(std::min(count, samples.size()), 3);
     for (Index k = 0; k < positions.rows(); ++k)

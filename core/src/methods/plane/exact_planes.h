@@ -1,9 +1,8 @@
 #pragma once
 
-#include <symsurf/method.h>
-
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "cloud/surfels.h"
 #include "methods/parametric/unit_plane.h"
 #include "spatial/nearest_points.h"
@@ -17,6 +16,6 @@ namespace symsurf {
 /// of a and another, or of b and another, or holds a and b. None where the points that lie as far
 /// out are too many to try, as on a sphere. Collective.
 std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& points,
-                                    const Surfels& samples, const Context& context);
+                                    const Surfels& samples);
 
 }  // namespace symsurf

@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/gathered.h"
 #include "base/maximise.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
+#include "distributed/slabs.h"
 #include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
+#include "score/distributed_matching.h"
 #include "score/mirror_score.h"
-#include "score/shared_matching.h"
 #include "score/symmetry_measure.h"
 #include "spatial/nearest_points.h"
-#include "spatial/slabs.h"
 
 namespace symsurf {
 
@@ -104,7 +103,7 @@ void fit(const Refinement& refinement, const Effort& effort,
   keep_distinct(candidates, alike_planes, effort.finalists);
 }
 
-// Where the cloud extends most along the mirror: processes look for partners in slabs across it.
+// Where the cloud extends most along the mirror: slabs across it hold points with their partners.
 Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
   const Matrix3 onto = Matrix3::Identity() - plane.normal * plane.normal.transpose();
   return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
@@ -124,7 +123,7 @@ std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
   const Surfels samples(corners, vertices.size(), unreported);
   const PointTree tree(vertices, unreported);
   const NearestPoints points(vertices, tree, context);
-  for (const UnitPlane& plane : exact_planes(corners, points, samples, unreported))
+  for (const UnitPlane& plane : exact_planes(corners, points, samples))
     planes.push_back(in_frame(in_input_units(plane, corners.frame), cloud.frame));
   return planes;
 }
@@ -170,8 +169,9 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const std::vector<PlaneCandidate> promising =
       promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
-  const Slabs slabs(cloud, along_mirror(promising.front().plane, cloud.frame),
-                    context.stage(0.25, 0.3));
+  const Slabs slabs(cloud.points, cloud.partition,
+                    along_mirror(promising.front().plane, cloud.frame), cloud.frame.centroid,
+                    cloud.diagonal, context.stage(0.25, 0.3));
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
@@ -188,7 +188,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   if (!planes.empty()) best = ranked(planes);
   std::erase_if(best.candidates, [](const Result& r) { return r.score < maps_surface; });
   if (!(best.score >= maps_surface)) {
-    planes = exact_planes(cloud, points, coarse, context.stage(0.45, 0.46));
+    planes = exact_planes(cloud, points, coarse);
     for (UnitPlane& plane : planes) plane = refinement.exact(plane);
     if (planes.empty())
       planes = searched_planes(cloud, coarse, map, refinement, score, promising,
@@ -197,19 +197,15 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
-  add_shared_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
-                   values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
-  const Index pairs = summed(context, best.pairs.rows());
-  best.statistics["unpaired_points"] = cloud.total - pairs;
-  best.statistics["mean_residual"] =
-      pairs ? summed(context, best.residuals.sum()) / static_cast<double>(pairs) : 0.0;
+  add_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
   return best;
 }
 
 }  // namespace
 
-Method plane_method() {
-  Method method;
+MethodImplementation plane_method() {
+  MethodImplementation method;
   method.name = "plane";
   method.title = "Mirror plane";
   method.summary =
@@ -225,8 +221,10 @@ Method plane_method() {
                       "partner."),
   };
   method.automatic = true;
-  method.takes_shares = true;
-  method.sees_copies = true;  // a share does not know of those in others
+  // Duplicates in different parts of a distributed cloud are not known to be such.
+  method.preprocessing = {.merge_duplicates = false, .distributed = true};
+  method.reports_unpaired_points = true;
+  method.reports_mean_residual = true;
   method.run = run_plane;
   return method;
 }

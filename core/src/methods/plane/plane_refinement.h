@@ -1,10 +1,9 @@
 #pragma once
 
-#include <symsurf/method.h>
-
 #include <cstdint>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "cloud/sheet_noise.h"
 #include "cloud/surfels.h"
 #include "methods/plane/plane_candidates.h"

@@ -8,19 +8,15 @@ namespace symsurf {
 
 namespace {
 
-Result find_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+Result run_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   return perpendicular::find_parametric("quadric", perpendicular::quadric_model, cloud, values,
                                         context);
 }
 
-Result run_quadric(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  return perpendicular::run_on_what_tells(cloud, values, context, find_quadric);
-}
-
 }  // namespace
 
-Method quadric_method() {
-  Method method;
+MethodImplementation quadric_method() {
+  MethodImplementation method;
   method.name = "quadric";
   method.title = "Mirror quadric";
   method.summary =
@@ -29,7 +25,7 @@ Method quadric_method() {
       " normals.";
   method.parameters = perpendicular::search_parameters();
   method.minimum_points = perpendicular::least_points;
-  method.sees_inside = true;
+  method.preprocessing.keep_interior = perpendicular::has_exact_partners;
   method.run = run_quadric;
   return method;
 }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <symsurf/method.h>
-
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "methods/sphere/sphere_candidates.h"
 #include "spatial/nearest_points.h"
 

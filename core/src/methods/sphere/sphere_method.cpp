@@ -67,7 +67,7 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   if (static_cast<double>(unmet.rows()) < least) return {};
   Cloud rest = cloud;
   rest.points = unmet;
-  rest.total = unmet.rows();
+  rest.partition = Partition(unmet.rows());
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
@@ -139,14 +139,13 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   best = score.ranked("sphere", mirrors);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
-  best.statistics["unpaired_points"] = cloud.points.size() - best.pairs.rows();
   return best;
 }
 
 }  // namespace
 
-Method sphere_method() {
-  Method method;
+MethodImplementation sphere_method() {
+  MethodImplementation method;
   method.name = "sphere";
   method.title = "Mirror sphere";
   method.summary =
@@ -163,6 +162,7 @@ Method sphere_method() {
   };
   method.minimum_points = 5;
   method.automatic = true;
+  method.reports_unpaired_points = true;
   method.run = run_sphere;
   return method;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/parameter.h>
 
+#include "cloud/cloud.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

@@ -20,17 +20,15 @@ Result run_normals_only(const Cloud& cloud, const ParameterValues& values, const
 
 }  // namespace
 
-Method normals_only_method() {
-  Method method;
+MethodImplementation normals_only_method() {
+  MethodImplementation method;
   method.name = "normals_only";
   method.title = "Symmetry by normals (thesis, Algorithm 3)";
   method.summary =
       "Pairs each point with the point nearest to the line along its normal: for two sheets at a "
       "constant distance.";
   method.parameters = normal_parameters();
-  method.sees_copies = true;
-  method.sees_strays = true;
-  method.sees_inside = true;
+  method.preprocessing = Preprocessing::none();
   method.run = run_normals_only;
   return method;
 }

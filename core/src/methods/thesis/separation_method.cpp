@@ -22,17 +22,15 @@ Result run_separation(const Cloud& cloud, const ParameterValues& values, const C
 
 }  // namespace
 
-Method separation_method() {
-  Method method;
+MethodImplementation separation_method() {
+  MethodImplementation method;
   method.name = "separation";
   method.title = "Symmetry by separation (thesis, Algorithm 1)";
   method.summary =
       "Divides the cloud by planes through its centroid and maps one side onto the other along the "
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
-  method.sees_copies = true;
-  method.sees_strays = true;
-  method.sees_inside = true;
+  method.preprocessing = Preprocessing::none();
   method.run = run_separation;
   return method;
 }

@@ -23,8 +23,8 @@ Result run_separation_normals(const Cloud& cloud, const ParameterValues& values,
 
 }  // namespace
 
-Method separation_normals_method() {
-  Method method;
+MethodImplementation separation_normals_method() {
+  MethodImplementation method;
   method.name = "separation_normals";
   method.title = "Symmetry by separation and normals (thesis, Algorithm 2)";
   method.summary =
@@ -32,9 +32,7 @@ Method separation_normals_method() {
       "similar normal; the score depends on the unit of the input.";
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());
-  method.sees_copies = true;
-  method.sees_strays = true;
-  method.sees_inside = true;
+  method.preprocessing = Preprocessing::none();
   method.run = run_separation_normals;
   return method;
 }

@@ -203,8 +203,8 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
 
 }  // namespace
 
-Method sphere_thesis_method() {
-  Method method;
+MethodImplementation sphere_thesis_method() {
+  MethodImplementation method;
   method.name = "sphere_thesis";
   method.title = "Mirror sphere (thesis, Algorithm 4)";
   method.summary =
@@ -223,9 +223,7 @@ Method sphere_thesis_method() {
                       "partner."),
   };
   method.minimum_points = 5;
-  method.sees_copies = true;
-  method.sees_strays = true;
-  method.sees_inside = true;
+  method.preprocessing = Preprocessing::none();
   method.run = run_sphere_thesis;
   return method;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/parameter.h>
+#include <symsurf/result.h>
 
 #include <functional>
 
+#include "cloud/cloud.h"
 #include "methods/thesis/separation.h"
 
 namespace symsurf {

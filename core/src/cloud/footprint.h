@@ -1,0 +1,22 @@
+#pragma once
+
+#include <symsurf/result.h>
+
+#include <vector>
+
+#include "cloud/cloud.h"
+
+namespace symsurf {
+
+/// The lowest and the highest point of all processes along x, y and z: six, or none of no points.
+/// Collective.
+std::vector<Vector3> extreme_points(PointsView own, const Partition& partition);
+
+/// Sets what the result's mirrors are drawn over: every k-th point of the cloud, and the extreme
+/// ones. Collective.
+void set_footprint(Result& result, const Cloud& cloud);
+
+/// Sets a footprint that is there already.
+void set_footprint(Result& result, Points footprint);
+
+}  // namespace symsurf

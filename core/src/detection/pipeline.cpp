@@ -1,0 +1,59 @@
+#include "detection/pipeline.h"
+
+#include "cloud/footprint.h"
+
+namespace symsurf {
+
+namespace {
+
+// What depends on the pairs of the input's points.
+void report_pairs(Result& result, const MethodImplementation& method, const Partition& input) {
+  const Index pairs = input.sum(Index{result.pairs.rows()});
+  if (method.reports_unpaired_points) result.statistics["unpaired_points"] = input.total() - pairs;
+  if (method.reports_mean_residual)
+    result.statistics["mean_residual"] =
+        pairs > 0 ? input.sum(result.residuals.sum()) / static_cast<double>(pairs) : 0.0;
+}
+
+}  // namespace
+
+std::optional<Result> run_pipeline(const MethodImplementation& method,
+                                   const ParameterValues& values, Cloud cloud,
+                                   bool refuse_nonfinite, const Context& context) {
+  const Preprocessing& policy = method.preprocessing;
+  const Context unreported = context.stage(0, 0);
+  const Partition input = cloud.partition;
+  require_corners(cloud.faces, cloud.points.size());
+  if (!policy.sample_faces) cloud.faces = {};
+
+  const auto stages = make_stages(policy, method.minimum_points, values, refuse_nonfinite);
+  std::vector<const Stage*> applied;
+  for (const auto& stage : stages) {
+    if (input.processes() && stage->needs_whole(cloud, unreported)) return std::nullopt;
+    const bool changed = stage->apply(cloud, unreported);
+    if (changed) applied.push_back(stage.get());
+    const Index needed = needed_points(cloud, method.minimum_points);
+    if (changed || stage == stages.front())
+      validate(cloud, needed, unreported);
+    else
+      require_count(cloud.partition.total(), needed);
+  }
+  context.report(0);
+
+  Result result = method.run(cloud, values, context);
+  // "auto" runs other methods, with their defaults.
+  const bool is_own = result.method == method.name || result.method.empty();
+  const MethodImplementation& finder = is_own ? method : implementation(result.method);
+  double pair_distance = 0;
+  if (result.mirror && (policy.sample_faces || policy.extract_boundary)) {
+    const ParameterValues defaults(finder.name, finder.parameters, {});
+    pair_distance = (is_own ? values : defaults).real("pair_distance");
+  }
+  set_footprint(result, cloud);
+  for (auto stage = applied.rbegin(); stage != applied.rend(); ++stage)
+    (*stage)->map_back(result, pair_distance, unreported);
+  if (result.mirror) report_pairs(result, finder, input);
+  return result;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,83 @@
+#include "preprocess/duplicate_merge.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/radix_sort.h"
+#include "score/matching.h"
+#include "spatial/point_hash.h"
+
+namespace symsurf {
+
+namespace {
+
+// Of points sampled by their hashes: equal ones are chosen or left out together.
+bool has_many_duplicates(PointsView points, const Context& context) {
+  constexpr double wanted = 1000, notable = 0.05;
+  const double share = std::min(1.0, wanted / static_cast<double>(points.size()));
+  std::vector<std::uint64_t> chosen;
+  interruptible_for(context, points.size(), [&](Index i) {
+    const std::uint64_t hash = hash_of(points[i]);
+    if (is_chosen(hash, share)) chosen.push_back(hash);
+  });
+  std::sort(chosen.begin(), chosen.end());
+  const auto distinct = std::unique(chosen.begin(), chosen.end()) - chosen.begin();
+  const auto all = static_cast<double>(chosen.size());
+  return static_cast<double>(distinct) < (1 - notable) * all;
+}
+
+}  // namespace
+
+bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
+  if (!has_many_duplicates(cloud.points, context)) return false;
+  find_distinct(cloud.points, context);
+  if (static_cast<Index>(first_.size()) < minimum_points_) return false;
+  if (cloud.footprint.empty()) cloud.footprint = cloud.points;
+  replace(cloud, cloud.points.matrix()(first_, Eigen::indexing::all),
+          cloud.normals.empty() ? Points(0, 3)
+                                : Points(cloud.normals.matrix()(first_, Eigen::indexing::all)));
+  return true;
+}
+
+void DuplicateMerge::find_distinct(PointsView points, const Context& context) {
+  distinct_.resize(points.size());
+  std::vector<std::uint64_t> hashes(points.size());
+  interruptible_for(context, points.size(), [&](Index i) { hashes[i] = hash_of(points[i]); });
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  radix_sort(hashes, order, context);
+
+  // The first of each point's duplicates, until distinct points are numbered.
+  std::size_t run = 0;
+  interruptible_for(context, points.size(), [&](Index k) {
+    if (hashes[k] != hashes[run]) run = k;
+    const auto same = std::find_if(order.begin() + run, order.begin() + k, [&](std::int32_t other) {
+      return points[other] == points[order[k]];
+    });
+    distinct_[order[k]] = *same;
+  });
+  interruptible_for(context, points.size(), [&](Index i) {
+    const std::int32_t first = distinct_[i];
+    const bool is_first = first == i;
+    distinct_[i] = is_first ? static_cast<std::int32_t>(first_.size()) : distinct_[first];
+    if (is_first) first_.push_back(first);
+  });
+}
+
+void DuplicateMerge::map_back(Result& result, double, const Context&) const {
+  std::vector<Index> row_of(first_.size(), -1);
+  for (Index row = 0; row < result.pairs.rows(); ++row) row_of[result.pairs(row, 0)] = row;
+  std::vector<Index> paired, rows;
+  for (std::size_t i = 0; i < distinct_.size(); ++i) {
+    const Index row = row_of[distinct_[i]];
+    if (row < 0) continue;
+    paired.push_back(static_cast<Index>(i));
+    rows.push_back(row);
+  }
+  keep_pairs(result, rows);
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    result.pairs.row(row) << paired[row], first_[result.pairs(row, 1)];
+}
+
+}  // namespace symsurf

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "preprocess/preprocessing.h"
+
+namespace symsurf {
+
+/// Merging of equal points: corners of triangles that nobody merged, a scan appended to itself.
+/// Only where there are many, and at least minimum_points distinct ones stay. Each point gets the
+/// partner of the one that it was merged with.
+class DuplicateMerge : public Stage {
+ public:
+  explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}
+
+  /// Duplicates on other processes are not known.
+  bool needs_whole(const Cloud&, const Context&) const override { return true; }
+  bool apply(Cloud& cloud, const Context& context) override;
+  void map_back(Result& result, double pair_distance, const Context& context) const override;
+
+ private:
+  void find_distinct(PointsView points, const Context& context);
+
+  Index minimum_points_;
+  std::vector<std::int32_t> first_;     // of each distinct point, the first of its duplicates
+  std::vector<std::int32_t> distinct_;  // of each point, its index among the distinct ones
+};
+
+}  // namespace symsurf

@@ -1,0 +1,167 @@
+#include "preprocess/outlier_removal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "preprocess/surface_samples.h"
+#include "spatial/cells.h"
+
+namespace symsurf {
+
+namespace {
+
+// The body, all that are no outliers, is made of connected parts with at least one in twenty of the
+// points each, holds most points, and spans less than half of the diagonal.
+constexpr double least_part = 0.05, least_share = 0.85, most_extent = 0.5;
+
+// The cells over a cloud that hold its body, or touch it.
+class Body {
+ public:
+  Body(PointsView own, const Partition& partition, const PrincipalFrame& frame,
+       const Context& context)
+      : frame_(frame), cells_(frame.low, frame.high, edge) {
+    Counts counts = counts_of(own, partition, context);
+    count_duplicates_once(own, partition, counts);
+    total_ = counts.sum();
+    holding_.assign(counts.size(), false);
+    Cells::Cell low = cells_.cell_of(frame.high), high = cells_.cell_of(frame.low);
+    for (const Index k : large_parts(counts)) {
+      const Cells::Cell cell = cells_.numbered(k);
+      low = low.cwiseMin(cell);
+      high = high.cwiseMax(cell);
+      for_each_touching(k, [&](Index other) { holding_[other] = true; });
+    }
+    extent_ = edge * (high - low + Cells::Cell::Ones()).cast<double>().norm();
+    for (std::size_t k = 0; k < holding_.size(); ++k)
+      if (holding_[k]) held_ += counts[k];
+  }
+
+  /// The number of points; many equal ones apart from the others count once.
+  Index total() const { return total_; }
+
+  /// Of these, what the cells hold.
+  Index held() const { return held_; }
+
+  bool has_outliers() const { return held_ < total_ && extent_ < most_extent; }
+
+  bool holds(const Vector3& x) const { return holding_[number_at(x)]; }
+
+ private:
+  using Counts = Eigen::ArrayX<Index>;
+  static constexpr double edge = 1. / 16;  // diagonals
+
+  Index number_at(const Vector3& x) const { return cells_.number(cells_.cell_of(frame_.enter(x))); }
+
+  Counts counts_of(PointsView own, const Partition& partition, const Context& context) const {
+    constexpr Index grain = 1 << 16;
+    const Counts none = Counts::Zero(cells_.count());
+    return partition.sum(
+        parallel_sum(context, own.size(), grain, none, [&](Index begin, Index end) {
+          Counts counts = none;
+          for (Index i = begin; i < end; ++i) ++counts[number_at(own[i])];
+          return counts;
+        }));
+  }
+
+  // Pixels without depth, written as the origin, are often more than any part of the body.
+  void count_duplicates_once(PointsView own, const Partition& partition, Counts& counts) const {
+    const double many = least_part * static_cast<double>(counts.sum());
+    for (Index k = 0; k < counts.size(); ++k) {
+      if (static_cast<double>(counts[k]) < many || counts[k] < 2) continue;
+      Index around = 0;
+      for_each_touching(k, [&](Index other) { around += counts[other]; });
+      if (around == counts[k] && are_equal_in(own, k, partition)) counts[k] = 1;
+    }
+  }
+
+  bool are_equal_in(PointsView own, Index number, const Partition& partition) const {
+    std::vector<Vector3> distinct;
+    for (Index i = 0; i < own.size() && distinct.size() < 2; ++i)
+      if (number_at(own[i]) == number && (distinct.empty() || own[i] != distinct.front()))
+        distinct.push_back(own[i]);
+    distinct = partition.concatenate(distinct);
+    return std::all_of(distinct.begin(), distinct.end(),
+                       [&](const Vector3& x) { return x == distinct.front(); });
+  }
+
+  template <typename Visit>
+  void for_each_touching(Index number, const Visit& visit) const {
+    cells_.for_each_row_touching(cells_.numbered(number), [&](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k) visit(k);
+    });
+  }
+
+  // The cells of all connected parts with more points than outliers have, and than would come
+  // together by chance of as many outliers as there may be, anywhere in the box.
+  std::vector<Index> large_parts(const Counts& counts) const {
+    const auto total = static_cast<double>(total_);
+    const double box = ((frame_.high - frame_.low) / edge).array().ceil().max(1).prod();
+    const auto least = static_cast<Index>(2 + 4 * (1 - least_share) * total / box);
+    std::vector<bool> seen(counts.size(), false);
+    std::vector<Index> cells;
+    for (Index start = 0; start < counts.size(); ++start) {
+      const std::size_t first = cells.size();
+      Index held = 0;
+      const auto reach = [&](Index k) {
+        if (seen[k] || counts[k] < least) return;
+        seen[k] = true;
+        held += counts[k];
+        cells.push_back(k);
+      };
+      reach(start);
+      for (std::size_t k = first; k < cells.size(); ++k) for_each_touching(cells[k], reach);
+      if (static_cast<double>(held) < least_part * total) cells.resize(first);
+    }
+    return cells;
+  }
+
+  PrincipalFrame frame_;
+  Cells cells_;
+  std::vector<bool> holding_;
+  Index total_ = 0, held_ = 0;
+  double extent_ = 0;
+};
+
+bool fills_area(const PrincipalFrame& frame) {
+  constexpr double thinness = 1e-7;
+  return frame.variance[1] > thinness * thinness * frame.variance[0];
+}
+
+}  // namespace
+
+bool OutlierRemoval::apply(Cloud& cloud, const Context& context) {
+  Body body(cloud.points, cloud.partition, cloud.frame, context);
+  const double share = least_share * static_cast<double>(body.total());
+  const Index least = std::max(minimum_points_, static_cast<Index>(std::ceil(share)));
+  std::vector<Index> own;
+  while (body.has_outliers() && body.held() >= least) {
+    const std::vector<Index> known = own;
+    own.clear();
+    auto next = known.begin();
+    interruptible_for(context, cloud.points.size(), [&](Index i) {
+      const bool is_known = next != known.end() && *next == i;
+      if (is_known) ++next;
+      if (is_known || !body.holds(cloud.points[i])) own.push_back(i);
+    });
+    const Points left = without(cloud.points, own);
+    const Partition partition = cloud.partition.resized(left.rows());
+    const PrincipalFrame frame = principal_frame(left, partition, context);
+    if (!fills_area(frame)) {
+      own = known;
+      break;
+    }
+    body = Body(left, partition, frame, context);
+  }
+  if (!own.empty() && !cloud.faces.empty() && hold_surface(own, cloud)) return false;
+  return remove(cloud, own);
+}
+
+bool OutlierRemoval::hold_surface(const std::vector<Index>& own, const Cloud& cloud) {
+  const Points rest = without(cloud.points, own);
+  const double left = surface_area(rest, without(cloud.faces, own, cloud.points.size()));
+  return left < (1 - least_part) * surface_area(cloud.points, cloud.faces);
+}
+
+}  // namespace symsurf

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <symsurf/parameter.h>
+#include <symsurf/result.h>
+
+#include <memory>
+#include <vector>
+
+#include "cloud/cloud.h"
+
+namespace symsurf {
+
+/// The pre-processing that a method asks for.
+struct Preprocessing {
+  bool remove_outliers = true, sample_faces = true, merge_duplicates = true,
+       extract_boundary = true;
+  bool distributed = false;  ///< the method runs on a distributed cloud; others get all points
+  /// Whether the boundary of this volumetric cloud is not extracted after all. Null: never.
+  bool (*keep_interior)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
+
+  static Preprocessing none() { return {false, false, false, false}; }
+};
+
+/// A pre-processing stage: changes the cloud, and maps the result of the changed cloud back.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+
+  /// Whether the stage takes a cloud that is in one process only. Collective.
+  virtual bool needs_whole(const Cloud&, const Context&) const { return false; }
+
+  /// Makes the cloud what the next stage gets, to be validated anew; false: nothing to change. The
+  /// cloud's new rows live as long as the stage. Collective.
+  virtual bool apply(Cloud& cloud, const Context& context) = 0;
+
+  /// Makes the result of the changed cloud that of the cloud given. `pair_distance`: in diagonals,
+  /// of the method that found the mirror.
+  virtual void map_back(Result& result, double pair_distance, const Context& context) const = 0;
+
+ protected:
+  void replace(Cloud& cloud, Points points, Points normals);
+
+ private:
+  Points points_, normals_ = Points(0, 3);
+};
+
+/// How many points a cloud needs for a method: any number where samples of its faces will follow.
+inline Index needed_points(const Cloud& cloud, Index minimum_points) {
+  return cloud.faces.empty() ? minimum_points : 1;
+}
+
+/// All stages, in their order. The first precedes validation.
+std::vector<std::unique_ptr<Stage>> make_stages(const Preprocessing& policy, Index minimum_points,
+                                                const ParameterValues& values,
+                                                bool refuse_nonfinite);
+
+}  // namespace symsurf
