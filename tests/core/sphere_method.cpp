@@ -13,7 +13,6 @@
 #include "expect_error.h"
 #include "methods/parametric/unit_sphere.h"
 #include "methods/sphere/sphere_measure.h"
-#include "methods/thesis/nearest_cells.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -205,25 +204,6 @@ TEST(SphereMeasure, HasTheGradientItSays) {
       const SphereMeasure::Coefficients d = h * SphereMeasure::Coefficients::Unit(i);
       const double numeric = (measure(s + d) - measure(s - d)) / (2 * h);
       EXPECT_NEAR(gradient[i], numeric, 1e-4 * (1 + std::abs(numeric)));
-    }
-  }
-}
-
-TEST(NearestCells, MatchBruteForceWithinReach) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    RandomCloud random(seed);
-    Points points = random.box(80);
-    if (seed % 2 == 1) points.row(0) *= 1000;  // then cells are wider than the reach
-    constexpr double reach = 0.3;
-    const NearestCells cells(points, reach);
-    for (int k = 0; k < 500; ++k) {
-      const Vector3 x = 1.5 * random.in_box();
-      const double nearest = (points.rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff();
-      if (nearest >= reach * reach) continue;
-      const Index cell = cells.cell(x);
-      ASSERT_GE(cell, 0);
-      EXPECT_DOUBLE_EQ(cells.squared(cell, x), nearest);
-      EXPECT_LE(cells.least_squared(cell), nearest);
     }
   }
 }

@@ -1,6 +1,6 @@
 #include "cloud/cloud.h"
 #include "methods/registry.h"
-#include "preprocess/fills_bodies.h"
+#include "preprocess/volumetric.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -25,7 +25,7 @@ bool is_exact(const Result& result) {
 // hide where the score looks least closely: among few points, and inside bodies.
 bool may_hide_exact_one(const Cloud& cloud, const Context& context) {
   return cloud.points.size() <= few ||
-         (cloud.points.size() <= thinned_size && fills_bodies(cloud, context));
+         (cloud.points.size() <= thinned_size && is_volumetric(cloud, context));
 }
 
 std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }

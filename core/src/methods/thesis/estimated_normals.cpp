@@ -7,10 +7,12 @@ namespace symsurf {
 std::vector<Parameter> normal_parameters() {
   return {
       Parameter::integer("neighbours", 10, 3, 1000, "points",
-                         "Nearest points, the point itself among them, that a normal is estimated "
+                         "Nearest points, the point itself among them, that a "
+                         "normal is estimated "
                          "from."),
       Parameter::choice("normal_estimation", "pca", {"pca", "regression"},
-                        "How normals are estimated: by least variance, or by regression of z on x "
+                        "How normals are estimated: by least variance, or by "
+                        "regression of z on x "
                         "and y, which breaks on vertical patches."),
   };
 }

@@ -1,21 +1,24 @@
+#include <numeric>
+
 #include "methods/registry.h"
-#include "methods/thesis/trials.h"
+#include "methods/thesis/separation.h"
 
 namespace symsurf {
 
 namespace {
 
-// Mean squared distance of the partners from their lines (3.3).
-double projection_error(const Separation& separation) {
-  double sum = 0;
-  for (const double squared : separation.squared()) sum += squared;
-  return sum / static_cast<double>(separation.squared().size());
+// The thesis's Algorithm 1: mean squared distance of the partners from their
+// lines (3.3).
+double line_error(const Separation& separation, const Context&) {
+  const std::vector<double>& squared = separation.squared;
+  return std::accumulate(squared.begin(), squared.end(), 0.0) /
+         static_cast<double>(separation.upper);
 }
 
 Result run_separation(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const PointTree tree(cloud.points, context.stage(0, 0.02));
-  Result result = best_separation(cloud, tree, values.integer("steps"), projection_error,
-                                  context.stage(0.02, 1));
+  Result result =
+      best_separation(cloud, tree, values.integer("steps"), line_error, context.stage(0.02, 1));
   result.method = "separation";
   return result;
 }
@@ -27,7 +30,8 @@ MethodImplementation separation_method() {
   method.name = "separation";
   method.title = "Symmetry by separation (thesis, Algorithm 1)";
   method.summary =
-      "Divides the cloud by planes through its centroid and maps one side onto the other along the "
+      "Divides the cloud by planes through its centroid and maps "
+      "one side onto the other along the "
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
   method.preprocessing = Preprocessing::none();

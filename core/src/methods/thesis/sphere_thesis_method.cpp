@@ -2,13 +2,12 @@
 #include <symsurf/errors.h>
 #include <symsurf/sphere.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
 #include "methods/registry.h"
-#include "methods/thesis/nearest_cells.h"
 #include "score/matching.h"
 #include "score/symmetry_measure.h"
 
@@ -37,99 +36,95 @@ double phi(double squared, double support) {
   return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
 }
 
-struct Start {
+// phi at the closest of a few points, in one look: each cell of a grid lists
+// the points that are within the support of some place in it.
+class ClosestPhi {
+ public:
+  explicit ClosestPhi(PointsView points) : points_(points), support_(support(points)) {
+    const Vector3 low = points.matrix().colwise().minCoeff();
+    const Vector3 extent = Vector3(points.matrix().colwise().maxCoeff()) - low;
+    // Where an outlier spreads the grid, its cells grow.
+    constexpr double most_cells = 1 << 21;
+    cell_ = std::max(support_, std::cbrt((extent.array() + 2 * support_).prod() / most_cells));
+    low_ = low.array() - cell_;
+    size_ = (extent / cell_).array().ceil().cast<int>() + 3;
+    cells_.resize(size_.cast<Index>().prod());
+    for (Index i = 0; i < points.size(); ++i) {
+      const Eigen::Array3i from = cell(points[i].array() - support_),
+                           to = cell(points[i].array() + support_);
+      for (int x = from.x(); x <= to.x(); ++x)
+        for (int y = from.y(); y <= to.y(); ++y)
+          for (int z = from.z(); z <= to.z(); ++z) cells_[at({x, y, z})].push_back(points[i]);
+    }
+  }
+
+  double operator()(const Vector3& x) const {
+    const Eigen::Array3i c = cell(x);
+    if ((c < 0).any() || (c >= size_).any()) return 0;
+    double closest = support_ * support_;
+    for (const Vector3& point : cells_[at(c)])
+      closest = std::min(closest, (point - x).squaredNorm());
+    return phi(closest, support_);
+  }
+
+ private:
+  Eigen::Array3i cell(const Eigen::Array3d& x) const {
+    // Far images would not fit an int.
+    return ((x - low_) / cell_).floor().max(-1).min(1 << 22).cast<int>();
+  }
+  std::size_t at(const Eigen::Array3i& c) const {
+    return (static_cast<std::size_t>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
+  }
+
+  PointsView points_;
+  double support_, cell_;
+  Eigen::Array3d low_;
+  Eigen::Array3i size_;
+  std::vector<std::vector<Vector3>> cells_;
+};
+
+struct Candidate {
   Vector3 centre = Vector3::Zero();
   double radius = 0, measure = -1;
 };
 
-/// Step 1 to 4 of Algorithm 4: a sphere midway between each two points, of each radius, its centre
-/// on either side.
-class CandidateSpheres {
- public:
-  CandidateSpheres(PointsView points, const std::vector<double>& radii, const Context& context)
-      : points_(points),
-        radii_(radii),
-        support_(support(points)),
-        nearest_(points, support_, context) {
-    for (Index cell = 0; cell < nearest_.cell_count(); ++cell)
-      at_most_.push_back(phi(nearest_.least_squared(cell), support_));
-  }
-
-  Index count() const {
-    return points_.size() * (points_.size() - 1) * static_cast<Index>(radii_.size());
-  }
-
-  /// Equal measures: the first.
-  Start best(const Context& context) const {
-    constexpr Index grain = 4;
-    std::vector<Start> parts((points_.size() + grain - 1) / grain);
-    std::atomic<double> greatest = -1;  // so far, in any thread: less is not worth measuring
-    parallel_for(context, points_.size(), grain, [&](Index begin, Index end) {
-      Start& best = parts[begin / grain];
-      std::vector<Image> images(points_.size() + 1);
-      for (Index i = begin; i < end; ++i)
-        for (Index j = i + 1; j < points_.size(); ++j) {
-          context.check();
-          consider_pair(points_[i], points_[j], images, greatest, best);
-        }
-    });
-    Start best;
-    for (const Start& part : parts)
-      if (part.measure > best.measure) best = part;
-    return best;
-  }
-
- private:
-  struct Image {
-    Vector3 place;
-    Index cell;
-  };
-
-  void consider_pair(const Vector3& a, const Vector3& b, std::vector<Image>& images,
-                     std::atomic<double>& greatest, Start& best) const {
-    const Vector3 chord = a - b;
-    const double length = chord.norm();
-    if (!(length > 0)) return;
-    for (const double side : {1.0, -1.0})
-      for (const double radius : radii_) {
-        const Vector3 centre = (a + b) / 2 + side * radius / length * chord;
-        const double measure = measured(centre, radius, greatest, images);
-        if (!(measure > best.measure)) continue;
-        best = {centre, radius, measure};
-        double before = greatest;
-        while (measure > before && !greatest.compare_exchange_weak(before, measure)) continue;
-      }
-  }
-
-  // Gives up where what cells allow at most cannot bring it above `least`.
-  double measured(const Vector3& centre, double radius, double least,
-                  std::vector<Image>& images) const {
-    Index count = 0;
-    double most = 1e-9 * static_cast<double>(points_.size());  // what rounding takes
-    for (Index i = 0; i < points_.size(); ++i) {
-      Image& image = images[count];
-      mirrored(points_[i], centre, radius, image.place);
-      image.cell = nearest_.cell(image.place);
-      const double at_most = at_most_[image.cell];
-      most += at_most;
-      count += at_most > 0;
-    }
+// Steps 1 to 4: of the spheres midway between each two points, of each radius,
+// their centres on either side, the one of the greatest measure; equal
+// measures: the first.
+Candidate best_candidate(PointsView points, const std::vector<double>& radii,
+                         const Context& context) {
+  const ClosestPhi closest_phi(points);
+  const auto measured = [&](const Vector3& centre, double radius, double least) {
     double sum = 0;
-    for (Index i = 0; i < count; ++i) {
-      if (most < least) return 0;
-      const double part = phi(nearest_.squared(images[i].cell, images[i].place), support_);
-      sum += part;
-      most -= at_most_[images[i].cell] - part;
+    for (Index i = 0; i < points.size(); ++i) {
+      // What is left adds 1 a point at the most.
+      if (sum + static_cast<double>(points.size() - i) < least) return 0.0;
+      Vector3 image;
+      if (mirrored(points[i], centre, radius, image)) sum += closest_phi(image);
     }
     return sum;
-  }
-
-  PointsView points_;
-  const std::vector<double>& radii_;
-  double support_;
-  NearestCells nearest_;
-  std::vector<double> at_most_;  // of phi, anywhere in a cell
-};
+  };
+  std::vector<Candidate> first(points.size());  // of the pairs whose first point it is
+  parallel_for(context, points.size(), 1, [&](Index i, Index) {
+    Candidate& best = first[i];
+    for (Index j = i + 1; j < points.size(); ++j) {
+      context.check();
+      const Vector3 chord = points[i] - points[j];
+      const double length = chord.norm();
+      if (!(length > 0)) continue;
+      for (const double side : {1.0, -1.0})
+        for (const double radius : radii) {
+          const Vector3 centre = (points[i] + points[j]) / 2 + side * radius / length * chord;
+          const double measure = measured(centre, radius, best.measure);
+          if (measure > best.measure) best = {centre, radius, measure};
+        }
+    }
+  });
+  Candidate best;
+  for (const Candidate& candidate : first)
+    if (candidate.measure > best.measure) best = candidate;
+  return best;
+}
 
 std::vector<double> tested_radii(double diagonal, const ParameterValues& values) {
   const double least = diagonal / values.real("min_radius_divisor");
@@ -152,8 +147,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
                          const Context& context) {
   const std::vector<double> radii = tested_radii(cloud.diagonal, values);
   const Points simplified = downsample(cloud.points, values.integer("sample_size"), context);
-  const CandidateSpheres candidates(simplified, radii, context);
-  const Start start = candidates.best(context.stage(0, 0.8));
+  const Candidate start = best_candidate(simplified, radii, context.stage(0, 0.8));
 
   PointTree tree(cloud.points, context.stage(0.8, 0.8));
   const double reach = support(cloud.points);
@@ -196,7 +190,8 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
                        {"start_measure", start.measure},
                        {"start_centre", start.centre},
                        {"start_radius", start.radius},
-                       {"candidates", candidates.count()},
+                       {"candidates", simplified.rows() * (simplified.rows() - 1) *
+                                          static_cast<Index>(radii.size())},
                        {"evaluations", static_cast<Index>(evaluations)}};
   return result;
 }
@@ -208,7 +203,8 @@ MethodImplementation sphere_thesis_method() {
   method.name = "sphere_thesis";
   method.title = "Mirror sphere (thesis, Algorithm 4)";
   method.summary =
-      "Tries spheres of given radii between all pairs of a thinned cloud and improves the best by "
+      "Tries spheres of given radii between all pairs of a "
+      "thinned cloud and improves the best by "
       "Nelder and Mead's simplex.";
   method.parameters = {
       Parameter::real("min_radius_divisor", 5, 0.01, 1000, "",
@@ -219,7 +215,8 @@ MethodImplementation sphere_thesis_method() {
       Parameter::integer("sample_size", 300, 10, 2000, "points",
                          "Points at the least that the cloud is thinned to."),
       Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
+                      "A point whose image has no point of the cloud nearer "
+                      "than this has no "
                       "partner."),
   };
   method.minimum_points = 5;
