@@ -14,9 +14,9 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index grain = 1 << 16;
-constexpr double line_thinness = 1e-8;  // of the squared width against the squared length
-constexpr int finest_cells = 128;       // along the longest side
+constexpr Index points_a_task = 1 << 16;
+constexpr double least_width = 1e-8;  // of the squared width against the squared length
+constexpr int finest_cells = 128;     // along the longest side
 // Clutter are cells with so much less than the cell of the median point, if many of those that
 // touch none with more fill space, as sheets and rods do not. Few points cannot tell.
 constexpr double sparse = 0.05, many = 0.02, telling = 6;
@@ -69,7 +69,7 @@ struct Thinnest {
 
 Thinnest thinnest_direction(const Matrix3& covariance) {
   const LeastEigen spread = least_eigen_of(covariance);
-  if (!(spread.next > line_thinness * spread.greatest)) return {spread.vector, 0, 0, 0};
+  if (!(spread.next > least_width * spread.greatest)) return {spread.vector, 0, 0, 0};
   // A root at zero would make rounding a hundred million times as large as it is.
   constexpr double rounded_off = 1e-8;
   const double least = spread.value / spread.next;
@@ -172,7 +172,7 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
     patch.cell = c;
     patch.moments.add(x - grid_.cells().low());
     patch.sample({cloud.partition.first() + i, (x - grid_.cells().middle(c)).squaredNorm()}, x);
-    if (i % grain == 0)
+    if (i % points_a_task == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 

@@ -21,7 +21,7 @@ constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
 constexpr double near = 1.1;
 constexpr Index on_the_way = 120, second_look = 300;
-constexpr std::size_t looked_at = 24, attempts = 6;
+constexpr std::size_t tried_starts = 24, attempts = 6;
 constexpr double worth_refining = 0.03;
 constexpr double flatter = 0.2;  // a sphere may become, or bend more; curvature times diagonal
 constexpr double clearly_nearer = 0.08;
@@ -183,7 +183,7 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
   const auto excess = [&](double nearness) {
     return (nearness - usual) / std::max(1 - usual, 0.1);
   };
-  places.resize(std::min(looked_at, places.size()));
+  places.resize(std::min(tried_starts, places.size()));
   for (Place& place : places) place.nearness = nearness(place.sphere, second_look);
   sort();
 

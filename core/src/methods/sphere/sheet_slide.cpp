@@ -15,8 +15,8 @@ constexpr double step = 0.5;          // of the spacing
 constexpr std::array farthest{7, 4};  // steps to either side, of the loosest and the next
 
 constexpr int slides = 4;
-constexpr Index glance = 120, look = 800;  // samples
-constexpr std::size_t attempts = 4;
+constexpr Index first_samples = 120, second_samples = 800;  // samples
+constexpr std::size_t tried_slides = 4;
 constexpr double clearly_more = 1e-3;
 
 constexpr std::array rounds{1.0, 0.6};                               // their steps, in spacings
@@ -63,17 +63,17 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
 
 SphereCandidate slid_along_sheets(SphereCandidate candidate,
                                   const ParametricRefinement& refinement) {
-  candidate.explained = refinement.explained(candidate.shape, look);
+  candidate.explained = refinement.explained(candidate.shape, second_samples);
   for (int slide = 0; slide < slides; ++slide) {
     std::vector<SphereCandidate> places;
     for (const UnitSphere& sphere :
          spheres_around(candidate.shape, refinement.loosest(candidate.shape), refinement.spacing()))
-      places.push_back({sphere, refinement.explained(sphere, glance)});
+      places.push_back({sphere, refinement.explained(sphere, first_samples)});
     sort_best_first(places);
-    places.resize(std::min(attempts, places.size()));
+    places.resize(std::min(tried_slides, places.size()));
     const double before = candidate.explained;
     for (const SphereCandidate& place : places) {
-      const SphereCandidate fitted = refinement.fitted(place, look, 6);
+      const SphereCandidate fitted = refinement.fitted(place, second_samples, 6);
       if (fitted.explained > candidate.explained + clearly_more) candidate = fitted;
     }
     if (candidate.explained == before) break;

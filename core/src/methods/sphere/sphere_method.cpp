@@ -15,28 +15,28 @@ namespace symsurf {
 
 namespace {
 
-constexpr std::size_t finalists = 8;         // are fitted to the full cloud
-constexpr std::size_t polished_spheres = 3;  // and of these, to ever more of it
-constexpr double promising = 0.8;            // and from here on worth sliding
-constexpr double symmetric = 0.35;           // more than what shapes without a mirror explain
-constexpr double on_sheets = 0.97;           // of what it explained before
-constexpr double by_chance = 0.25;           // fewer partners than that prove nothing
-constexpr double least_rest = 0.25;          // of the cloud: worth a search of its own
-constexpr double exact = 0.8;                // partners that need no sheets
-constexpr int slides = 3;                    // of one sphere, at the most
+constexpr std::size_t finalists = 8;          // are fitted to the full cloud
+constexpr std::size_t polished_spheres = 3;   // and of these, to ever more of it
+constexpr double promising = 0.8;             // and from here on worth sliding
+constexpr double symmetric = 0.35;            // more than what shapes without a mirror explain
+constexpr double on_sheets = 0.97;            // of what it explained before
+constexpr double partnered_by_chance = 0.25;  // fewer partners than that prove nothing
+constexpr double least_rest = 0.25;           // of the cloud: worth a search of its own
+constexpr double partnered_exactly = 0.8;     // partners that need no sheets
+constexpr int most_slides = 3;                // of one sphere, at the most
 
 // Through noise some points meet others by chance: that outweighs no sheet.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
   double most = 0;
   for (const SphereCandidate& c : candidates) most = std::max(most, c.explained);
   for (SphereCandidate& c : candidates)
-    if (c.partnered < by_chance && c.explained < on_sheets * most) c.partnered = 0;
+    if (c.partnered < partnered_by_chance && c.explained < on_sheets * most) c.partnered = 0;
 }
 
 // As far as each slide brings it nearer, and off no sheet.
 SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement& refinement,
                      const PartnerFit& partner_fit) {
-  for (int k = 0; k < slides; ++k) {
+  for (int k = 0; k < most_slides; ++k) {
     SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
     if (next.partnered <= candidate.partnered) break;
     next.explained = refinement.explained(next.shape, 800);
@@ -51,7 +51,7 @@ SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
                               const ParametricRefinement& refinement,
                               const PartnerFit& partner_fit) {
   const SphereCandidate on_partners = slid(fitted, refinement, partner_fit);
-  if (on_partners.partnered >= by_chance || !is_best || fitted.explained < symmetric)
+  if (on_partners.partnered >= partnered_by_chance || !is_best || fitted.explained < symmetric)
     return on_partners;
   return slid(slid_along_sheets(fitted, refinement), refinement, partner_fit);
 }
@@ -131,7 +131,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
 
   SphereCandidate& first = candidates.front();
-  if (first.partnered == 0 || partner_fit.closeness(first.shape) < exact)
+  if (first.partnered == 0 || partner_fit.closeness(first.shape) < partnered_exactly)
     first.shape = settled_on_sheets(first, refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
