@@ -59,8 +59,8 @@ bool is_allowed_library(const std::string& header) {
   const auto starts_with = [&](const char* folder) { return header.rfind(folder, 0) == 0; };
   const bool is_standard =
       std::all_of(header.begin(), header.end(), [](char c) { return c != '/' && c != '.'; });
-  return starts_with("symsurf/") || starts_with("Eigen/") || header == "nanoflann.hpp" ||
-         is_standard;
+  return starts_with("symsurf/") || starts_with("Eigen/") || starts_with("OpenMesh/") ||
+         header == "nanoflann.hpp" || is_standard;
 }
 
 TEST(Dependencies, TheCoreUsesNoFrontEndAndNoLibraryButItsOwn) {

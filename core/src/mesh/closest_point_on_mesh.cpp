@@ -1,0 +1,148 @@
+#include "mesh/closest_point_on_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace symsurf {
+
+namespace {
+
+// The closest point of a triangle, by the weights of its corners. All candidates lie on it: that of
+// the inside, as far as rounding leaves one, and those of the three edges.
+void try_triangle(const std::array<Vector3, 3>& x, const Vector3& query, Index face,
+                  ClosestPoint& best) {
+  const auto offer = [&](const Vector3& weights) {
+    const Vector3 point = weights[0] * x[0] + weights[1] * x[1] + weights[2] * x[2];
+    const double squared = (query - point).squaredNorm();
+    if (squared < best.squared_distance ||
+        (squared == best.squared_distance && (best.face < 0 || face < best.face)))
+      best = {face, point, weights, squared};
+  };
+  std::array<double, 3> lengths;  // squared, of the edges from each corner on
+  for (int c = 0; c < 3; ++c) lengths[c] = (x[(c + 1) % 3] - x[c]).squaredNorm();
+  const int a =
+      static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+  const int b = (a + 1) % 3, apex = (a + 2) % 3;
+  // Along the longest edge and across: rounding then moves the point by no more than its own, even
+  // where the triangle is a needle.
+  const Vector3 base = x[b] - x[a], side = x[apex] - x[a], from = query - x[a];
+  const double foot = side.dot(base) / lengths[a], along = from.dot(base) / lengths[a];
+  const Vector3 height = side - foot * base;
+  const double squared_height = height.squaredNorm();
+  constexpr double needle = 1e-10;  // of the squares of height and base
+  if (squared_height > 0) {
+    Vector3 weights;
+    weights[apex] = (from - along * base).dot(height) / squared_height;
+    weights[b] = along - weights[apex] * foot;
+    weights[a] = 1 - weights[b] - weights[apex];
+    if (weights.minCoeff() >= 0) offer(weights);
+    if (weights.minCoeff() > 0 && squared_height > needle * lengths[a]) return;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const int next = (c + 1) % 3;
+    const Vector3 edge = x[next] - x[c];
+    const double t = lengths[c] > 0 ? std::clamp(edge.dot(query - x[c]) / lengths[c], 0.0, 1.0) : 0;
+    Vector3 weights = Vector3::Zero();
+    weights[c] = 1 - t;
+    weights[next] = t;
+    offer(weights);
+  }
+}
+
+}  // namespace
+
+double ClosestPointOnMesh::Node::squared_distance(const Vector3& query) const {
+  return (low - query).cwiseMax(query - high).cwiseMax(0).squaredNorm();
+}
+
+ClosestPointOnMesh::ClosestPointOnMesh(PointsView points, TrianglesView faces,
+                                       const Context& context) {
+  Eigen::AlignedBox3d box;
+  const auto is_finite = [&](Index f) {
+    return points[faces[f][0]].allFinite() && points[faces[f][1]].allFinite() &&
+           points[faces[f][2]].allFinite();
+  };
+  interruptible_for(context, faces.size(), [&](Index f) {
+    if (is_finite(f))
+      for (int c = 0; c < 3; ++c) box.extend(points[faces[f][c]]);
+  });
+  if (box.isEmpty()) return;
+  origin_ = box.center();
+  rounding_ = 1e-14 * box.diagonal().norm();
+  triangles_.reserve(faces.size());
+  interruptible_for(context, faces.size(), [&](Index f) {
+    if (is_finite(f))
+      triangles_.push_back({{points[faces[f][0]] - origin_, points[faces[f][1]] - origin_,
+                             points[faces[f][2]] - origin_},
+                            f});
+  });
+  build(0, static_cast<std::int32_t>(triangles_.size()), context);
+}
+
+std::int32_t ClosestPointOnMesh::build(std::int32_t begin, std::int32_t end,
+                                       const Context& context) {
+  constexpr std::int32_t leaf = 4, unchecked = 1 << 14;  // triangles
+  if (end - begin > unchecked) context.check();
+  Eigen::AlignedBox3d box, centroids;
+  for (std::int32_t t = begin; t < end; ++t) {
+    for (const Vector3& x : triangles_[t].corner) box.extend(x);
+    centroids.extend(triangles_[t].centroid());
+  }
+  const auto node = static_cast<std::int32_t>(nodes_.size());
+  nodes_.push_back({box.min(), box.max(), begin, end});
+  if (end - begin <= leaf) return node;
+  Index axis;
+  centroids.sizes().maxCoeff(&axis);
+  const std::int32_t middle = begin + (end - begin) / 2;
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
+                   triangles_.begin() + end, [&](const Triangle& a, const Triangle& b) {
+                     return std::pair(a.centroid()[axis], a.face) <
+                            std::pair(b.centroid()[axis], b.face);
+                   });
+  build(begin, middle, context);
+  const std::int32_t second = build(middle, end, context);
+  nodes_[node].second = second;
+  return node;
+}
+
+struct ClosestPointOnMesh::Search {
+  const ClosestPointOnMesh& mesh;
+  Vector3 query;
+  ClosestPoint best;
+
+  // Boxes as far as the best are entered: a lower face may be as close there.
+  bool may_hold(double squared) const {
+    const double distance = std::sqrt(best.squared_distance) + mesh.rounding_;
+    return squared <= distance * distance * (1 + 1e-14);
+  }
+
+  void enter(std::int32_t at) {
+    const Node& node = mesh.nodes_[at];
+    if (node.second < 0) {
+      for (std::int32_t t = node.begin; t < node.end; ++t)
+        try_triangle(mesh.triangles_[t].corner, query, mesh.triangles_[t].face, best);
+      return;
+    }
+    std::pair near(mesh.nodes_[at + 1].squared_distance(query), at + 1);
+    std::pair far(mesh.nodes_[node.second].squared_distance(query), node.second);
+    if (far < near) std::swap(near, far);
+    if (may_hold(near.first)) enter(near.second);
+    if (may_hold(far.first)) enter(far.second);
+  }
+};
+
+ClosestPoint ClosestPointOnMesh::operator()(const Vector3& query, double limit) const {
+  if (nodes_.empty() || !query.allFinite()) return {};
+  Search search{*this, query - origin_, {}};
+  search.best.squared_distance = limit;
+  search.enter(0);
+  if (search.best.face < 0) return {};
+  search.best.point += origin_;
+  return search.best;
+}
+
+}  // namespace symsurf

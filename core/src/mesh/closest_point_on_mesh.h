@@ -1,0 +1,59 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace symsurf {
+
+/// The point of a surface that is closest to a query; face -1: none.
+struct ClosestPoint {
+  Index face = -1;
+  Vector3 point = Vector3::Zero();
+  Vector3 weights = Vector3::Zero();  ///< barycentric coordinates, of the face's corners
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Exact closest points on triangles: a tree of axis-aligned bounding boxes, halved along their
+/// longest side. Ties go to the lowest face. Faces may be degenerate and in any order; those with
+/// a corner that is not finite are never found.
+class ClosestPointOnMesh {
+ public:
+  /// The corners must be among the points. Copies what it is given.
+  ClosestPointOnMesh(PointsView points, TrianglesView faces, const Context& context = {});
+
+  /// The closest point whose squared distance is no more than `limit`; none to a query that is not
+  /// finite.
+  ClosestPoint operator()(const Vector3& query,
+                          double limit = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Triangle {
+    std::array<Vector3, 3> corner;  // from the middle of the mesh
+    Index face;
+
+    Vector3 centroid() const { return (corner[0] + corner[1] + corner[2]) / 3; }
+  };
+  struct Node {
+    Vector3 low, high;
+    std::int32_t begin, end;   // its triangles
+    std::int32_t second = -1;  // child; the first is the next node. -1: a leaf
+
+    double squared_distance(const Vector3& query) const;
+  };
+  struct Search;
+
+  std::int32_t build(std::int32_t begin, std::int32_t end, const Context& context);
+
+  Vector3 origin_ = Vector3::Zero();
+  double rounding_ = 0;  // of distances
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace symsurf
