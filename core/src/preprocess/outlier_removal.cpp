@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "preprocess/surface_samples.h"
+#include "mesh/triangle_mesh.h"
 #include "spatial/cells.h"
 
 namespace symsurf {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "mesh/triangle_mesh.h"
 #include "score/matching.h"
 
 namespace symsurf {
@@ -249,15 +250,6 @@ class Sampler {
   std::vector<Edge> edges_;
 };
 
-double longest_edge(PointsView points, TrianglesView faces) {
-  double squared = 0;
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c)
-      squared =
-          std::max(squared, (points[faces[f][c]] - points[faces[f][(c + 1) % 3]]).squaredNorm());
-  return std::sqrt(squared);
-}
-
 bool are_even(PointsView vertices, TrianglesView faces, double area) {
   const Index count = vertices.size();
   return count >= enough &&
@@ -273,15 +265,6 @@ Points with(PointsView rows, const std::vector<Vector3>& more) {
 }
 
 }  // namespace
-
-double surface_area(PointsView points, TrianglesView faces) {
-  double area = 0;
-  for (Index f = 0; f < faces.size(); ++f) {
-    const Vector3 x = points[faces[f][0]];
-    area += (points[faces[f][1]] - x).cross(points[faces[f][2]] - x).norm() / 2;
-  }
-  return area;
-}
 
 bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
   const TrianglesView faces = cloud.faces;

@@ -4,9 +4,6 @@
 
 namespace symsurf {
 
-/// The area of the faces, in square input units.
-double surface_area(PointsView points, TrianglesView faces);
-
 /// Even sampling of a triangle mesh: a lattice of points on every face larger than its spacing.
 /// The cloud's points become the vertices, used by a face or not, followed by the samples; its
 /// faces are used up. Mirrored faces get mirrored samples; two faces that make up a rectangle get
