@@ -3,8 +3,6 @@
 #include <symsurf/context.h>
 #include <symsurf/types.h>
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <nanoflann.hpp>
 #include <utility>
@@ -33,8 +31,8 @@ class KdTree {
       const Offer& offer;
 
       double worstDist() const { return limit; }
-      bool addPoint(double, std::uint32_t i) {
-        limit = offer(i);
+      bool addPoint(double squared, std::uint32_t i) {
+        if (squared < limit) limit = offer(i);
         return true;
       }
       bool full() const { return true; }
@@ -42,14 +40,16 @@ class KdTree {
     tree_.findNeighbors(results, query.data(), {});
   }
 
-  /// The same with a distance of the caller's: squared(centre, half) is a lower bound on its square
-  /// anywhere in the box centre ± half.
-  template <typename Squared, typename Offer>
-  void search_boxes(const Squared& squared, double limit, const Offer& offer) const {
-    Box box;
-    for (int axis = 0; axis < dimension; ++axis)
-      box[axis] = {tree_.root_bbox[axis].low, tree_.root_bbox[axis].high};
-    descend(tree_.root_node, box, squared, limit, offer);
+  /// The same with a distance of the caller's: bound(low, high) is no more than its square anywhere
+  /// in the box of these corners. What lies in a leaf is offered unmeasured.
+  template <typename Bound, typename Offer>
+  void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
+    Part root{tree_.root_node, {}, {}};
+    for (int axis = 0; axis < dimension; ++axis) {
+      root.low[axis] = tree_.root_bbox[axis].low;
+      root.high[axis] = tree_.root_bbox[axis].high;
+    }
+    descend(root, bound, limit, offer);
   }
 
  private:
@@ -60,21 +60,20 @@ class KdTree {
 
     std::size_t kdtree_get_point_count() const { return points.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-      constexpr std::uint32_t stretch = 1 << 20;  // a few milliseconds
+      constexpr std::uint32_t stretch = 1 << 20;  // some milliseconds
       if (++reads % stretch == 0) building->check();
       return points[i][static_cast<Index>(axis)];
     }
-    template <typename BoundingBox>
-    bool kdtree_get_bbox(BoundingBox&) const {
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
       return false;
     }
   };
 
-  // In place of nanoflann's own, which reads the points by kdtree_get_pt() on any thread.
+  // In place of nanoflann's own, which would count as reads what queries compare.
   struct SquaredDistance {
     using ElementType = double;
     using DistanceType = double;
-
     const PointSource& source;
 
     explicit SquaredDistance(const PointSource& points) : source(points) {}
@@ -85,36 +84,29 @@ class KdTree {
   };
 
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<SquaredDistance, PointSource, dimension>;
-  using Box = std::array<std::array<double, 2>, dimension>;
 
-  template <typename Squared, typename Offer>
-  void descend(const typename Tree::Node* node, const Box& box, const Squared& squared,
-               double& limit, const Offer& offer) const {
-    if (!node->child1) {
-      for (auto k = node->node_type.lr.left; k < node->node_type.lr.right; ++k)
-        limit = offer(tree_.vAcc[k]);
+  struct Part {
+    const typename Tree::Node* node;
+    Point low, high;
+    double bound = 0;
+  };
+
+  template <typename Bound, typename Offer>
+  void descend(const Part& part, const Bound& bound, double& limit, const Offer& offer) const {
+    if (!part.node->child1) {
+      const auto& leaf = part.node->node_type.lr;
+      for (auto k = leaf.left; k < leaf.right; ++k) limit = offer(tree_.vAcc[k]);
       return;
     }
-    const auto bound = [&](const Box& part) {
-      Point low, high;
-      for (int axis = 0; axis < dimension; ++axis) {
-        low[axis] = part[axis][0];
-        high[axis] = part[axis][1];
-      }
-      return squared((low + high) / 2, (high - low) / 2);
-    };
-    const auto& split = node->node_type.sub;
-    Box first = box, second = box;
-    first[split.divfeat][1] = split.divlow;
-    second[split.divfeat][0] = split.divhigh;
-    const double to_first = bound(first), to_second = bound(second);
-    const auto enter_first = [&] {
-      if (to_first <= limit) descend(node->child1, first, squared, limit, offer);
-    };
-    const bool is_first_nearer = to_first <= to_second;
-    if (is_first_nearer) enter_first();
-    if (to_second <= limit) descend(node->child2, second, squared, limit, offer);
-    if (!is_first_nearer) enter_first();
+    const auto& split = part.node->node_type.sub;
+    Part first{part.node->child1, part.low, part.high},
+        second{part.node->child2, part.low, part.high};
+    first.high[split.divfeat] = split.divlow;
+    second.low[split.divfeat] = split.divhigh;
+    for (Part* child : {&first, &second}) child->bound = bound(child->low, child->high);
+    if (second.bound < first.bound) std::swap(first, second);
+    for (const Part* child : {&first, &second})
+      if (child->bound <= limit) descend(*child, bound, limit, offer);
   }
 
   PointSource points_;
