@@ -13,11 +13,8 @@ constexpr double enough = 0.75;
 constexpr double tie = 0.01;           // of two scores as close the simpler mirror's wins
 constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
 
-// A result without an exact partner for every point may be improved on by a freer mirror.
-bool is_exact(const Result& result) {
-  const auto share = result.statistics.find("exact_share");
-  return share != result.statistics.end() && std::get<double>(share->second) == 1;
-}
+// Only where every point has an exact partner: else a freer mirror may improve on it.
+bool is_exact(const Result& result) { return result.score >= 1; }
 
 std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
 
