@@ -28,15 +28,14 @@ struct Options {
 };
 
 /// Finds the mirror of a point set. The points are read in place and must stay alive for the call.
-/// Where the context's processes share out the point set, the points (maybe none) and normals are
-/// this process's, all of them call this alike, and the mirror is that of the whole. Pairs are
-/// those of the own points, numbered through all processes in the order of their ranks. With a
-/// method that takes shares a process needs memory for its own points only; for the others the
-/// first gets all and works alone, so it is the one to be told to stop. Throws InvalidInput (too
-/// few finite points, more than 2^30 in one process, all points equal or on one line, an extent
-/// beyond 1e-50 to 1e50, normals that are not one a point, not finite or zero, a face that names a
-/// point which is not there), InvalidParameter (unknown method or parameter, value out of range)
-/// and Cancelled.
+/// Where the context has several processes, the points (maybe none) and normals are this process's,
+/// all of them call this alike, and the mirror is that of the whole. Pairs are those of the own
+/// points, numbered through all processes in the order of their ranks. With `plane` a process needs
+/// memory for its own points only; for other methods the root, rank 0, gets all points and works
+/// alone, so it is the one to cancel. Throws InvalidInput (too few finite points, more than 2^30 in
+/// one process, all points equal or on one line, an extent beyond 1e-50 to 1e50, normals that are
+/// not one a point, not finite or zero, a face that names a point which is not there),
+/// InvalidParameter (unknown method or parameter, value out of range) and Cancelled.
 Result detect(PointsView points, const Options& options = {}, const Context& context = {});
 
 }  // namespace symsurf

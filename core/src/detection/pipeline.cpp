@@ -6,6 +6,15 @@ namespace symsurf {
 
 namespace {
 
+// Whether a mirror of all points of a body, each with an exact partner, is worth a search beside
+// the one that was found of its boundary. That of a lattice may have none where the lattice has
+// one.
+bool may_hide_exact_mirror(const Result& of_boundary, const Cloud& body) {
+  constexpr double by_chance = 0.4;  // score that bodies without a mirror do not reach
+  constexpr Index few = 20'000;      // points, or the second search takes too long
+  return of_boundary.score > by_chance && of_boundary.score < 1 && body.points.size() <= few;
+}
+
 // What depends on the pairs of the input's points.
 void report_pairs(Result& result, const MethodImplementation& method, const Partition& input) {
   const Index pairs = input.sum(Index{result.pairs.rows()});
@@ -28,10 +37,15 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
 
   const auto stages = make_stages(policy, method.minimum_points, values, refuse_nonfinite);
   std::vector<const Stage*> applied;
+  Cloud before_last;
   for (const auto& stage : stages) {
+    const Cloud before = cloud;
     if (input.processes() && stage->needs_whole(cloud, unreported)) return std::nullopt;
     const bool changed = stage->apply(cloud, unreported);
-    if (changed) applied.push_back(stage.get());
+    if (changed) {
+      applied.push_back(stage.get());
+      before_last = before;
+    }
     const Index needed = needed_points(cloud, method.minimum_points);
     if (changed || stage == stages.front())
       validate(cloud, needed, unreported);
@@ -41,6 +55,15 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   context.report(0);
 
   Result result = method.run(cloud, values, context);
+  const bool of_boundary =
+      policy.extract_boundary && !applied.empty() && applied.back() == stages.back().get();
+  if (of_boundary && may_hide_exact_mirror(result, before_last)) {
+    Result of_all = method.run(before_last, values, unreported);
+    if (of_all.score >= 1) {
+      result = std::move(of_all);
+      applied.pop_back();
+    }
+  }
   // "auto" runs other methods, with their defaults.
   const bool is_own = result.method == method.name || result.method.empty();
   const MethodImplementation& finder = is_own ? method : implementation(result.method);

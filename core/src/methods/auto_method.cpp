@@ -15,11 +15,8 @@ constexpr double tie = 0.01;           // of two scores as close the simpler mir
 constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
 constexpr Index few = 1000;            // points whose score tells little
 
-// A result without an exact partner for every point may be improved on by a freer mirror.
-bool is_exact(const Result& result) {
-  const auto share = result.statistics.find("exact_share");
-  return share != result.statistics.end() && std::get<double>(share->second) == 1;
-}
+// Only where every point has an exact partner: else a freer mirror may improve on it.
+bool is_exact(const Result& result) { return result.score >= 1; }
 
 // Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
 // hide where the score looks least closely: among few points, and inside bodies.

@@ -91,10 +91,7 @@ bool BoundaryExtraction::apply(Cloud& cloud, const Context& context) {
   count_ = static_cast<Index>(boundary.size());
   if (count_ < minimum_points_) return false;
   whole_ = cloud;
-  if (cloud.footprint.empty()) cloud.footprint = cloud.points;
-  replace(cloud, cloud.points.matrix()(boundary, Eigen::indexing::all),
-          cloud.normals.empty() ? Points(0, 3)
-                                : Points(cloud.normals.matrix()(boundary, Eigen::indexing::all)));
+  keep(cloud, boundary);
   return true;
 }
 

@@ -33,10 +33,7 @@ bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
   if (!has_many_duplicates(cloud.points, context)) return false;
   find_distinct(cloud.points, context);
   if (static_cast<Index>(first_.size()) < minimum_points_) return false;
-  if (cloud.footprint.empty()) cloud.footprint = cloud.points;
-  replace(cloud, cloud.points.matrix()(first_, Eigen::indexing::all),
-          cloud.normals.empty() ? Points(0, 3)
-                                : Points(cloud.normals.matrix()(first_, Eigen::indexing::all)));
+  keep(cloud, first_);
   return true;
 }
 

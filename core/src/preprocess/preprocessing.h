@@ -40,6 +40,16 @@ class Stage {
  protected:
   void replace(Cloud& cloud, Points points, Points normals);
 
+  /// Keeps these rows. A mirror is still drawn over all.
+  template <typename Integer>
+  void keep(Cloud& cloud, const std::vector<Integer>& rows) {
+    if (cloud.footprint.empty()) cloud.footprint = cloud.points;
+    const auto kept = [&](PointsView all) {
+      return all.empty() ? Points(0, 3) : Points(all.matrix()(rows, Eigen::indexing::all));
+    };
+    replace(cloud, kept(cloud.points), kept(cloud.normals));
+  }
+
  private:
   Points points_, normals_ = Points(0, 3);
 };

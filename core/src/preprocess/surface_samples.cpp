@@ -137,9 +137,9 @@ class Sampler {
         faces_.push_back(face);
     });
     if (faces_.empty()) return;
-    const std::vector<Index> place = places();
-    drop_copies(place);
-    find_edges(place);
+    const std::vector<Index> vertex = distinct_vertices();
+    drop_duplicates(vertex);
+    find_edges(vertex);
     while (count() > most) spacing_ *= 1.25;
   }
 
@@ -168,7 +168,7 @@ class Sampler {
   }
 
   // Of equal points the lowest number: corners that no file merged are one.
-  std::vector<Index> places() const {
+  std::vector<Index> distinct_vertices() const {
     std::vector<Index> used;
     for (const Face& face : faces_) used.insert(used.end(), face.corner.begin(), face.corner.end());
     const auto key = [&](Index i) {
@@ -176,41 +176,41 @@ class Sampler {
       return std::tuple(x.x(), x.y(), x.z(), i);
     };
     std::sort(used.begin(), used.end(), [&](Index a, Index b) { return key(a) < key(b); });
-    std::vector<Index> place(points_.size());
+    std::vector<Index> vertex(points_.size());
     for (std::size_t k = 0; k < used.size(); ++k) {
-      const bool copy = k > 0 && points_[used[k]] == points_[used[k - 1]];
-      place[used[k]] = copy ? place[used[k - 1]] : used[k];
+      const bool is_duplicate = k > 0 && points_[used[k]] == points_[used[k - 1]];
+      vertex[used[k]] = is_duplicate ? vertex[used[k - 1]] : used[k];
     }
-    return place;
+    return vertex;
   }
 
   // Faces of the same corners, as those with two sides, are one.
-  void drop_copies(const std::vector<Index>& place) {
+  void drop_duplicates(const std::vector<Index>& vertex) {
     std::vector<std::pair<std::array<Index, 3>, Index>> corners;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       std::array<Index, 3> corner = faces_[f].corner;
-      for (Index& i : corner) i = place[i];
+      for (Index& i : corner) i = vertex[i];
       std::sort(corner.begin(), corner.end());
       corners.emplace_back(corner, static_cast<Index>(f));
     }
     std::sort(corners.begin(), corners.end());
-    const auto copies =
+    const auto duplicates =
         std::unique(corners.begin(), corners.end(),
                     [](const auto& a, const auto& b) { return a.first == b.first; });
-    if (copies == corners.end()) return;
+    if (duplicates == corners.end()) return;
     std::vector<Index> kept;
-    for (auto it = corners.begin(); it != copies; ++it) kept.push_back(it->second);
+    for (auto it = corners.begin(); it != duplicates; ++it) kept.push_back(it->second);
     std::sort(kept.begin(), kept.end());
     std::vector<Face> faces;
     for (const Index f : kept) faces.push_back(faces_[f]);
     faces_ = std::move(faces);
   }
 
-  void find_edges(const std::vector<Index>& place) {
+  void find_edges(const std::vector<Index>& vertex) {
     for (Index f = 0; f < static_cast<Index>(faces_.size()); ++f)
       for (int c = 0; c < 3; ++c) {
         const auto& corner = faces_[f].corner;
-        const Index a = place[corner[(c + 1) % 3]], b = place[corner[(c + 2) % 3]];
+        const Index a = vertex[corner[(c + 1) % 3]], b = vertex[corner[(c + 2) % 3]];
         const bool is_diagonal = c == 0 && faces_[f].filling == Face::Filling::Grid;
         edges_.push_back({std::min(a, b), std::max(a, b), f, is_diagonal});
       }

@@ -16,24 +16,24 @@ namespace symsurf {
 namespace {
 
 // A sample of the points decides whether a cloud is volumetric: first a few, as most are not. The
-// squared thickness over the squared length of what is around a point is .3 to .35 within bodies,
-// in the median, and less where there are surfaces, unless noise as large as their points' spacing
-// blurs them.
+// roundness, squared thickness over squared length of the neighbourhood of a point, is .3 to .35
+// within bodies, in the median, and less on surfaces, unless noise as large as their points'
+// spacing blurs them.
 struct Effort {
-  Index chosen, asked;
+  Index sampled, queried;
 };
 constexpr Effort rough{600, 128}, close{8192, 768};
-constexpr Index near = 16, least_chosen = 400;
+constexpr Index near = 16, least_sampled = 400;
 constexpr double roughly_round = 0.22, round = 0.29;
-// The same of fewer, .19 to .2 within bodies, tells sheets apart that lie near each other.
+// The same of fewer neighbours, .19 to .2 within bodies, distinguishes surfaces near each other.
 constexpr Index nearest = 8;
 constexpr double closely_round = 0.17;
-// Such noise shows by points with others on one side, most of which stand out into the void, while
+// Such noise shows by the share of points with neighbours on one side, most of them sparse, while
 // bodies end abruptly: .14 to .2 of bodies, above .28 of noisy surfaces.
 constexpr double aside = 0.25, thin = 0.3, abrupt = 0.235;
 constexpr double vicinity = 0.08;  // of the cloud's size: what density is compared in
 
-Points chosen_of(const Cloud& cloud, Index wanted, const Context& context) {
+Points sampled_of(const Cloud& cloud, Index wanted, const Context& context) {
   const double share =
       std::min(1.0, static_cast<double>(wanted) / static_cast<double>(cloud.partition.total()));
   std::vector<Vector3> chosen;
@@ -44,26 +44,26 @@ Points chosen_of(const Cloud& cloud, Index wanted, const Context& context) {
   return rows_of(cloud.partition.concatenate(chosen));
 }
 
-// Some of the cloud's points, and what is around them.
+// Some of the cloud's points, and their neighbourhoods.
 class Sample {
  public:
   Sample(const Cloud& cloud, const Effort& effort, const Context& context)
       : effort_(effort),
-        points_(chosen_of(cloud, effort.chosen, context)),
+        points_(sampled_of(cloud, effort.sampled, context)),
         vicinity_(vicinity * cloud.frame.size),
         context_(context),
         tree_(points_) {}
 
-  bool tells() const { return points_.rows() >= least_chosen; }
+  bool is_enough() const { return points_.rows() >= least_sampled; }
 
   struct Look {
     double roundness;  // in the median
     double one_sided;  // the share of points with others on one side
   };
 
-  // At what is around points by their k nearest.
+  // By the k nearest of each point.
   Look look(Index k) const {
-    const auto looks = of_surroundings<Look>(k, effort_.asked, [](const Surroundings& around) {
+    const auto looks = of_surroundings<Look>(k, effort_.queried, [](const Surroundings& around) {
       const LeastEigen spread = least_eigen_of(around.covariance);
       return Look{spread.value / spread.greatest, around.one_sided() > aside ? 1.0 : 0.0};
     });
@@ -76,8 +76,8 @@ class Sample {
     return {median(std::move(roundness)), one_sided / static_cast<double>(looks.size())};
   }
 
-  // The share of points with few about them, compared with those in the vicinity.
-  double standing_out() const {
+  // The share of points that are sparse, compared with those in the vicinity.
+  double sparse_share() const {
     const auto densities =
         of_surroundings<double>(near, points_.rows(), [](const Surroundings& around) {
           return 1 / (around.radius * around.radius * around.radius);
@@ -85,7 +85,7 @@ class Sample {
     std::vector<double> density(densities.size());
     for (std::size_t v = 0; v < density.size(); ++v) density[tree_.order()[v]] = densities[v];
     double looked = 0, found = 0;
-    for (Index i = 0; i < points_.rows(); i += stride(effort_.asked)) {
+    for (Index i = 0; i < points_.rows(); i += stride(effort_.queried)) {
       double sum = 0, count = 0;
       tree_.within(points_.row(i), vicinity_, [&](Index k, double) {
         sum += density[k];
@@ -100,13 +100,14 @@ class Sample {
  private:
   Index stride(Index wanted) const { return std::max<Index>(1, points_.rows() / wanted); }
 
-  // value(surroundings) of about as many points as wanted, along the tree's curve.
+  // value(surroundings) of about as many points as wanted, in the tree's order.
   template <typename T, typename Value>
   std::vector<T> of_surroundings(Index k, Index wanted, const Value& value) const {
-    std::vector<Index> places;
-    for (Index place = 0; place < points_.rows(); place += stride(wanted)) places.push_back(place);
-    std::vector<T> values(places.size());
-    visit_surroundings(points_, tree_, k, places, context_,
+    std::vector<Index> positions;
+    for (Index position = 0; position < points_.rows(); position += stride(wanted))
+      positions.push_back(position);
+    std::vector<T> values(positions.size());
+    visit_surroundings(points_, tree_, k, positions, context_,
                        [&](Index v, const Surroundings& around) { values[v] = value(around); });
     return values;
   }
@@ -122,11 +123,11 @@ class Sample {
 
 bool is_volumetric(const Cloud& cloud, const Context& context) {
   const Sample few(cloud, rough, context);
-  if (!few.tells() || !(few.look(near).roundness > roughly_round)) return false;
+  if (!few.is_enough() || !(few.look(near).roundness > roughly_round)) return false;
   const Sample many(cloud, close, context);
   const auto [roundness, one_sided] = many.look(near);
   return roundness > round && one_sided < abrupt && many.look(nearest).roundness > closely_round &&
-         one_sided + 2 * many.standing_out() < abrupt;
+         one_sided + 2 * many.sparse_share() < abrupt;
 }
 
 }  // namespace symsurf

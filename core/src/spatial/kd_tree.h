@@ -3,8 +3,6 @@
 #include <symsurf/context.h>
 #include <symsurf/types.h>
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <nanoflann.hpp>
 #include <utility>
@@ -12,20 +10,23 @@
 
 namespace symsurf {
 
-/// A k-d tree (nanoflann) of points in a few dimensions, for searches whose caller measures the
-/// candidates: PointTree knows distances in space alone, and ties of those.
+/// A k-d tree (nanoflann) of points in a few dimensions. Searches offer candidates to the caller,
+/// who decides about them and how far to look on; PointTree is what most callers want.
 template <int dimension>
 class KdTree {
  public:
   using Point = Eigen::Matrix<double, dimension, 1>;
 
-  /// At least one point. Asks the context, while it builds, whether to go on.
+  /// At least one point, all finite. Checks the context for cancellation while it builds.
   KdTree(std::vector<Point> points, const Context& context)
-      : points_{std::move(points), &context}, tree_(dimension, points_) {}
+      : points_{std::move(points), &context}, tree_(dimension, points_, leaf_size) {
+    points_.building = nullptr;
+  }
   KdTree(const KdTree&) = delete;
 
-  /// Calls limit = offer(i) for each point i closer to the query than the root of `limit`, near
-  /// ones first, as long as there are any.
+  /// Calls limit = offer(i, squared distance) for each point i whose squared distance from the
+  /// query is less than `limit`, near ones first, as long as there are any. To see all points at a
+  /// limit, ties among them, let limits be at_most() it.
   template <typename Offer>
   void search(const Point& query, double limit, const Offer& offer) const {
     struct ResultSet {
@@ -33,8 +34,8 @@ class KdTree {
       const Offer& offer;
 
       double worstDist() const { return limit; }
-      bool addPoint(double, std::uint32_t i) {
-        limit = offer(i);
+      bool addPoint(double squared, std::uint32_t i) {
+        if (squared < limit) limit = offer(i, squared);
         return true;
       }
       bool full() const { return true; }
@@ -42,39 +43,47 @@ class KdTree {
     tree_.findNeighbors(results, query.data(), {});
   }
 
-  /// The same with a distance of the caller's: squared(centre, half) is a lower bound on its square
-  /// anywhere in the box centre ± half.
-  template <typename Squared, typename Offer>
-  void search_boxes(const Squared& squared, double limit, const Offer& offer) const {
-    Box box;
-    for (int axis = 0; axis < dimension; ++axis)
-      box[axis] = {tree_.root_bbox[axis].low, tree_.root_bbox[axis].high};
-    descend(tree_.root_node, box, squared, limit, offer);
+  /// A limit that lets squared distances of up to this one pass: nanoflann compares with "<", and
+  /// sums bounds with rounding.
+  static double at_most(double squared) { return squared * (1 + 1e-12) + 1e-300; }
+
+  /// The same with a distance of the caller's: bound(low, high) is no more than its square anywhere
+  /// in the box of these corners. Calls offer(i) of what lies in a leaf, unmeasured.
+  template <typename Bound, typename Offer>
+  void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
+    Part root{tree_.root_node, {}, {}};
+    for (int axis = 0; axis < dimension; ++axis) {
+      root.low[axis] = tree_.root_bbox[axis].low;
+      root.high[axis] = tree_.root_bbox[axis].high;
+    }
+    descend(root, bound, limit, offer);
   }
 
  private:
+  static constexpr std::size_t leaf_size = 16;  // points; of 4 to 24 the fastest up to 10^6 points
+
   struct PointSource {
     std::vector<Point> points;
     const Context* building;
-    mutable std::uint32_t reads = 0;
 
     std::size_t kdtree_get_point_count() const { return points.size(); }
+    // For the construction alone, which passes over all points on every level of the tree.
     double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-      constexpr std::uint32_t stretch = 1 << 20;  // a few milliseconds
-      if (++reads % stretch == 0) building->check();
+      constexpr std::size_t stretch = 1 << 16;  // points, a fraction of a millisecond
+      if (i % stretch == 0) [[unlikely]]
+        building->check();
       return points[i][static_cast<Index>(axis)];
     }
-    template <typename BoundingBox>
-    bool kdtree_get_bbox(BoundingBox&) const {
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
       return false;
     }
   };
 
-  // In place of nanoflann's own, which reads the points by kdtree_get_pt() on any thread.
+  // In place of nanoflann's own, which reads by kdtree_get_pt.
   struct SquaredDistance {
     using ElementType = double;
     using DistanceType = double;
-
     const PointSource& source;
 
     explicit SquaredDistance(const PointSource& points) : source(points) {}
@@ -85,36 +94,29 @@ class KdTree {
   };
 
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<SquaredDistance, PointSource, dimension>;
-  using Box = std::array<std::array<double, 2>, dimension>;
 
-  template <typename Squared, typename Offer>
-  void descend(const typename Tree::Node* node, const Box& box, const Squared& squared,
-               double& limit, const Offer& offer) const {
-    if (!node->child1) {
-      for (auto k = node->node_type.lr.left; k < node->node_type.lr.right; ++k)
-        limit = offer(tree_.vAcc[k]);
+  struct Part {
+    const typename Tree::Node* node;
+    Point low, high;
+    double bound = 0;
+  };
+
+  template <typename Bound, typename Offer>
+  void descend(const Part& part, const Bound& bound, double& limit, const Offer& offer) const {
+    if (!part.node->child1) {
+      const auto& leaf = part.node->node_type.lr;
+      for (auto k = leaf.left; k < leaf.right; ++k) limit = offer(tree_.vAcc[k]);
       return;
     }
-    const auto bound = [&](const Box& part) {
-      Point low, high;
-      for (int axis = 0; axis < dimension; ++axis) {
-        low[axis] = part[axis][0];
-        high[axis] = part[axis][1];
-      }
-      return squared((low + high) / 2, (high - low) / 2);
-    };
-    const auto& split = node->node_type.sub;
-    Box first = box, second = box;
-    first[split.divfeat][1] = split.divlow;
-    second[split.divfeat][0] = split.divhigh;
-    const double to_first = bound(first), to_second = bound(second);
-    const auto enter_first = [&] {
-      if (to_first <= limit) descend(node->child1, first, squared, limit, offer);
-    };
-    const bool is_first_nearer = to_first <= to_second;
-    if (is_first_nearer) enter_first();
-    if (to_second <= limit) descend(node->child2, second, squared, limit, offer);
-    if (!is_first_nearer) enter_first();
+    const auto& split = part.node->node_type.sub;
+    Part first{part.node->child1, part.low, part.high},
+        second{part.node->child2, part.low, part.high};
+    first.high[split.divfeat] = split.divlow;
+    second.low[split.divfeat] = split.divhigh;
+    for (Part* child : {&first, &second}) child->bound = bound(child->low, child->high);
+    if (second.bound < first.bound) std::swap(first, second);
+    for (const Part* child : {&first, &second})
+      if (child->bound <= limit) descend(*child, bound, limit, offer);
   }
 
   PointSource points_;

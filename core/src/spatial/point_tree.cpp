@@ -15,7 +15,6 @@ namespace symsurf {
 namespace {
 
 constexpr int bits_per_axis = 21;
-constexpr std::size_t leaf_size = 16;  // points; of 4 to 24 the fastest for 4096 to 10^6 points
 
 // Spreads the low 21 bits of v to every third bit.
 std::uint64_t spread(std::uint64_t v) {
@@ -28,42 +27,6 @@ std::uint64_t spread(std::uint64_t v) {
 }
 
 }  // namespace
-
-struct PointTree::Nearest {
-  Neighbour best;
-  const std::int32_t* order;
-
-  double worstDist() const { return padded(best.squared_distance); }
-  bool addPoint(double squared, std::int32_t position) {
-    const Neighbour candidate{order[position], squared};
-    const bool is_first = best.index < 0 && squared <= best.squared_distance;
-    if (is_first || candidate < best) best = candidate;
-    return true;
-  }
-  bool full() const { return true; }
-  void sort() const {}
-};
-
-struct PointTree::NearestFew {
-  std::vector<Neighbour>& found;
-  std::size_t wanted;
-  const std::int32_t* order;
-
-  double worstDist() const {
-    return found.size() < wanted ? infinity : padded(found.back().squared_distance);
-  }
-  bool addPoint(double squared, std::int32_t position) {
-    keep_best(found, wanted, Neighbour{order[position], squared});
-    return true;
-  }
-  bool full() const { return true; }
-  void sort() const {}
-};
-
-PointTree::Nodes::Nodes(SortedPoints sorted)
-    : points(std::move(sorted)), tree(3, points, leaf_size) {
-  points.building = nullptr;
-}
 
 PointTree::PointTree(PointsView points, const Context& context) {
   Eigen::AlignedBox3d box;
@@ -78,11 +41,9 @@ PointTree::PointTree(PointsView points, const Context& context) {
   context.report(0.5);
 
   if (finite == 0) return;
-  std::vector<double> coordinates(3 * finite);
-  interruptible_for(context, finite, [&](Index p) {
-    Eigen::Map<Vector3>(coordinates.data() + 3 * p) = points[order_[p]] - origin_;
-  });
-  nodes_ = std::make_unique<const Nodes>(SortedPoints{std::move(coordinates), &context});
+  std::vector<Vector3> sorted(finite);
+  interruptible_for(context, finite, [&](Index p) { sorted[p] = points[order_[p]] - origin_; });
+  tree_ = std::make_unique<const Tree>(std::move(sorted), context);
 }
 
 void PointTree::sort(PointsView points, double extent, const Context& context) {
@@ -108,14 +69,24 @@ void PointTree::sort(PointsView points, double extent, const Context& context) {
 }
 
 Neighbour PointTree::nearest(const Vector3& query, double limit) const {
-  Nearest found{{-1, limit}, order_.data()};
-  search(query, found);
-  return found.best.index < 0 ? Neighbour() : found.best;
+  Neighbour best;
+  search(query, limit, [&](const Neighbour& found) {
+    if (found.squared_distance <= limit && found < best) {
+      best = found;
+      limit = found.squared_distance;
+    }
+    return limit;
+  });
+  return best;
 }
 
 void PointTree::nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const {
   found.clear();
-  search(query, NearestFew{found, static_cast<std::size_t>(k), order_.data()});
+  const auto wanted = static_cast<std::size_t>(k);
+  search(query, infinity, [&](const Neighbour& neighbour) {
+    keep_best(found, wanted, neighbour);
+    return found.size() < wanted ? infinity : found.back().squared_distance;
+  });
 }
 
 }  // namespace symsurf

@@ -36,50 +36,41 @@ double phi(double squared, double support) {
   return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
 }
 
-// phi at the closest of a few points, in one look: each cell of a grid lists
-// the points that are within the support of some place in it.
-class ClosestPhi {
+// A grid over a few hundred points: each cell lists those within reach of some place in it, so that
+// a look tells which may be the closest.
+class NearbyPoints {
  public:
-  explicit ClosestPhi(PointsView points) : points_(points), support_(support(points)) {
+  NearbyPoints(PointsView points, double reach) {
     const Vector3 low = points.matrix().colwise().minCoeff();
     const Vector3 extent = Vector3(points.matrix().colwise().maxCoeff()) - low;
-    // Where an outlier spreads the grid, its cells grow.
-    constexpr double most_cells = 1 << 21;
-    cell_ = std::max(support_, std::cbrt((extent.array() + 2 * support_).prod() / most_cells));
-    low_ = low.array() - cell_;
-    size_ = (extent / cell_).array().ceil().cast<int>() + 3;
-    cells_.resize(size_.cast<Index>().prod());
+    constexpr double most_cells = 1 << 20;  // where an outlier spreads the grid, its cells grow
+    cell_ = std::max(reach, std::cbrt((extent.array() + reach).prod() / most_cells));
+    low_ = low.array() - 2 * cell_;
+    size_ = (extent / cell_).array().ceil() + 4;
+    cells_.resize(static_cast<std::size_t>(size_.prod()));
     for (Index i = 0; i < points.size(); ++i) {
-      const Eigen::Array3i from = cell(points[i].array() - support_),
-                           to = cell(points[i].array() + support_);
-      for (int x = from.x(); x <= to.x(); ++x)
-        for (int y = from.y(); y <= to.y(); ++y)
-          for (int z = from.z(); z <= to.z(); ++z) cells_[at({x, y, z})].push_back(points[i]);
+      const Eigen::Array3d from = cell(points[i].array() - reach),
+                           to = cell(points[i].array() + reach);
+      for (double x = from.x(); x <= to.x(); ++x)
+        for (double y = from.y(); y <= to.y(); ++y)
+          for (double z = from.z(); z <= to.z(); ++z) cells_[at({x, y, z})].push_back(points[i]);
     }
   }
 
-  double operator()(const Vector3& x) const {
-    const Eigen::Array3i c = cell(x);
-    if ((c < 0).any() || (c >= size_).any()) return 0;
-    double closest = support_ * support_;
-    for (const Vector3& point : cells_[at(c)])
-      closest = std::min(closest, (point - x).squaredNorm());
-    return phi(closest, support_);
-  }
+  const std::vector<Vector3>& operator()(const Vector3& x) const { return cells_[at(cell(x))]; }
 
  private:
-  Eigen::Array3i cell(const Eigen::Array3d& x) const {
-    // Far images would not fit an int.
-    return ((x - low_) / cell_).floor().max(-1).min(1 << 22).cast<int>();
+  // The outermost cells, where all that is farther off belongs, list nothing.
+  Eigen::Array3d cell(const Eigen::Array3d& x) const {
+    const Eigen::Array3d c = ((x - low_) / cell_).max(0).min(size_ - 1);
+    return c.cast<int>().cast<double>();
   }
-  std::size_t at(const Eigen::Array3i& c) const {
-    return (static_cast<std::size_t>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
+  std::size_t at(const Eigen::Array3d& c) const {
+    return static_cast<std::size_t>((c.x() * size_.y() + c.y()) * size_.z() + c.z());
   }
 
-  PointsView points_;
-  double support_, cell_;
-  Eigen::Array3d low_;
-  Eigen::Array3i size_;
+  double cell_;
+  Eigen::Array3d low_, size_;
   std::vector<std::vector<Vector3>> cells_;
 };
 
@@ -88,25 +79,38 @@ struct Candidate {
   double radius = 0, measure = -1;
 };
 
-// Steps 1 to 4: of the spheres midway between each two points, of each radius,
-// their centres on either side, the one of the greatest measure; equal
-// measures: the first.
+// Steps 1 to 4: of the spheres midway between each two points, of each radius, their centres on
+// either side, the one of the greatest measure; equal measures: the first.
 Candidate best_candidate(PointsView points, const std::vector<double>& radii,
                          const Context& context) {
-  const ClosestPhi closest_phi(points);
-  const auto measured = [&](const Vector3& centre, double radius, double least) {
-    double sum = 0;
+  const double reach = support(points);
+  const NearbyPoints nearby(points, reach);
+  struct Image {
+    Vector3 place;
+    const std::vector<Vector3>* nearby;
+  };
+  // 0 where it is less than `least`: an image near the cloud adds no more than 1, others nothing.
+  const auto measured = [&](const Candidate& sphere, double least, std::vector<Image>& images) {
+    images.clear();
     for (Index i = 0; i < points.size(); ++i) {
-      // What is left adds 1 a point at the most.
-      if (sum + static_cast<double>(points.size() - i) < least) return 0.0;
-      Vector3 image;
-      if (mirrored(points[i], centre, radius, image)) sum += closest_phi(image);
+      Image image;
+      if (!mirrored(points[i], sphere.centre, sphere.radius, image.place)) continue;
+      image.nearby = &nearby(image.place);
+      if (!image.nearby->empty()) images.push_back(image);
+    }
+    double sum = 0, rest = static_cast<double>(images.size());
+    for (const Image& image : images) {
+      if (sum + rest-- < least) return 0.0;
+      double closest = reach * reach;
+      for (const Vector3& x : *image.nearby)
+        closest = std::min(closest, (x - image.place).squaredNorm());
+      sum += phi(closest, reach);
     }
     return sum;
   };
-  std::vector<Candidate> first(points.size());  // of the pairs whose first point it is
+  std::vector<Candidate> found(points.size());  // the best of the pairs whose first point it is
   parallel_for(context, points.size(), 1, [&](Index i, Index) {
-    Candidate& best = first[i];
+    std::vector<Image> images;
     for (Index j = i + 1; j < points.size(); ++j) {
       context.check();
       const Vector3 chord = points[i] - points[j];
@@ -114,16 +118,15 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
       if (!(length > 0)) continue;
       for (const double side : {1.0, -1.0})
         for (const double radius : radii) {
-          const Vector3 centre = (points[i] + points[j]) / 2 + side * radius / length * chord;
-          const double measure = measured(centre, radius, best.measure);
-          if (measure > best.measure) best = {centre, radius, measure};
+          Candidate sphere{(points[i] + points[j]) / 2 + side * radius / length * chord, radius};
+          sphere.measure = measured(sphere, found[i].measure, images);
+          if (sphere.measure > found[i].measure) found[i] = sphere;
         }
     }
   });
-  Candidate best;
-  for (const Candidate& candidate : first)
-    if (candidate.measure > best.measure) best = candidate;
-  return best;
+  return *std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return a.measure < b.measure;  // the first of equal ones
+  });
 }
 
 std::vector<double> tested_radii(double diagonal, const ParameterValues& values) {
