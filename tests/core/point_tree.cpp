@@ -86,7 +86,7 @@ TEST(PointTree, FindsNothingThatIsNotFinite) {
   EXPECT_EQ(found.size(), 133u);
   EXPECT_EQ(tree.nearest({0, nan, 0}).index, -1);
   EXPECT_EQ(tree.nearest({0, infinity, 0}).index, -1);
-  EXPECT_EQ(PointTree(Points::Constant(5, 3, nan)).nearest({0, 0, 0}).index, -1);
+  EXPECT_EQ(PointTree(Points(Points::Constant(5, 3, nan))).nearest({0, 0, 0}).index, -1);
 }
 
 TEST(PointTree, VisitsAllWithinARadiusAndNoOther) {

@@ -23,7 +23,13 @@ constexpr double on_sheets = 0.97;            // of what it explained before
 constexpr double partnered_by_chance = 0.25;  // fewer partners than that prove nothing
 constexpr double least_rest = 0.25;           // of the cloud: worth a search of its own
 constexpr double partnered_exactly = 0.8;     // partners that need no sheets
-constexpr int most_slides = 3;                // of one sphere, at the most
+constexpr Index patches_again = 3;  // times as many, where no sphere found has partners of its own
+constexpr int most_slides = 3;      // of one sphere, at the most
+
+bool any_partnered(const std::vector<SphereCandidate>& candidates) {
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [](const SphereCandidate& c) { return c.partnered > 0; });
+}
 
 // Through noise some points meet others by chance: that outweighs no sheet.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
@@ -95,9 +101,18 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   const NearestPoints points(cloud.points, tree, context);
   const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.6, 0.7));
   const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
-  for (SphereCandidate& candidate : candidates) {
-    candidate = refinement.fitted(candidate, 400, 4);
-    candidate = partner_fit(candidate);
+  const auto fit = [&](std::vector<SphereCandidate>& some) {
+    for (SphereCandidate& candidate : some)
+      candidate = partner_fit(refinement.fitted(candidate, 400, 4));
+  };
+  fit(candidates);
+  if (!any_partnered(candidates)) {
+    const Surfels finer(cloud, patches_again * values.integer("sample_size"),
+                        context.stage(0.7, 0.7));
+    std::vector<SphereCandidate> more = promising_spheres(finer, SurfelMap(finer), cloud.seed,
+                                                          2 * finalists, context.stage(0.7, 0.7));
+    fit(more);
+    candidates.insert(candidates.end(), more.begin(), more.end());
   }
   drop_planes(refinement, candidates);
   if (candidates.empty()) return best;
@@ -152,7 +167,7 @@ MethodImplementation sphere_method() {
       "Finds the sphere that mirrors the shape best, of any radius: candidates from pairs of "
       "points, Hruda's measure over all pairs, refined on the full cloud.";
   method.parameters = {
-      Parameter::integer("sample_size", 2000, 100, 100000, "points",
+      Parameter::integer("sample_size", 700, 100, 100000, "points",
                          "Patches of the cloud that the search for the sphere works on."),
       Parameter::integer("max_candidates", 5, 0, 7, "",
                          "Other spheres to report at the most, best first."),
