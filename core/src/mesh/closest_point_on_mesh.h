@@ -19,9 +19,10 @@ struct ClosestPoint {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Exact closest points on triangles: a tree of axis-aligned bounding boxes, halved along their
-/// longest side. Ties go to the lowest face. Faces may be degenerate and in any order; those with
-/// a corner that is not finite are never found.
+/// Exact closest points on triangles, by a tree of axis-aligned bounding boxes: each is divided at
+/// the median of its triangles along the axis that their centroids extend along most. Ties go to
+/// the lowest face. Faces may be degenerate and in any order; those with a corner that is not
+/// finite are never found.
 class ClosestPointOnMesh {
  public:
   /// The corners must be among the points. Copies what it is given.
