@@ -19,7 +19,7 @@ constexpr std::array<const char*, 6> paraview_names{"points:0",  "points:1",  "p
                                                     "normals:0", "normals:1", "normals:2"};
 
 // Which of the six numbers each column holds; -1: none.
-using Places = std::vector<int>;
+using Positions = std::vector<int>;
 
 std::vector<std::string> words(TextScanner& text) {
   std::vector<std::string> found;
@@ -45,14 +45,14 @@ bool is_number(const std::string& word) {
   return parse(word, value);
 }
 
-Places named_places(const TextScanner& text, const std::vector<std::string>& row) {
-  Places places(row.size(), -1);
+Positions named_places(const TextScanner& text, const std::vector<std::string>& row) {
+  Positions positions(row.size(), -1);
   std::array<bool, 6> has{};
   for (std::size_t c = 0; c < row.size(); ++c) {
     const std::string name = plain_name(row[c]);
     for (int n = 0; n < 6; ++n) {
       if (has[n] || (name != names[n] && name != paraview_names[n])) continue;
-      places[c] = n;
+      positions[c] = n;
       has[n] = true;
     }
   }
@@ -60,17 +60,17 @@ Places named_places(const TextScanner& text, const std::vector<std::string>& row
     text.fail("the row starts with " + in_quotes(row[0]) +
               ": it is neither numbers nor names of columns x, y and z");
   if (!has[3] || !has[4] || !has[5])
-    for (int& place : places) place = place < 3 ? place : -1;
-  return places;
+    for (int& position : positions) position = position < 3 ? position : -1;
+  return positions;
 }
 
-Places unnamed_places(const TextScanner& text, std::size_t columns) {
+Positions unnamed_places(const TextScanner& text, std::size_t columns) {
   if (columns < 3)
     text.fail("the row has " + std::to_string(columns) + " columns; at least 3 are needed");
-  Places places{0, 1, 2};
-  if (columns == 6) places = {0, 1, 2, 3, 4, 5};
-  places.resize(columns, -1);
-  return places;
+  Positions positions{0, 1, 2};
+  if (columns == 6) positions = {0, 1, 2, 3, 4, 5};
+  positions.resize(columns, -1);
+  return positions;
 }
 
 bool are_colours(const Points& normals) {
@@ -80,11 +80,12 @@ bool are_colours(const Points& normals) {
 }
 
 // The row the scanner stands at the start of.
-void read_row(TextScanner& text, const Places& places, bool has_normals, ShapeBuilder& shape) {
+void read_row(TextScanner& text, const Positions& positions, bool has_normals,
+              ShapeBuilder& shape) {
   std::array<double, 6> values;
-  for (const int place : places) {
-    if (place >= 0)
-      values[place] = text.number(names[place]);
+  for (const int position : positions) {
+    if (position >= 0)
+      values[position] = text.number(names[position]);
     else if (text.line_ends())
       text.fail("the row has fewer columns than the first one");
     else
@@ -106,8 +107,9 @@ Shape read_columns(std::string_view content) {
 
   const std::vector<std::string> first = words(text);
   const bool is_named = !is_number(first[0]);
-  const Places places = is_named ? named_places(text, first) : unnamed_places(text, first.size());
-  const bool has_normals = std::find(places.begin(), places.end(), 5) != places.end();
+  const Positions positions =
+      is_named ? named_places(text, first) : unnamed_places(text, first.size());
+  const bool has_normals = std::find(positions.begin(), positions.end(), 5) != positions.end();
 
   ShapeBuilder builder;
   bool has_row = true;
@@ -115,7 +117,7 @@ Shape read_columns(std::string_view content) {
     has_row = text.next_line();
   else
     text.restart_line();
-  for (; has_row; has_row = text.next_line()) read_row(text, places, has_normals, builder);
+  for (; has_row; has_row = text.next_line()) read_row(text, positions, has_normals, builder);
   Shape shape = builder.build();
   if (!is_named && are_colours(shape.normals)) shape.normals.resize(0, 3);
   return shape;

@@ -54,27 +54,27 @@ void each_row(Rows& rows, const PlyElement& element, const Read& read, const End
 template <typename Rows>
 void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
   constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
-  std::vector<int> place(element.properties.size(), -1);
+  std::vector<int> position(element.properties.size(), -1);
   int named = 0;  // a bit a name
-  for (std::size_t p = 0; p < place.size(); ++p) {
+  for (std::size_t p = 0; p < position.size(); ++p) {
     const PlyProperty& property = element.properties[p];
     const auto it = std::find(names.begin(), names.end(), property.name);
     if (it == names.end() || property.length_type) continue;
-    place[p] = static_cast<int>(it - names.begin());
-    named |= 1 << place[p];
+    position[p] = static_cast<int>(it - names.begin());
+    named |= 1 << position[p];
   }
   if ((named & 7) != 7) throw InvalidInput("the element 'vertex' lacks x, y or z");
   const bool has_normals = (named & 56) == 56;
   if (!has_normals)
-    for (int& p : place) p = p < 3 ? p : -1;
+    for (int& p : position) p = p < 3 ? p : -1;
 
   std::array<double, 6> values;
   each_row(
       rows, element,
       [&](std::size_t p) {
-        if (place[p] >= 0)
-          values[place[p]] = rows.number(element.properties[p], element.properties[p].type);
-        return place[p] >= 0;
+        if (position[p] >= 0)
+          values[position[p]] = rows.number(element.properties[p], element.properties[p].type);
+        return position[p] >= 0;
       },
       [&] {
         shape.add_point({values[0], values[1], values[2]});

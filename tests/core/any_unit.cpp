@@ -10,8 +10,8 @@
 namespace symsurf {
 namespace {
 
-// Two wavy sheets mirrored in z at a distance that varies, no point exactly opposite another.
-Points sheets(Index count) {
+// Two wavy surfaces mirrored in z at a distance that varies, no point exactly opposite another.
+Points surfaces(Index count) {
   RandomCloud random(1);
   Points points = random.box(count);
   for (Index i = 0; i < count; ++i) {
@@ -24,7 +24,8 @@ Points sheets(Index count) {
 // Powers of two scale without rounding: what differs then is due to the unit.
 TEST(AnyUnit, EveryMethodFindsTheSame) {
   for (const Method& method : methods()) {
-    const Points points = sheets(method.name == "plane" ? 25000 : 1500);  // it asks a grid of fewer
+    const Points points =
+        surfaces(method.name == "plane" ? 25000 : 1500);  // it asks a grid of fewer
     Options options{.method = method.name};
     if (method.name == "sphere_thesis") options.parameters = {{"sample_size", Index{40}}};
     const Result one = detect(points, options);

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cloud/cloud.h"
-#include "cloud/surroundings.h"
+#include "cloud/neighbourhood_moments.h"
 #include "preprocess/volumetric.h"
 #include "random_cloud.h"
 #include "spatial/point_tree.h"
@@ -78,34 +78,35 @@ double degrees_from(const Result& result, const Vector3& normal) {
   return std::acos(std::min(1.0, std::abs(plane.normal().dot(normal)))) * 180 / M_PI;
 }
 
-TEST(Surroundings, AreTheWeightedMomentsOfTheNearest) {
+TEST(NeighbourhoodMoments, AreTheWeightedMomentsOfTheNearest) {
   RandomCloud random(1);
   const Points points = random.box(300);
   const PointTree tree(points);
   constexpr Index k = 20;
-  const std::vector<Index> places{0, 7, 8, 50, 51, 52, 53, 120, 200, 299};
-  visit_surroundings(points, tree, k, places, {}, [&](Index v, const Surroundings& around) {
-    const Vector3 x = points.row(tree.order()[places[v]]);
-    std::vector<double> squared;
-    for (Index i = 0; i < points.rows(); ++i)
-      squared.push_back((points.row(i).transpose() - x).squaredNorm());
-    std::nth_element(squared.begin(), squared.begin() + k, squared.end());
-    const double radius = std::sqrt(squared[k]);
-    EXPECT_NEAR(around.radius, radius, 1e-12);
-    Vector3 first = Vector3::Zero();
-    Matrix3 second = Matrix3::Zero();
-    double sum = 0;
-    for (Index i = 0; i < points.rows(); ++i) {
-      const Vector3 offset = (points.row(i).transpose() - x) / radius;
-      const double weight = std::max(0.0, 1 - offset.squaredNorm());
-      sum += weight;
-      first += weight * offset;
-      second += weight * offset * offset.transpose();
-    }
-    first /= sum;
-    EXPECT_LE((around.mean - first).norm(), 1e-12);
-    EXPECT_LE((around.covariance - (second / sum - first * first.transpose())).norm(), 1e-12);
-  });
+  const std::vector<Index> positions{0, 7, 8, 50, 51, 52, 53, 120, 200, 299};
+  visit_neighbourhoods(
+      points, tree, k, positions, {}, [&](Index v, const NeighbourhoodMoments& around) {
+        const Vector3 x = points.row(tree.order()[positions[v]]);
+        std::vector<double> squared;
+        for (Index i = 0; i < points.rows(); ++i)
+          squared.push_back((points.row(i).transpose() - x).squaredNorm());
+        std::nth_element(squared.begin(), squared.begin() + k, squared.end());
+        const double radius = std::sqrt(squared[k]);
+        EXPECT_NEAR(around.radius, radius, 1e-12);
+        Vector3 first = Vector3::Zero();
+        Matrix3 second = Matrix3::Zero();
+        double sum = 0;
+        for (Index i = 0; i < points.rows(); ++i) {
+          const Vector3 offset = (points.row(i).transpose() - x) / radius;
+          const double weight = std::max(0.0, 1 - offset.squaredNorm());
+          sum += weight;
+          first += weight * offset;
+          second += weight * offset * offset.transpose();
+        }
+        first /= sum;
+        EXPECT_LE((around.mean - first).norm(), 1e-12);
+        EXPECT_LE((around.covariance - (second / sum - first * first.transpose())).norm(), 1e-12);
+      });
 }
 
 TEST(Boundary, BodiesDifferFromSurfacesHoweverNoisy) {
@@ -208,13 +209,13 @@ TEST(Boundary, SurfacePointsOfABentBodyLieOnItsFreeForm) {
 // Exact partners, inside as on the boundary, define a mirror that is of no simple kind.
 TEST(Boundary, IsNotExtractedWherePartnersAreExact) {
   RandomCloud random(1);
-  const Points places = random.box(1500);
+  const Points positions = random.box(1500);
   Points points(3000, 3);
   const auto height = [](double x, double y) { return 0.15 * (x * x - y * y); };
   for (Index i = 0; i < 1500; ++i) {
-    const double x = 2 * places(i, 0), y = 2 * places(i, 1);
+    const double x = 2 * positions(i, 0), y = 2 * positions(i, 1);
     const Vector3 foot(x, y, height(x, y)), normal = Vector3(-0.3 * x, 0.3 * y, 1).normalized();
-    const double distance = 0.275 + 0.225 * places(i, 2);
+    const double distance = 0.275 + 0.225 * positions(i, 2);
     points.row(2 * i) = (foot + distance * normal).transpose();
     points.row(2 * i + 1) = (foot - distance * normal).transpose();
   }

@@ -11,8 +11,8 @@
 namespace symsurf {
 namespace {
 
-// Two noisy sheets about a saddle: where the points of one lie, the other has none.
-Points sheets(std::uint64_t seed, Index count) {
+// Two noisy surfaces about a saddle: where the points of one lie, the other has none.
+Points surfaces(std::uint64_t seed, Index count) {
   RandomCloud random(seed);
   Points points = random.box(count);
   for (Index i = 0; i < count; ++i) {
@@ -26,7 +26,7 @@ Points repeated(const Points& points, Index times) { return points.replicate(tim
 
 // As in the corners of triangles that nobody merged.
 TEST(Duplicates, HaveTheSamePartner) {
-  const Points points = sheets(1, 1000);
+  const Points points = surfaces(1, 1000);
   const Index n = points.rows(), times = 3;
   for (const Method& method : methods()) {
     if (!implementation(method.name).preprocessing.merge_duplicates) continue;
@@ -51,7 +51,7 @@ TEST(Duplicates, OfFewPointsAreStillPoints) {
 
 TEST(Duplicates, HardlyChangeThePlane) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    Points half = sheets(seed, 2000), points(4000, 3);
+    Points half = surfaces(seed, 2000), points(4000, 3);
     half.col(0).array() += 1.5;
     points << half, half;
     points.col(0).tail(2000) *= -1;
@@ -68,14 +68,14 @@ TEST(Duplicates, HardlyChangeThePlane) {
 // Where there are few duplicates, the method gets them.
 TEST(Duplicates, OfSomePointsHardlyChangeWhatIsExplained) {
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
-    const Points points = sheets(seed, 1000);
+    const Points points = surfaces(seed, 1000);
     Points some(1040, 3);
     some << points, points.topRows(40);
-    const auto explained = [](const Points& points, const char* method) {
+    const auto support = [](const Points& points, const char* method) {
       return std::get<double>(detect(points, {.method = method}).statistics.at("explained_share"));
     };
     for (const char* method : {"plane", "quadric", "fixed_direction", "perpendicular"})
-      EXPECT_NEAR(explained(some, method), explained(points, method), 0.1) << method << ' ' << seed;
+      EXPECT_NEAR(support(some, method), support(points, method), 0.1) << method << ' ' << seed;
   }
 }
 

@@ -109,11 +109,11 @@ TEST(FreeForm, MeshLiesOnTheMirrorAndCoversTheObject) {
   }
 }
 
-// About random places of the cap, a point on either side of each.
+// About random positions of the cap, a point on either side of each.
 Points about_the_cap(double opening, double width, RandomCloud& random) {
-  constexpr Index places = 1500;
-  Points object(2 * places, 3);
-  for (Index i = 0; i < places; ++i) {
+  constexpr Index positions = 1500;
+  Points object(2 * positions, 3);
+  for (Index i = 0; i < positions; ++i) {
     const double x = random.uniform(-opening, opening), y = random.uniform(-width, width);
     const Vector3 foot = Vector3(std::sin(x), y, std::cos(x)).normalized();
     object.row(2 * i) = 1.1 * foot.transpose();

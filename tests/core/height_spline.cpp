@@ -61,7 +61,7 @@ TEST(HeightSpline, KeepsItsHeightsWhenSubdivided) {
   }
 }
 
-// By the midpoint rule over many places.
+// By the midpoint rule over many positions.
 TEST(HeightSpline, HasTheBendingEnergyOfItsHeights) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);

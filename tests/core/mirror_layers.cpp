@@ -12,7 +12,7 @@ namespace {
 constexpr Index count = 2000;
 constexpr double apart = 0.05, size = 3.4;
 
-// Points as normal and place, mirrored in z = 0.
+// Points as normal and position, mirrored in z = 0.
 template <typename Draw>
 double single_layer(const Draw& draw) {
   MirrorLayers layers(apart, 0, size);
@@ -41,7 +41,7 @@ TEST(MirrorLayers, AreManyInABallWithinABall) {
             0);
 }
 
-// As the letter C on its back stands with four crossings over a place.
+// As the letter C on its back stands with four crossings over a position.
 TEST(MirrorLayers, AreManyInARingThatStandsOnTheMirror) {
   RandomCloud random(3);
   EXPECT_EQ(

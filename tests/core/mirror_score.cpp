@@ -15,8 +15,8 @@
 namespace symsurf {
 namespace {
 
-// An open, wavy sheet on either side of x = 0, each with points of its own; no other mirror.
-Points mirrored_sheets(std::uint64_t seed, Index count = 3000) {
+// An open, wavy surface on either side of x = 0, each with points of its own; no other mirror.
+Points mirrored_surfaces(std::uint64_t seed, Index count = 3000) {
   RandomCloud random(seed);
   Points points(count, 3);
   for (Index i = 0; i < points.rows(); ++i) {
@@ -52,7 +52,7 @@ struct Scored {
 
 TEST(MirrorScore, IsHighForTheTruthAndLowBesideIt) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points points = mirrored_sheets(seed);
+    const Points points = mirrored_surfaces(seed);
     const Scored score(points);
     EXPECT_GT(score(Plane({1, 0, 0}, 0)), 0.9) << seed;
     EXPECT_LT(score(Plane({1, 0, 0}, 0.1)), 0.3) << seed;
@@ -64,7 +64,7 @@ TEST(MirrorScore, IsHighForTheTruthAndLowBesideIt) {
 // Noise of 2 % of the diagonal, and sides that are unlike by less.
 TEST(MirrorScore, TellsTheUnlikeFromTheNoisy) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points alike = mirrored_sheets(seed);
+    const Points alike = mirrored_surfaces(seed);
     Points unlike = alike;
     for (Index i = 1; i < unlike.rows(); i += 2)
       unlike(i, 0) += 0.12 * std::sin(5 * unlike(i, 1)) * std::cos(4 * unlike(i, 2));
@@ -78,7 +78,7 @@ TEST(MirrorScore, TellsTheUnlikeFromTheNoisy) {
 // Of two mirrors that act alike the simpler one is meant.
 TEST(MirrorScore, PrefersThePlaneToACylinderThatIsNearlyOne) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points points = mirrored_sheets(seed);
+    const Points points = mirrored_surfaces(seed);
     const Scored score(points);
     EXPECT_GT(score(Plane({1, 0, 0}, 0)), score(Cylinder({-1e4, 0, 0}, {0, 1, 0}, 1e4))) << seed;
   }
@@ -86,7 +86,7 @@ TEST(MirrorScore, PrefersThePlaneToACylinderThatIsNearlyOne) {
 
 TEST(MirrorScore, DoesNotDependOnUnitAndPose) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points points = mirrored_sheets(seed);
+    const Points points = mirrored_surfaces(seed);
     const Matrix3 rotation = RandomCloud(seed + 50).rotation();
     const Vector3 shift(1e3, -20, 7);
     const Points moved = (1e-3 * points * rotation.transpose()).rowwise() + shift.transpose();
@@ -97,10 +97,10 @@ TEST(MirrorScore, DoesNotDependOnUnitAndPose) {
   }
 }
 
-// A cylinder about the sheets' own mirror carries images onto the bent sheets exactly.
+// A cylinder about the surfaces' own mirror carries images onto the bent surfaces exactly.
 TEST(MirrorScore, IsTheSameForAShapeAndItsBentCopy) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points straight = mirrored_sheets(seed);
+    const Points straight = mirrored_surfaces(seed);
     const double radius = 3;
     Points bent(straight.rows(), 3);
     for (Index i = 0; i < straight.rows(); ++i) {
@@ -115,10 +115,10 @@ TEST(MirrorScore, IsTheSameForAShapeAndItsBentCopy) {
 TEST(MirrorScore, DoesNotDependOnTheNumberOfPoints) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Plane plane({1, 0, 0}, 0), beside({1, 0, 0}, 0.02);
-    const Points many = mirrored_sheets(seed, 60000);
+    const Points many = mirrored_surfaces(seed, 60000);
     const double score = Scored(many)(plane), score_beside = Scored(many)(beside);
     for (const Index count : {1500, 5000, 20000}) {
-      const Points fewer = mirrored_sheets(seed, count);
+      const Points fewer = mirrored_surfaces(seed, count);
       EXPECT_NEAR(Scored(fewer)(plane), score, 0.05) << seed << ' ' << count;
       EXPECT_NEAR(Scored(fewer)(beside), score_beside, 0.15) << seed << ' ' << count;
     }
@@ -129,7 +129,7 @@ TEST(MirrorScore, DoesNotDependOnTheNumberOfPoints) {
 TEST(MirrorScore, IsNotRaisedByNoise) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
     for (const double bump : {0.0, 0.02, 0.12}) {
-      Points points = mirrored_sheets(seed);
+      Points points = mirrored_surfaces(seed);
       for (Index i = 1; i < points.rows(); i += 2)
         points(i, 0) += bump * std::sin(5 * points(i, 1)) * std::cos(4 * points(i, 2));
       const Plane plane({1, 0, 0}, 0);
@@ -145,7 +145,7 @@ TEST(MirrorScore, IsNotRaisedByNoise) {
 // Points without a partner count against a mirror.
 TEST(MirrorScore, FallsWithTheShareThatIsMissing) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Points points = mirrored_sheets(seed);
+    const Points points = mirrored_surfaces(seed);
     std::vector<Index> kept;
     for (Index i = 0; i < points.rows(); ++i)
       if (points(i, 0) > 0 || points(i, 2) < 0) kept.push_back(i);

@@ -130,12 +130,12 @@ TEST(Outliers, AreNoPartsOfTheObject) {
 
 TEST(Outliers, LeaveAnArea) {
   RandomCloud random(0);
-  // All in one place but two; all on a line but one.
-  Points place = Points::Zero(100, 3), line = Points::Zero(100, 3);
-  place.topRows(2) = 1000 * random.box(2);
+  // All in one position but two; all on a line but one.
+  Points position = Points::Zero(100, 3), line = Points::Zero(100, 3);
+  position.topRows(2) = 1000 * random.box(2);
   line.col(0) = Eigen::VectorXd::LinSpaced(100, 0, 1);
   line.row(0) << 0, 1000, 0;
-  EXPECT_FALSE(has_outliers(place));
+  EXPECT_FALSE(has_outliers(position));
   EXPECT_FALSE(has_outliers(line));
 }
 
@@ -152,7 +152,7 @@ TEST(Clutter, DoesNotHideThePlane) {
       }
 }
 
-TEST(Clutter, IsNotWhereASheetIsSparse) {
+TEST(Clutter, IsNotWhereASurfaceIsSparse) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);
     const Points points = ball(random, 40000);

@@ -14,18 +14,19 @@
 namespace symsurf {
 namespace {
 
-// Two sheets around a piece of a surface, at a distance that varies, under a random pose.
-struct Sheets {
+// Two surfaces around a piece of a surface, at a distance that varies, under a random pose.
+struct Surfaces {
   Points points;
   Matrix3 rotation;
   Vector3 shift;
 };
 
 template <typename SurfaceAndNormal>
-Sheets sheets_around(std::uint64_t seed, const SurfaceAndNormal& surface, double near, double far) {
+Surfaces surfaces_around(std::uint64_t seed, const SurfaceAndNormal& surface, double near,
+                         double far) {
   RandomCloud random(seed);
   constexpr int side = 22;
-  Sheets s{Points(2 * side * side, 3), random.rotation(), 5 * random.in_box()};
+  Surfaces s{Points(2 * side * side, 3), random.rotation(), 5 * random.in_box()};
   Index row = 0;
   for (int a = 0; a < side; ++a)
     for (int b = 0; b < side; ++b) {
@@ -48,9 +49,9 @@ double diagonal(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-TEST(Perpendicular, FindsTheCurvedMirrorBetweenTwoSheets) {
+TEST(Perpendicular, FindsTheCurvedMirrorBetweenTwoSurfaces) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);
     const Result result = detect(s.points, {.method = "perpendicular"});
     ASSERT_TRUE(result.mirror) << seed;
     EXPECT_GT(result.score, 0.8) << seed;
@@ -66,7 +67,7 @@ TEST(Perpendicular, FindsTheCurvedMirrorBetweenTwoSheets) {
 
 TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    Sheets s = sheets_around(seed, roof_tile, 0.05, 0.2);
+    Surfaces s = surfaces_around(seed, roof_tile, 0.05, 0.2);
     RandomCloud random(seed);
     const double noise = 0.015 * diagonal(s.points);
     for (Index i = 0; i < s.points.rows(); ++i)
@@ -82,7 +83,7 @@ TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
 
 TEST(Perpendicular, FitsACylinderToIt) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);
     const Result result = detect(s.points, {.method = "cylinder"});
     ASSERT_TRUE(result.mirror) << seed;
     const auto& found = dynamic_cast<const Cylinder&>(*result.mirror);
@@ -93,7 +94,7 @@ TEST(Perpendicular, FitsACylinderToIt) {
 
 TEST(Perpendicular, FitsAQuadricToIt) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);
     const Result result = detect(s.points, {.method = "quadric"});
     ASSERT_TRUE(result.mirror) << seed;
     const Cylinder truth(s.shift, s.rotation * Vector3::UnitY(), 2);
@@ -153,7 +154,7 @@ TEST(Auto, PrefersTheCylinderForTheBent) {
 
 TEST(Bend, StraightensABentShapeAndBendsItBack) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const Sheets s = sheets_around(seed, roof_tile, 0.25, 0.4);
+    const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);
     Cylinder cylinder(s.shift, s.rotation * Vector3::UnitY(), 2);
     cylinder.set_footprint(std::make_shared<Points>(s.points));
     const Points straight = bend(s.points, cylinder);
@@ -201,7 +202,7 @@ struct BentSolid {
   Points points, images;
 };
 
-// Two bodies on either side, joined by a bar: along a normal of the mirror there are many sheets.
+// Two bodies on either side, joined by a bar: along a normal of the mirror there are many surfaces.
 BentSolid dumbbell(RandomCloud& random) {
   constexpr Index count = 4000;
   BentSolid solid{Points(count, 3), Points(count, 3)};

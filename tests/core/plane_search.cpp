@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "random_cloud.h"
 
 namespace symsurf {

@@ -9,7 +9,7 @@
 namespace symsurf {
 namespace {
 
-// Two triangles that share an edge, in one place as -0.
+// Two triangles that share an edge, in one position as -0.
 const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, -0.0f, 0, 1, 1, 0.5f, 0, 1, 0};
 const Points merged = rows({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}});
 const Triangles shared = triangles({{0, 1, 2}, {1, 3, 2}});

@@ -81,15 +81,15 @@ TEST_P(SharedSlabs, AreNoNearerThanTheySay) {
   RandomCloud random(1);
   const Shared shared(random.box(size), GetParam(), random);
   const Vector3 along = random.direction();
-  const Points places = 2 * random.box(50);
+  const Points positions = 2 * random.box(50);
   shared.run([&](const Cloud& cloud, const Context& context) {
     const Slabs slabs = slabs_of(cloud, along, context);
     const int here = cloud.partition.processes()->rank();
     for (Index k = 0; k < slabs.points().size(); ++k) {
       EXPECT_EQ(slabs.distance(slabs.points()[k], here), 0);
-      for (Index q = 0; q < places.rows(); ++q) {
-        const Vector3 place = places.row(q);
-        ASSERT_LE(slabs.distance(place, here), (slabs.points()[k] - place).norm());
+      for (Index q = 0; q < positions.rows(); ++q) {
+        const Vector3 position = positions.row(q);
+        ASSERT_LE(slabs.distance(position, here), (slabs.points()[k] - position).norm());
       }
     }
   });
@@ -149,15 +149,15 @@ TEST_P(SharedSlabs, HaveTheNearestPointsOfTheWhole) {
     const Vector3 along = random.direction();
     const PointTree tree(shared.points);
     const NearestPoints whole(shared.points, tree, {});
-    std::vector<Vector3> places;  // points, and what lies beside the cloud as well
-    for (Index i = 0; i < size; i += 10) places.emplace_back(shared.points.row(i));
-    for (int k = 0; k < 100; ++k) places.push_back(1.5 * random.in_box());
+    std::vector<Vector3> positions;  // points, and what lies beside the cloud as well
+    for (Index i = 0; i < size; i += 10) positions.emplace_back(shared.points.row(i));
+    for (int k = 0; k < 100; ++k) positions.push_back(1.5 * random.in_box());
     shared.run([&](const Cloud& cloud, const Context& context) {
       const Slabs slabs = slabs_of(cloud, along, context);
       const PointTree own(slabs.points());
       const NearestPoints points(slabs, own, context);
-      EXPECT_EQ(points.second_nearest(places), whole.second_nearest(places));
-      EXPECT_EQ(points.nearest(places, 3), whole.nearest(places, 3));
+      EXPECT_EQ(points.second_nearest(positions), whole.second_nearest(positions));
+      EXPECT_EQ(points.nearest(positions, 3), whole.nearest(positions, 3));
     });
   }
 }

@@ -96,17 +96,17 @@ TEST(SphereMethod, FindsSpheresOfManyDiagonalsToRounding) {
 // Where planes are all there is.
 TEST(SphereMethod, MakesNoSphereOfAPlane) {
   RandomCloud random(1);
-  Points grid(100, 3), sheets(800, 3);
+  Points grid(100, 3), surfaces(800, 3);
   for (Index i = 0; i < 100; ++i) grid.row(i) << i % 10, i / 10, 0;
   for (Index i = 0; i < 400; ++i) {
     const double x = random.uniform(0, 1), y = random.uniform(0, 1);
     const double z = 0.3 + 0.1 * std::sin(6 * x) * y;
-    sheets.row(2 * i) << x, y, z;
-    sheets.row(2 * i + 1) << x, y, -z;
+    surfaces.row(2 * i) << x, y, z;
+    surfaces.row(2 * i + 1) << x, y, -z;
   }
   Options options;
   options.method = "sphere";
-  for (const Points& points : {grid, sheets}) {
+  for (const Points& points : {grid, surfaces}) {
     const Result result = detect(points, options);
     if (!result.mirror) continue;
     const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();

@@ -204,7 +204,7 @@ TEST(SurfaceSamples, TakeCornersThatNobodyMergedForOne) {
   }
   EXPECT_EQ(samples_of(merged).rows() - merged.vertices.rows(),
             samples_of(soup).rows() - soup.vertices.rows());
-  // As are faces with two sides: no two samples are in one place.
+  // As are faces with two sides: no two samples are in one position.
   TestMesh twice = merged;
   twice.add(Points(0, 3),
             Triangles(merged.faces.rowwise().reverse().array() - merged.vertices.rows()));

@@ -20,15 +20,17 @@ Points smoothed(const Points& points, double width) {
   const Surfels surfels(cloud, 400, {});
   Points result(points.rows(), 3);
   for (Index i = 0; i < points.rows(); ++i) {
-    const Vector3 x = cloud.frame.enter(points.row(i).transpose());
+    const Vector3 x = cloud.frame.to_frame(points.row(i).transpose());
     const Surfel& surfel = surfels[surfels.containing(x)];
-    result.row(i) = cloud.frame.leave(surfel.smoothed(x, width / cloud.frame.size)).transpose();
+    result.row(i) =
+        cloud.frame.from_frame(surfel.smoothed(x, width / cloud.frame.size)).transpose();
   }
   return result;
 }
 
-// A sheet across z, a rod along x: noise is taken off across them, and little is moved along them.
-TEST(Surfels, SmoothingTakesNoiseOffSheetsAndRods) {
+// A surface across z, a rod along x: noise is taken off across them, and little is moved along
+// them.
+TEST(Surfels, SmoothingTakesNoiseOffSurfacesAndRods) {
   constexpr double noise = 0.02;
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
     for (const Index along : {1, 2}) {

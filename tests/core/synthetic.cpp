@@ -111,7 +111,7 @@ TEST(MirrorFixed, PutsTheSurfaceMidwayInTheDirection) {
       for (const auto& pair : sample.pairs.rowwise()) {
         const Vector3 p = sample.points.row(pair[0]), q = sample.points.row(pair[1]);
         EXPECT_NEAR((p - q).cross(direction.normalized()).norm(), 0, 1e-14);
-        const Vector3 middle = truth.enter((p + q) / 2);
+        const Vector3 middle = truth.to_frame((p + q) / 2);
         EXPECT_NEAR(middle.z(), f(middle.x(), middle.y()), 1e-14);
         EXPECT_NEAR((sample.truth->reflect(p) - q).norm(), 0, 1e-14);
       }

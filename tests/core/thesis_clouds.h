@@ -6,7 +6,7 @@
 
 namespace symsurf {
 
-/// Small clouds of every kind that matters to searches: scattered, on sheets, on lattices where
+/// Small clouds of every kind that matters to searches: scattered, on surfaces, on lattices where
 /// distances tie exactly, in columns that projections lay on each other, with doubled points, flat.
 inline Points thesis_cloud(std::uint64_t seed) {
   RandomCloud random(seed);
@@ -18,7 +18,7 @@ inline Points thesis_cloud(std::uint64_t seed) {
       return random.sphere(n);
     case 2:
       return random.lattice(n, 3);
-    case 3: {  // two sheets, the second the first one's image along z
+    case 3: {  // two surfaces, the second the first one's image along z
       Points half = random.box(n), both(2 * n, 3);
       half.col(2) = half.col(2) / 10 + Eigen::VectorXd::Constant(n, 2);
       both << half, half;

@@ -9,7 +9,7 @@ namespace symsurf {
 enum class Mapping { Fixed, Perpendicular };
 
 /// The graph of a known surface as a mirror: the truth of generated samples. In the surface's own
-/// frame it is z = f(x, y); `transformed` places it elsewhere.
+/// frame it is z = f(x, y); `transformed` positions it elsewhere.
 class SurfaceMirror final : public Mirror {
  public:
   SurfaceMirror(const Surface& surface, Mapping mapping);
@@ -25,10 +25,10 @@ class SurfaceMirror final : public Mirror {
 
   /// The point of the graph closest to x, whatever the mapping: the nearest minimum to the best of
   /// a grid of starts, to rounding.
-  Vector3 closest(const Vector3& x) const { return place(closest_in_frame(enter(x))); }
+  Vector3 closest(const Vector3& x) const { return position(closest_in_frame(to_frame(x))); }
 
   /// x in the surface's frame, where the surface is z = f(x, y).
-  Vector3 enter(const Vector3& x) const {
+  Vector3 to_frame(const Vector3& x) const {
     return rotation_.transpose() * (x - translation_) / scale_;
   }
   /// Input units a unit of that frame.
@@ -47,7 +47,7 @@ class SurfaceMirror final : public Mirror {
   Mesh mesh_over(PointsView object, int resolution) const override;
   Vector3 foot_in_frame(const Vector3& x) const;
   Vector3 closest_in_frame(const Vector3& x) const;
-  Vector3 place(const Vector3& x) const { return scale_ * (rotation_ * x) + translation_; }
+  Vector3 position(const Vector3& x) const { return scale_ * (rotation_ * x) + translation_; }
 
   const Surface& surface_;
   Mapping mapping_;

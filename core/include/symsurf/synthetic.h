@@ -19,7 +19,7 @@ struct Sample {
   Index skipped = 0;  ///< points left out: f undefined there, or outside the sphere
 };
 
-/// Points (x, y, f(x, y)) on a grid of resolution x resolution places, x and y from -extent to
+/// Points (x, y, f(x, y)) on a grid of resolution x resolution positions, x and y from -extent to
 /// extent; those where f is undefined are left out. Throws InvalidParameter for an extent that is
 /// not finite and above 0 or a resolution below 2, InvalidInput where no point is left.
 Points sampled_surface(const Surface& surface, double extent, Index resolution);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/rows_of.h"
+#include "base/math.h"
 
 namespace symsurf {
 

@@ -1,3 +1,5 @@
+#include "cloud/normals.h"
+
 #include <symsurf/errors.h>
 #include <symsurf/normals.h>
 
@@ -8,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
-#include "cloud/tree_normals.h"
 
 namespace symsurf {
 

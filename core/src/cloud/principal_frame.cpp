@@ -33,11 +33,11 @@ std::vector<Vector3> first_of(PointsView points) {
 
 }  // namespace
 
-Vector3 PrincipalFrame::enter(const Vector3& x) const {
+Vector3 PrincipalFrame::to_frame(const Vector3& x) const {
   return axes.transpose() * (x - centroid) * (1 / size);
 }
 
-Vector3 PrincipalFrame::leave(const Vector3& x) const { return centroid + size * (axes * x); }
+Vector3 PrincipalFrame::from_frame(const Vector3& x) const { return centroid + size * (axes * x); }
 
 PrincipalFrame principal_frame(PointsView points, const Partition& partition,
                                const Context& context) {

@@ -18,8 +18,8 @@ struct PrincipalFrame {
   Vector3 variance = Vector3::Zero();  ///< along the axes, in input units squared
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();  ///< the box, in the frame
 
-  Vector3 enter(const Vector3& x) const;
-  Vector3 leave(const Vector3& x) const;
+  Vector3 to_frame(const Vector3& x) const;
+  Vector3 from_frame(const Vector3& x) const;
 };
 
 /// Of the points of all processes, which must be finite. A cloud of equal points gets a size of 0.

@@ -7,7 +7,7 @@
 
 namespace symsurf {
 
-/// Which surfel lies nearest to any place, to half a cell: one look-up instead of a search.
+/// Which surfel lies nearest to any position, to half a cell: one look-up instead of a search.
 class SurfelMap {
  public:
   explicit SurfelMap(const Surfels& surfels);

@@ -18,7 +18,7 @@ constexpr Index points_a_task = 1 << 16;
 constexpr double least_width = 1e-8;  // of the squared width against the squared length
 constexpr int finest_cells = 128;     // along the longest side
 // Clutter are cells with so much less than the cell of the median point, if many of those that
-// touch none with more fill space, as sheets and rods do not. Few points cannot tell.
+// touch none with more fill space, as surfaces and rods do not. Few points cannot tell.
 constexpr double sparse = 0.05, many = 0.02, telling = 6;
 constexpr Index mostly = 2;             // filling ones for one that is thin
 constexpr double thin_variance = 0.06;  // of that along the longest direction
@@ -138,8 +138,8 @@ Points Surfels::positions(Index count) const {
   return positions;
 }
 
-// Sheets fill cells as the square of the resolution, so two or three guesses are enough. The first
-// is that edge of a cell, where it is given.
+// Surfaces fill cells as the square of the resolution, so two or three guesses are enough. The
+// first is that edge of a cell, where it is given.
 void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context) {
   const double longest = (cloud.frame.high - cloud.frame.low).maxCoeff();
   double cells =
@@ -148,7 +148,7 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
   for (int k = 0; k < guesses; ++k) {
     grid_ = CellGrid(cloud.frame.low, cloud.frame.high, longest / cells);
     for (Index i = 0; i < cloud.points.size(); ++i) {
-      const Vector3 x = cloud.frame.enter(cloud.points[i]);
+      const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
       if (!is_clutter(x)) grid_.occupy(grid_.cells().cell_of(x));
     }
     for (const OccupiedCells::Words& part : cloud.partition.gather(grid_.words()))
@@ -165,7 +165,7 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
 std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Context& context) const {
   std::vector<Patch> patches(grid_.count());
   for (Index i = 0; i < cloud.points.size(); ++i) {
-    const Vector3 x = cloud.frame.enter(cloud.points[i]);
+    const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
     if (is_clutter(x)) continue;
     const CellGrid::Cell c = grid_.cells().cell_of(x);
     Patch& patch = patches[grid_.number(c)];

@@ -13,7 +13,7 @@ namespace symsurf {
 /// The plane through a patch of the cloud.
 struct Facet {
   Vector3 normal;   ///< unit, sign arbitrary
-  double flatness;  ///< 1: the patch is a sheet, 0: a blob or a line, without a normal
+  double flatness;  ///< 1: the patch is a surface, 0: a blob or a line, without a normal
 };
 
 /// A patch of the cloud: the points of one grid cell, as their mean, and with the cells around as
@@ -53,7 +53,7 @@ class Surfels {
   /// Edge of a cell, about the distance between surfels.
   double spacing() const { return grid_.cells().edge(); }
 
-  /// The same of that many points, all the cloud has: on a sheet.
+  /// The same of that many points, all the cloud has: on a surface.
   double spacing_of(Index points) const {
     return spacing() * std::sqrt(static_cast<double>(size()) / static_cast<double>(points));
   }

@@ -23,13 +23,13 @@ class Workplace {
     if ((low.array() <= high.array()).all()) centre_ = low + (high - low) / 2;
     if ((low.array() < high.array()).any()) extent_ = (high - low).maxCoeff();
     Points entered(object.size(), 3);
-    for (Index i = 0; i < object.size(); ++i) entered.row(i) = enter(object[i]).transpose();
+    for (Index i = 0; i < object.size(); ++i) entered.row(i) = to_frame(object[i]).transpose();
     mirror_ = mirror.transformed(1 / extent_, Matrix3::Identity(), -centre_ / extent_);
     chart_ = chart_of(*mirror_, entered);
   }
 
-  Vector3 enter(const Vector3& x) const { return (x - centre_) / extent_; }
-  Vector3 leave(const Vector3& x) const { return centre_ + extent_ * x; }
+  Vector3 to_frame(const Vector3& x) const { return (x - centre_) / extent_; }
+  Vector3 from_frame(const Vector3& x) const { return centre_ + extent_ * x; }
   const Mirror& mirror() const { return *mirror_; }
   const Chart& chart() const { return *chart_; }
 
@@ -57,21 +57,22 @@ Vector3 restored(const Vector3& x, const Chart& chart) {
 }  // namespace
 
 Points bend(PointsView points, const Mirror& mirror, Bend way) {
-  const Workplace place(mirror, points);
+  const Workplace position(mirror, points);
   Points out(points.size(), 3);
   for (Index i = 0; i < points.size(); ++i) {
-    const Vector3 x = place.enter(points[i]);
-    const Vector3 carried = way == Bend::Straighten ? straightened(x, place.mirror(), place.chart())
-                                                    : restored(x, place.chart());
-    out.row(i) = place.leave(carried).transpose();
+    const Vector3 x = position.to_frame(points[i]);
+    const Vector3 carried = way == Bend::Straighten
+                                ? straightened(x, position.mirror(), position.chart())
+                                : restored(x, position.chart());
+    out.row(i) = position.from_frame(carried).transpose();
   }
   return out;
 }
 
 Plane straight_mirror(const Mirror& mirror, PointsView object) {
-  const Workplace place(mirror, object);
-  const Vector3 normal = place.chart().axes().col(2);
-  return Plane(normal, -normal.dot(place.leave(place.chart().origin())));
+  const Workplace position(mirror, object);
+  const Vector3 normal = position.chart().axes().col(2);
+  return Plane(normal, -normal.dot(position.from_frame(position.chart().origin())));
 }
 
 }  // namespace symsurf

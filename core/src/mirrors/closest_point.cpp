@@ -8,15 +8,15 @@ namespace symsurf {
 
 namespace {
 
-using Place = Eigen::Vector2d;
+using Position = Eigen::Vector2d;
 
 class Search {
  public:
   Search(const Surface& surface, const Vector3& p) : surface_(surface), p_(p) {}
 
-  Place at = Place::Zero();
+  Position at = Position::Zero();
 
-  double squared(const Place& s) const {
+  double squared(const Position& s) const {
     const double height = surface_(s.x(), s.y());
     if (!std::isfinite(height)) return std::numeric_limits<double>::infinity();
     return (s - p_.head<2>()).squaredNorm() + (height - p_.z()) * (height - p_.z());
@@ -24,10 +24,10 @@ class Search {
 
   void start(double reach) {
     constexpr int half = 12;
-    const Place middle = p_.head<2>();
+    const Position middle = p_.head<2>();
     at = middle;
     for (int i = -half; i <= half; ++i)
-      for (int j = -half; j <= half; ++j) take(middle + reach / half * Place(i, j));
+      for (int j = -half; j <= half; ++j) take(middle + reach / half * Position(i, j));
     step_ = reach / half;
   }
 
@@ -37,8 +37,9 @@ class Search {
       bool moved = true;
       while (moved) {
         moved = false;
-        for (const Place& way : {Place(1, 0), Place(-1, 0), Place(0, 1), Place(0, -1), Place(1, 1),
-                                 Place(-1, -1), Place(1, -1), Place(-1, 1)})
+        for (const Position& way :
+             {Position(1, 0), Position(-1, 0), Position(0, 1), Position(0, -1), Position(1, 1),
+              Position(-1, -1), Position(1, -1), Position(-1, 1)})
           moved |= take(at + step_ * way);
       }
     }
@@ -47,17 +48,17 @@ class Search {
   // False where it does not come to rest: at a crease.
   bool newton() {
     for (int iteration = 0; iteration < 12; ++iteration) {
-      const Place g = half_gradient(at);
+      const Position g = half_gradient(at);
       if (!g.allFinite()) return false;
       constexpr double h = 1e-6;
       Eigen::Matrix2d hessian;
       hessian.col(0) =
-          (half_gradient(at + Place(h, 0)) - half_gradient(at - Place(h, 0))) / (2 * h);
+          (half_gradient(at + Position(h, 0)) - half_gradient(at - Position(h, 0))) / (2 * h);
       hessian.col(1) =
-          (half_gradient(at + Place(0, h)) - half_gradient(at - Place(0, h))) / (2 * h);
-      const Place delta = hessian.fullPivLu().solve(g);
+          (half_gradient(at + Position(0, h)) - half_gradient(at - Position(0, h))) / (2 * h);
+      const Position delta = hessian.fullPivLu().solve(g);
       if (!delta.allFinite() || delta.norm() > 1e-2) return false;
-      const Place next = at - delta;
+      const Position next = at - delta;
       if (squared(next) > squared(at) * (1 + 1e-12) + 1e-30) return false;
       at = next;
       if (delta.norm() < 1e-15 * (1 + at.norm())) return true;
@@ -66,12 +67,12 @@ class Search {
   }
 
  private:
-  bool take(const Place& candidate) {
+  bool take(const Position& candidate) {
     if (!(squared(candidate) < squared(at))) return false;
     at = candidate;
     return true;
   }
-  Place half_gradient(const Place& s) const {
+  Position half_gradient(const Position& s) const {
     return s - p_.head<2>() + (surface_(s.x(), s.y()) - p_.z()) * surface_.gradient(s.x(), s.y());
   }
 

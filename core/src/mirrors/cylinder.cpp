@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/unit_length.h"
+#include "base/math.h"
 #include "mirrors/grid_mesh.h"
 
 namespace symsurf {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "base/finite_rows.h"
+#include "base/math.h"
 #include "mirrors/free_form_blend.h"
 #include "mirrors/surface_net.h"
 

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "base/orthogonal_to.h"
-#include "base/rows_of.h"
+#include "base/math.h"
 #include "base/symmetric_eigen.h"
-#include "base/unit_length.h"
 #include "mirrors/grid_mesh.h"
 #include "mirrors/height_interpolant.h"
 

@@ -12,7 +12,7 @@ namespace symsurf {
 /// Renka (1988), with the nearest nodes in place of a fixed radius of influence.
 class HeightInterpolant {
  public:
-  /// Rows (u, v, height), at least one. Nodes at the same place: the first counts.
+  /// Rows (u, v, height), at least one. Nodes at the same position: the first counts.
   explicit HeightInterpolant(const Points& nodes);
 
   double operator()(const Eigen::Vector2d& at) const;

@@ -9,10 +9,10 @@ namespace symsurf {
 
 namespace {
 
-constexpr double facing = 0.5;  // cosine: 60 degrees from the mirror's normal
-constexpr double steepest = 2;  // that a surface that faces the mirror rises over it
-constexpr double near = 0.02;   // of the size
-// Shares of the cloud: sheets that cross themselves at a crease, and bodies that close.
+constexpr double normal_consistency = 0.5;  // cosine: 60 degrees from the mirror's normal
+constexpr double steepest = 2;              // that a surface that faces the mirror rises over it
+constexpr double near = 0.02;               // of the size
+// Shares of the cloud: surfaces that cross themselves at a crease, and bodies that close.
 constexpr double creased = 0.03, closed = 0.055;
 constexpr double layers_in_many_places = 0.025;
 
@@ -22,7 +22,7 @@ void MirrorLayers::add(const Vector3& x, const Vector3& normal, const Vector3& i
   ++added_;
   const Vector3 chord = image - x;
   const double distance = chord.norm() / 2;
-  if (std::abs(normal.dot(chord)) > facing * 2 * distance)
+  if (std::abs(normal.dot(chord)) > normal_consistency * 2 * distance)
     facing_.push_back({(x + image) / 2, distance});
   else if (distance < near * size_)
     ++crossing_;
@@ -35,10 +35,10 @@ double MirrorLayers::single() const {
   const PointTree tree(feet);
   const double least = steepest * apart_ + rough_;
   Index layered = 0;
-  for (const Place& place : facing_) {
+  for (const Position& position : facing_) {
     bool other = false;
-    tree.within(place.foot, apart_, [&](Index k, double) {
-      other = other || std::abs(facing_[k].distance - place.distance) > least;
+    tree.within(position.foot, apart_, [&](Index k, double) {
+      other = other || std::abs(facing_[k].distance - position.distance) > least;
     });
     layered += other;
   }

@@ -22,7 +22,7 @@ std::shared_ptr<Mirror> fitted_sphere(PointsView points, const PrincipalFrame& f
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (Index i = 0; i < points.size(); ++i) {
-    const Vector3 x = frame.enter(points[i]);
+    const Vector3 x = frame.to_frame(points[i]);
     const Eigen::Vector4d row(2 * x.x(), 2 * x.y(), 2 * x.z(), 1);
     normal += row * row.transpose();
     right += x.squaredNorm() * row;
@@ -31,7 +31,7 @@ std::shared_ptr<Mirror> fitted_sphere(PointsView points, const PrincipalFrame& f
   const Vector3 centre = solution.head<3>();
   const double radius = std::sqrt(solution[3] + centre.squaredNorm());
   if (!std::isfinite(radius) || !(radius > 0)) return nullptr;
-  return std::make_shared<Sphere>(frame.leave(centre), frame.size * radius);
+  return std::make_shared<Sphere>(frame.from_frame(centre), frame.size * radius);
 }
 
 }  // namespace

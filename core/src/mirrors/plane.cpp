@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/symmetric_eigen.h"
-#include "base/unit_length.h"
 #include "mirrors/grid_mesh.h"
 
 namespace symsurf {

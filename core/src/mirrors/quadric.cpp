@@ -4,8 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "base/finite_rows.h"
-#include "base/infinity.h"
+#include "base/math.h"
 #include "base/symmetric_eigen.h"
 #include "mirrors/surface_net.h"
 

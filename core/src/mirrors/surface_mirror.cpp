@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/math.h"
 #include "mirrors/closest_point.h"
 #include "mirrors/grid_mesh.h"
 
@@ -61,10 +61,10 @@ Vector3 SurfaceMirror::foot_in_frame(const Vector3& x) const {
   return std::isfinite(height) ? Vector3(x.x(), x.y(), height) : no_point();
 }
 
-Vector3 SurfaceMirror::foot(const Vector3& x) const { return place(foot_in_frame(enter(x))); }
+Vector3 SurfaceMirror::foot(const Vector3& x) const { return position(foot_in_frame(to_frame(x))); }
 
 double SurfaceMirror::signed_distance(const Vector3& x) const {
-  const Vector3 inside = enter(x), foot = foot_in_frame(inside);
+  const Vector3 inside = to_frame(x), foot = foot_in_frame(inside);
   const double height = surface_(inside.x(), inside.y());
   const bool below = std::isfinite(height) ? inside.z() < height : inside.z() < foot.z();
   return scale_ * (below ? -1 : 1) * (inside - foot).norm();
@@ -90,7 +90,7 @@ std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& 
 Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
   Eigen::Array2d low = Eigen::Array2d::Constant(infinity), high = -low;
   for (Index i = 0; i < object.size(); ++i) {
-    const Vector3 foot = foot_in_frame(enter(object[i]));
+    const Vector3 foot = foot_in_frame(to_frame(object[i]));
     if (!foot.allFinite()) continue;
     low = low.min(foot.head<2>().array());
     high = high.max(foot.head<2>().array());
@@ -102,7 +102,7 @@ Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
   const GridCells cells = grid_cells(size.x(), size.y(), resolution);
   const Mesh grid = grid_mesh(cells, [&](double s, double t) -> Vector3 {
     const double x = low.x() + s * size.x(), y = low.y() + t * size.y();
-    return place({x, y, surface_(x, y)});
+    return position({x, y, surface_(x, y)});
   });
   return without_holes(grid);
 }

@@ -7,9 +7,9 @@
 #include <map>
 #include <vector>
 
-#include "base/rows_of.h"
+#include "base/math.h"
 #include "base/symmetric_eigen.h"
-#include "cloud/sheet_spacing.h"
+#include "cloud/surface_spacing.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -82,11 +82,11 @@ Mesh surface_net(const Points& on_surface, int resolution,
     return below > 0 && below < 8;
   };
 
-  // Between points spread over a sheet there are no gaps as wide; both points of an exact pair
-  // stand at one place.
+  // Between points spread over a surface there are no gaps as wide; both points of an exact pair
+  // stand at one position.
   constexpr double gap = 1.4;  // spacings
   const PointTree tree(on_surface);
-  const double reach = std::max(grid.cell, gap * sheet_spacing(on_surface, tree, 2));
+  const double reach = std::max(grid.cell, gap * surface_spacing(on_surface, tree, 2));
   std::vector<Cell> open;
   for (const auto& entry : vertex_of) open.push_back(entry.first);
   while (!open.empty()) {

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/math.h"
 #include "base/parallel.h"
-#include "base/quantile.h"
-#include "cloud/surroundings.h"
+#include "cloud/neighbourhood_moments.h"
 #include "preprocess/volumetric.h"
 #include "score/matching.h"
 #include "spatial/cells.h"
@@ -35,7 +35,7 @@ std::vector<Index> outer_positions(const Cloud& cloud, const PointTree& tree,
   const PrincipalFrame& frame = cloud.frame;
   const double volume = (frame.high - frame.low).prod() / static_cast<double>(positions.size());
   const Cells cells(frame.low, frame.high, std::cbrt(in_cell * volume));
-  const auto cell_of = [&](Index i) { return cells.cell_of(frame.enter(cloud.points[i])); };
+  const auto cell_of = [&](Index i) { return cells.cell_of(frame.to_frame(cloud.points[i])); };
   std::vector<Index> held(cells.count()), occupied;
   interruptible_for(context, cloud.points.size(),
                     [&](Index i) { ++held[cells.number(cell_of(i))]; });
@@ -69,10 +69,10 @@ std::vector<Index> boundary_of(const Cloud& cloud, const Context& context) {
   const PointTree tree(cloud.points, context);
   const std::vector<Index> positions = outer_positions(cloud, tree, context);
   std::vector<char> is_boundary(positions.size());
-  visit_surroundings(cloud.points, tree, neighbours, positions, context,
-                     [&](Index v, const Surroundings& around) {
-                       is_boundary[v] = around.one_sided() > one_sided;
-                     });
+  visit_neighbourhoods(cloud.points, tree, neighbours, positions, context,
+                       [&](Index v, const NeighbourhoodMoments& around) {
+                         is_boundary[v] = around.one_sided() > one_sided;
+                       });
   std::vector<Index> boundary;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (is_boundary[v]) boundary.push_back(tree.order()[positions[v]]);

@@ -52,7 +52,9 @@ class Body {
   using Counts = Eigen::ArrayX<Index>;
   static constexpr double edge = 1. / 16;  // diagonals
 
-  Index number_at(const Vector3& x) const { return cells_.number(cells_.cell_of(frame_.enter(x))); }
+  Index number_at(const Vector3& x) const {
+    return cells_.number(cells_.cell_of(frame_.to_frame(x)));
+  }
 
   Counts counts_of(PointsView own, const Partition& partition, const Context& context) const {
     constexpr Index grain = 1 << 16;

@@ -4,11 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/math.h"
 #include "base/parallel.h"
-#include "base/quantile.h"
-#include "base/rows_of.h"
 #include "base/symmetric_eigen.h"
-#include "cloud/surroundings.h"
+#include "cloud/neighbourhood_moments.h"
 #include "spatial/point_hash.h"
 
 namespace symsurf {
@@ -63,10 +62,11 @@ class Sample {
 
   // By the k nearest of each point.
   Look look(Index k) const {
-    const auto looks = of_surroundings<Look>(k, effort_.queried, [](const Surroundings& around) {
-      const LeastEigen spread = least_eigen_of(around.covariance);
-      return Look{spread.value / spread.greatest, around.one_sided() > aside ? 1.0 : 0.0};
-    });
+    const auto looks =
+        of_surroundings<Look>(k, effort_.queried, [](const NeighbourhoodMoments& around) {
+          const LeastEigen spread = least_eigen_of(around.covariance);
+          return Look{spread.value / spread.greatest, around.one_sided() > aside ? 1.0 : 0.0};
+        });
     std::vector<double> roundness;
     double one_sided = 0;
     for (const Look& look : looks) {
@@ -79,7 +79,7 @@ class Sample {
   // The share of points that are sparse, compared with those in the vicinity.
   double sparse_share() const {
     const auto densities =
-        of_surroundings<double>(near, points_.rows(), [](const Surroundings& around) {
+        of_surroundings<double>(near, points_.rows(), [](const NeighbourhoodMoments& around) {
           return 1 / (around.radius * around.radius * around.radius);
         });
     std::vector<double> density(densities.size());
@@ -107,8 +107,9 @@ class Sample {
     for (Index position = 0; position < points_.rows(); position += stride(wanted))
       positions.push_back(position);
     std::vector<T> values(positions.size());
-    visit_surroundings(points_, tree_, k, positions, context_,
-                       [&](Index v, const Surroundings& around) { values[v] = value(around); });
+    visit_neighbourhoods(
+        points_, tree_, k, positions, context_,
+        [&](Index v, const NeighbourhoodMoments& around) { values[v] = value(around); });
     return values;
   }
 

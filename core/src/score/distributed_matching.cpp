@@ -52,7 +52,7 @@ class DistributedMatching {
   }
 
  private:
-  using Places = std::span<const std::int32_t>;
+  using Positions = std::span<const std::int32_t>;
 
   // In the tree's order: images that follow each other lie close together.
   std::vector<std::int32_t> within_reach_of(int process) const {
@@ -61,10 +61,10 @@ class DistributedMatching {
       const double distance = slabs_.distance(mirror_.reflect(slabs_.points()[i]), process);
       within[i] = distance * distance <= best(i);
     }
-    std::vector<std::int32_t> places;
-    std::copy_if(tree_->order().begin(), tree_->order().end(), std::back_inserter(places),
+    std::vector<std::int32_t> positions;
+    std::copy_if(tree_->order().begin(), tree_->order().end(), std::back_inserter(positions),
                  [&](std::int32_t i) { return within[i]; });
-    return places;
+    return positions;
   }
 
   // Squared.
@@ -72,20 +72,20 @@ class DistributedMatching {
 
   // Asks about images that may have a nearer partner there, and answers the other's questions.
   void consult(int other) {
-    const std::vector<std::int32_t> places = within_reach_of(other);
-    const auto counts = send_recv(processes_, other, std::vector<std::size_t>{places.size()});
-    for (std::size_t at = 0; at < std::max(places.size(), counts.front()); at += chunk) {
-      const std::size_t begin = std::min(at, places.size());
-      const Places asked(places.data() + begin, std::min(chunk, places.size() - begin));
+    const std::vector<std::int32_t> positions = within_reach_of(other);
+    const auto counts = send_recv(processes_, other, std::vector<std::size_t>{positions.size()});
+    for (std::size_t at = 0; at < std::max(positions.size(), counts.front()); at += chunk) {
+      const std::size_t begin = std::min(at, positions.size());
+      const Positions asked(positions.data() + begin, std::min(chunk, positions.size() - begin));
       const auto given = send_recv(processes_, other, questions(asked));
       keep_nearer(asked, send_recv(processes_, other, answers(given)));
     }
   }
 
-  std::vector<Question> questions(Places places) const {
+  std::vector<Question> questions(Positions positions) const {
     std::vector<Question> asked;
-    asked.reserve(places.size());
-    for (const std::int32_t i : places)
+    asked.reserve(positions.size());
+    for (const std::int32_t i : positions)
       asked.push_back({mirror_.reflect(slabs_.points()[i]), best(i)});
     return asked;
   }
@@ -102,9 +102,9 @@ class DistributedMatching {
     return partners;
   }
 
-  void keep_nearer(Places places, const std::vector<Partner>& partners) {
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const std::int32_t i = places[k];
+  void keep_nearer(Positions positions, const std::vector<Partner>& partners) {
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      const std::int32_t i = positions[k];
       if (!(partners[k].neighbour < (*this)[i].neighbour)) continue;
       found_.index[i] = static_cast<std::int32_t>(slabs_.points().size() + others_.size());
       found_.squared[i] = partners[k].neighbour.squared_distance;

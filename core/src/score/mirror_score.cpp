@@ -6,10 +6,10 @@
 #include <iterator>
 #include <map>
 
-#include "base/quantile.h"
-#include "cloud/sheet_noise.h"
+#include "base/math.h"
+#include "cloud/surface_noise.h"
 #include "mirrors/mirror_layers.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
@@ -42,7 +42,7 @@ constexpr double rounding = 1e-6;      // single precision
 // `cost`.
 struct Freedom {
   double by_chance = 0, cost = 0;
-  bool any_shape = false;  // it may have any height over each place
+  bool any_shape = false;  // it may have any height over each position
 };
 
 Freedom freedom_of(std::string_view kind) {
@@ -98,9 +98,9 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
 }
 
 double MirrorScore::measured_noise() const {
-  std::vector<OnSheet> samples;
+  std::vector<OnSurface> samples;
   for (Index k = 0; k < coarse_.size(); ++k) samples.push_back({coarse_[k].sampled, &coarse_[k]});
-  return SheetNoise(samples, neighbours_of(samples, cloud_.frame, points_)).deviation();
+  return SurfaceNoise(samples, neighbours_of(samples, cloud_.frame, points_)).deviation();
 }
 
 void MirrorScore::choose_radius() {
@@ -161,9 +161,9 @@ MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
   Points images(thinned_.points.rows(), 3);
   std::vector<double> weights;
   for (Index i = 0; i < images.rows(); ++i) {
-    const Vector3 image = mirror.reflect(frame.leave(thinned_.points.row(i).transpose()));
+    const Vector3 image = mirror.reflect(frame.from_frame(thinned_.points.row(i).transpose()));
     if (!image.allFinite()) continue;
-    images.row(static_cast<Index>(weights.size())) = frame.enter(image).transpose();
+    images.row(static_cast<Index>(weights.size())) = frame.to_frame(image).transpose();
     weights.push_back(thinned_.weights[i]);
   }
   images.conservativeResize(static_cast<Index>(weights.size()), 3);
@@ -215,7 +215,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   for (std::size_t k = 0; k < samples_.size(); k += stride) {
     const Sample& sample = samples_[k];
     all += sample.weight();
-    const Vector3 x = frame.leave(sample.position), image = mirror.reflect(x);
+    const Vector3 x = frame.from_frame(sample.position), image = mirror.reflect(x);
     if (!image.allFinite()) {
       weights += sample.weight();
       continue;

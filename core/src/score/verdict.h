@@ -4,7 +4,7 @@
 
 namespace symsurf {
 
-/// A mirror is found where it maps half of what it moves onto the shape. Of random solids, sheets
+/// A mirror is found where it maps half of what it moves onto the shape. Of random solids, surfaces
 /// and volumes without one the best scores 0.4 (`make accuracy OPTIONS="--cases none"`).
 inline constexpr double usual_minimum_score = 0.5;
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/infinity.h"
+#include "base/math.h"
 
 namespace symsurf {
 

@@ -24,7 +24,7 @@ class NearestPoints {
   /// The nearest point to each query, NaN where none is within `reach`.
   std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;
 
-  /// The nearest but one, copies of the nearest left out; of a single place, that one.
+  /// The nearest but one, copies of the nearest left out; of a single position, that one.
   std::vector<Vector3> second_nearest(const std::vector<Vector3>& queries) const;
 
  private:
@@ -32,7 +32,7 @@ class NearestPoints {
     Vector3 point;
     double squared;
   };
-  using Two = std::array<Found, 2>;  // in two places, the nearest first
+  using Two = std::array<Found, 2>;  // in two positions, the nearest first
   static const Found nothing;
 
   static Two nearer_two(Two a, Two b);

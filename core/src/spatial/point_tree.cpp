@@ -5,8 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/infinity.h"
-#include "base/k_best.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/radix_sort.h"
 

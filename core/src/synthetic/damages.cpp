@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "base/infinity.h"
+#include "base/math.h"
 
 namespace symsurf {
 

@@ -1,7 +1,7 @@
 #include <symsurf/errors.h>
 #include <symsurf/synthetic.h>
 
-#include "base/infinity.h"
+#include "base/math.h"
 
 namespace symsurf {
 

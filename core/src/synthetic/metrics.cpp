@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/finite_rows.h"
-#include "cloud/sheet_spacing.h"
+#include "base/math.h"
+#include "cloud/surface_spacing.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -66,7 +66,7 @@ SurfaceErrors surface_errors(PointsView surface_points, const Surface& surface) 
 
 SurfaceErrors surface_errors(PointsView surface_points, const SurfaceMirror& surface) {
   return errors_in_frame(surface_points, surface.surface(),
-                         [&](const Vector3& x) { return surface.enter(x); });
+                         [&](const Vector3& x) { return surface.to_frame(x); });
 }
 
 SphereErrors sphere_errors(const Sphere& found, const Sphere& truth, PointsView object) {
@@ -106,7 +106,7 @@ double coverage(PointsView surface_points, const Mirror& truth, PointsView objec
 
   constexpr double spacings = 3;
   constexpr Index copies = 2;  // a point and its image share a foot
-  if (tolerance == 0) reach = spacings * sheet_spacing(feet, PointTree(feet), copies);
+  if (tolerance == 0) reach = spacings * surface_spacing(feet, PointTree(feet), copies);
   const PointTree tree(covering);
   Index covered = 0;
   for (Index i = 0; i < rows; ++i) covered += tree.nearest(feet.row(i), reach * reach).index >= 0;

@@ -46,13 +46,13 @@ Index over_grid(double extent, Index resolution, const std::function<bool(double
   if (resolution < 2)
     throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is [2, inf)");
   Index refused = 0;
-  const auto place = [&](Index i) {
+  const auto position = [&](Index i) {
     // Symmetric about 0 to the last bit.
     return extent * static_cast<double>(2 * i - (resolution - 1)) /
            static_cast<double>(resolution - 1);
   };
   for (Index i = 0; i < resolution; ++i)
-    for (Index j = 0; j < resolution; ++j) refused += !visit(place(i), place(j));
+    for (Index j = 0; j < resolution; ++j) refused += !visit(position(i), position(j));
   return refused;
 }
 

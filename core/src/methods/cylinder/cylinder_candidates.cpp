@@ -18,7 +18,7 @@ constexpr int axes = 6;  // directions over the half circle, the first as the no
 // To both sides of the pair. In units of the inverse diagonal.
 constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6, 6.5, 9.0};
 
-// Of a tube, its own: the normals of its sheets lie across it.
+// Of a tube, its own: the normals of its surfaces lie across it.
 Vector3 axis_of_normals(const Surfels& surfels) {
   Matrix3 normals = Matrix3::Zero();
   for (Index i = 0; i < surfels.size(); ++i)

@@ -20,18 +20,19 @@ constexpr std::size_t polished_cylinders = 3;  // and of these, to ever more of 
 constexpr std::size_t rescanned = 4;           // candidates whose axis is looked at more closely
 constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
 constexpr double chance_explains = 0.35;  // what cylinders explain of random solids before that
-constexpr double hopeless = 0.6;          // of what the best explains: not worth fitting
+constexpr double far_below_best = 0.6;    // of what the best explains: not worth fitting
 constexpr double alike_cylinders = 0.04;  // cylinders closer than this are one
 constexpr double widest = 6;  // radius, in diagonals: wider ones are hardly told from planes
 
 Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
-  return {frame.leave(cylinder.point), frame.axes * cylinder.axis, frame.size * cylinder.radius};
+  return {frame.from_frame(cylinder.point), frame.axes * cylinder.axis,
+          frame.size * cylinder.radius};
 }
 
-void drop_hopeless(std::vector<CylinderCandidate>& candidates) {
-  const double least = hopeless * candidates.front().explained;
+void drop_far_below_best(std::vector<CylinderCandidate>& candidates) {
+  const double least = far_below_best * candidates.front().support;
   std::erase_if(candidates, [&](const CylinderCandidate& c) {
-    return c.explained < least || !(c.shape.radius < widest);
+    return c.support < least || !(c.shape.radius < widest);
   });
 }
 
@@ -50,18 +51,18 @@ std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::
   std::vector<CylinderCandidate> candidates =
       candidate_cylinders(surfels, map, seed, started, context);
   for (CylinderCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
-  keep_distinct(surfels, candidates, alike_cylinders, started);
-  if (!candidates.empty()) drop_hopeless(candidates);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, started);
+  if (!candidates.empty()) drop_far_below_best(candidates);
   for (CylinderCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
-  keep_distinct(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   const std::size_t found = std::min(rescanned, candidates.size());
   for (std::size_t i = 0; i < found; ++i)
     for (const double angle : angles)
-      candidates.push_back(settled(
+      candidates.push_back(refined_on_surfels(
           surfels, map, CylinderCandidate{turned(candidates[i].shape, angle)}, 0.02, 0.012, 4, 1));
-  keep_distinct(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   return candidates;
 }
 
@@ -77,14 +78,14 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   const NearestPoints points(cloud.points, tree, context);
   const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.7));
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
-  keep_distinct(surfels, candidates, alike_cylinders, fitted_to_all);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
-  keep_distinct(surfels, candidates, alike_cylinders, fitted_to_all);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
-    if (i == 0 || candidates[i].explained > chance_explains)
+    if (i == 0 || candidates[i].support > chance_explains)
       candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
-  keep_distinct(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
-  drop_hopeless(candidates);
+  suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
+  drop_far_below_best(candidates);
   context.report(0.7);
   if (candidates.empty()) return best;
 

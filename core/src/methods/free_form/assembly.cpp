@@ -11,26 +11,26 @@ constexpr std::size_t most_refined = 3;
 constexpr double worth_refining = 0.7;  // of the best rank
 
 // Of mirrors that explain about the same the curved one comes first: planes have their own method.
-double rank(const Sheet& sheet) { return (is_flat(sheet) ? 0.85 : 1) * sheet.explained; }
-bool ranks_higher(const Sheet& a, const Sheet& b) { return rank(a) > rank(b); }
+double rank(const GrownSurface& surface) { return (is_flat(surface) ? 0.85 : 1) * surface.support; }
+bool ranks_higher(const GrownSurface& a, const GrownSurface& b) { return rank(a) > rank(b); }
 
-// How well the points that a sheet carries land.
-double precision(const SearchCloud& cloud, const Sheet& sheet) {
-  return sheet.explained * static_cast<double>(cloud.size()) /
-         static_cast<double>(sheet.carried.size());
+// How well the points that a surface carries land.
+double precision(const SearchCloud& cloud, const GrownSurface& surface) {
+  return surface.support * static_cast<double>(cloud.size()) /
+         static_cast<double>(surface.carried.size());
 }
 
-// The side of the sheet a point is on: 1, -1 or 0 for a point that the sheet does not carry.
-std::vector<signed char> sides(const SearchCloud& cloud, const Sheet& sheet) {
+// The side of the surface a point is on: 1, -1 or 0 for a point that the surface does not carry.
+std::vector<signed char> sides(const SearchCloud& cloud, const GrownSurface& surface) {
   std::vector<signed char> side(cloud.size(), 0);
-  for (std::size_t k = 0; k < sheet.points.size(); ++k)
-    side[sheet.points[k]] = sheet.carried[k].distance > 0 ? 1 : -1;
+  for (std::size_t k = 0; k < surface.points.size(); ++k)
+    side[surface.points[k]] = surface.carried[k].distance > 0 ? 1 : -1;
   return side;
 }
 
-// The sum of agreeing less disagreeing sides between neighbours, one in each sheet.
-int agreement(const SearchCloud& cloud, const std::vector<signed char>& a,
-              const std::vector<signed char>& b) {
+// The sum of agreeing less disagreeing sides between neighbours, one in each surface.
+int correspondence(const SearchCloud& cloud, const std::vector<signed char>& a,
+                   const std::vector<signed char>& b) {
   int votes = 0;
   for (Index i = 0; i < cloud.size(); ++i) {
     if (a[i] == 0) continue;
@@ -40,7 +40,7 @@ int agreement(const SearchCloud& cloud, const std::vector<signed char>& a,
 }
 
 // Adds what `piece` carries and `whole` does not; false when that is too little.
-bool add(const SearchCloud& cloud, const Sheet& piece, Sheet& whole) {
+bool add(const SearchCloud& cloud, const GrownSurface& piece, GrownSurface& whole) {
   const std::vector<signed char> mine = sides(cloud, whole), other = sides(cloud, piece);
   std::vector<std::size_t> gained;
   for (std::size_t k = 0; k < piece.points.size(); ++k)
@@ -48,7 +48,7 @@ bool add(const SearchCloud& cloud, const Sheet& piece, Sheet& whole) {
   if (static_cast<double>(gained.size()) < 0.03 * static_cast<double>(cloud.size()) ||
       2 * gained.size() < piece.points.size())
     return false;
-  const double turn = agreement(cloud, mine, other) < 0 ? -1 : 1;
+  const double turn = correspondence(cloud, mine, other) < 0 ? -1 : 1;
   for (const std::size_t k : gained) {
     Carried c = piece.carried[k];
     c.normal *= turn;
@@ -60,13 +60,14 @@ bool add(const SearchCloud& cloud, const Sheet& piece, Sheet& whole) {
   return true;
 }
 
-Sheet whole_from(const SearchCloud& cloud, const std::vector<Sheet>& sheets, std::size_t first) {
-  Sheet whole = sheets[first];
+GrownSurface whole_from(const SearchCloud& cloud, const std::vector<GrownSurface>& surfaces,
+                        std::size_t first) {
+  GrownSurface whole = surfaces[first];
   bool grown = false;
-  for (std::size_t k = 0; k < sheets.size(); ++k) {
-    if (k == first || sheets[k].exact != whole.exact) continue;
-    if (precision(cloud, sheets[k]) < 0.8 * precision(cloud, sheets[first])) continue;
-    grown = add(cloud, sheets[k], whole) || grown;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (k == first || surfaces[k].exact != whole.exact) continue;
+    if (precision(cloud, surfaces[k]) < 0.8 * precision(cloud, surfaces[first])) continue;
+    grown = add(cloud, surfaces[k], whole) || grown;
   }
   if (grown) whole.mirror = nullptr;
   return whole;
@@ -74,24 +75,24 @@ Sheet whole_from(const SearchCloud& cloud, const std::vector<Sheet>& sheets, std
 
 }  // namespace
 
-std::vector<Sheet> assemble(const SearchCloud& cloud, std::vector<Sheet> sheets,
-                            const Context& context) {
-  std::stable_sort(sheets.begin(), sheets.end(), ranks_higher);
-  std::vector<Sheet> wholes;
-  for (std::size_t k = 0; k < std::min(sheets.size(), most_refined); ++k) {
+std::vector<GrownSurface> assemble(const SearchCloud& cloud, std::vector<GrownSurface> surfaces,
+                                   const Context& context) {
+  std::stable_sort(surfaces.begin(), surfaces.end(), ranks_higher);
+  std::vector<GrownSurface> wholes;
+  for (std::size_t k = 0; k < std::min(surfaces.size(), most_refined); ++k) {
     context.report(static_cast<double>(k) / most_refined);
-    if (rank(sheets[k]) < worth_refining * rank(sheets[0])) break;
-    if (sheets[k].bent && !sheets[k].exact) {
-      wholes.push_back(sheets[k]);
+    if (rank(surfaces[k]) < worth_refining * rank(surfaces[0])) break;
+    if (surfaces[k].bent && !surfaces[k].exact) {
+      wholes.push_back(surfaces[k]);
       continue;
     }
-    Sheet whole = whole_from(cloud, sheets, k);
+    GrownSurface whole = whole_from(cloud, surfaces, k);
     refine(cloud, last_rounds, whole);
-    wholes.push_back(whole.mirror && whole.explained > sheets[k].explained ? std::move(whole)
-                                                                           : sheets[k]);
+    wholes.push_back(whole.mirror && whole.support > surfaces[k].support ? std::move(whole)
+                                                                         : surfaces[k]);
   }
-  for (std::size_t k = wholes.size(); k < sheets.size(); ++k)
-    wholes.push_back(std::move(sheets[k]));
+  for (std::size_t k = wholes.size(); k < surfaces.size(); ++k)
+    wholes.push_back(std::move(surfaces[k]));
   std::stable_sort(wholes.begin(), wholes.end(), ranks_higher);
   return wholes;
 }

@@ -6,10 +6,10 @@
 
 namespace symsurf::perpendicular {
 
-/// Joins sheets that are pieces of one mirror, parted by a crease, a hole or a gap: each explains
+/// Joins surfaces that are pieces of one mirror, parted by a crease, a hole or a gap: each explains
 /// points that the others do not. Gives whole mirrors, the one that explains most first
 /// (planes behind curved mirrors that explain about as much).
-std::vector<Sheet> assemble(const SearchCloud& cloud, std::vector<Sheet> sheets,
-                            const Context& context);
+std::vector<GrownSurface> assemble(const SearchCloud& cloud, std::vector<GrownSurface> surfaces,
+                                   const Context& context);
 
 }  // namespace symsurf::perpendicular

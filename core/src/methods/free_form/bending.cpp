@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/keep_unlike.h"
+#include "base/math.h"
 #include "methods/free_form/bent_plane.h"
 #include "methods/plane/plane_candidates.h"
 
@@ -29,10 +29,10 @@ std::vector<UnitPlane> likely_planes(const Cloud& cloud, const Context& context)
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, usual_search, 2 * likely);
   for (PlaneCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
-  keep_distinct(candidates, alike, likely);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3);
+  suppress_non_maxima(candidates, alike, likely);
   for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
-  keep_distinct(candidates, alike, likely + 3);
+  suppress_non_maxima(candidates, alike, likely + 3);
   std::vector<UnitPlane> planes;
   for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
   return planes;
@@ -56,7 +56,7 @@ void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& 
   }
 }
 
-// Whether they send points to like places.
+// Whether they send points to like positions.
 bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b) {
   constexpr Index probes = 40;
   const Index stride = std::max<Index>(1, search.size() / probes);
@@ -71,7 +71,7 @@ bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b
 
 }  // namespace
 
-void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Sheet>& sheets,
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context) {
   std::vector<BentPlane> bent;
   for (const UnitPlane& plane : likely_planes(cloud, context.stage(0, 0.1))) {
@@ -80,18 +80,19 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Shee
   }
   std::stable_sort(bent.begin(), bent.end(),
                    [](const BentPlane& a, const BentPlane& b) { return a.agreed() > b.agreed(); });
-  keep_unlike(bent, most_bent,
-              [&](const BentPlane& a, const BentPlane& b) { return act_alike(search, a, b); });
+  suppress_non_maxima(bent, most_bent, [&](const BentPlane& a, const BentPlane& b) {
+    return act_alike(search, a, b);
+  });
   for (std::size_t k = 0; k < bent.size(); ++k) {
     context.stage(0.4, 1).report(static_cast<double>(k) / most_bent);
     bend(search, glance, stages, many, bent[k]);
-    Sheet sheet;
-    sheet.mirror = bent[k].free_form();
-    match(search, bent_foot_precision, sheet);
-    if (sheet.carried.size() < 6 || flatness(sheet) > unbent) continue;
-    sheet.explained = explained(search, sheet);
-    sheet.bent = true;
-    sheets.push_back(std::move(sheet));
+    GrownSurface surface;
+    surface.mirror = bent[k].free_form();
+    match(search, bent_foot_precision, surface);
+    if (surface.carried.size() < 6 || flatness(surface) > unbent) continue;
+    surface.support = support(search, surface);
+    surface.bent = true;
+    surfaces.push_back(std::move(surface));
   }
 }
 

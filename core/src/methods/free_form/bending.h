@@ -4,11 +4,11 @@
 
 namespace symsurf::perpendicular {
 
-/// Adds the sheets that likely mirror planes and the principal planes of the cloud become when they
-/// are bent until they mirror it. Unlike sheets that grow they need no partners that stand close to
-/// the images, and take hold of what both sides have in common by and by; but they have to be
-/// within reach of a plane.
-void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Sheet>& sheets,
+/// Adds the surfaces that likely mirror planes and the principal planes of the cloud become when
+/// they are bent until they mirror it. Unlike surfaces that grow they need no partners that stand
+/// close to the images, and take hold of what both sides have in common by and by; but they have to
+/// be within reach of a plane.
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context);
 
 }  // namespace symsurf::perpendicular

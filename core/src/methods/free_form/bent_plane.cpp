@@ -54,7 +54,7 @@ BentPlane::BentPlane(const SearchCloud& cloud, const Vector3& point, const Vecto
       heights_(flat_over(cloud, point, axes_)),
       energy_(heights_.bending_energy()),
       feet_(cloud.size()) {
-  for (Index i = 0; i < cloud.size(); ++i) feet_[i] = enter(cloud.point(i)).head<2>();
+  for (Index i = 0; i < cloud.size(); ++i) feet_[i] = to_frame(cloud.point(i)).head<2>();
 }
 
 // Newton's steps on the squared distance; where it is not convex, Gauss-Newton's.
@@ -86,7 +86,7 @@ BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
 std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
   constexpr double farthest = 3;  // tolerances
   constexpr double least_cosine = 0.6;
-  const Vector3 x = enter(cloud_->point(i));
+  const Vector3 x = to_frame(cloud_->point(i));
   const Foot foot = this->foot(x, feet_[i]);
   feet_[i] = foot.at;
   const double distance = foot.normal.dot(x - foot.position);
@@ -112,7 +112,7 @@ std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
   pull.row = 2 / foot.slant *
              (partner.dot(foot.normal) * pull.at.h +
               distance * (slopes.x() * pull.at.u + slopes.y() * pull.at.v));
-  pull.miss = partner.dot(enter(cloud_->point(near.index)) - image);
+  pull.miss = partner.dot(to_frame(cloud_->point(near.index)) - image);
   const double far = near.squared_distance / (tolerance * tolerance);
   pull.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
   return pull;
@@ -147,7 +147,7 @@ void BentPlane::subdivide() {
 }
 
 Vector3 BentPlane::image(const Vector3& x) const {
-  const Vector3 inside = enter(x);
+  const Vector3 inside = to_frame(x);
   const Foot foot = this->foot(inside, inside.head<2>());
   return x - 2 * foot.normal.dot(inside - foot.position) * (axes_.transpose() * foot.normal);
 }
@@ -160,7 +160,7 @@ std::shared_ptr<const FreeForm> BentPlane::free_form() const {
   const Eigen::Vector2i size = ((heights_.high() - low) / apart).array().floor().cast<int>() + 1;
   std::vector<char> wanted(size.cast<Index>().prod(), 0);
   for (Index i = 0; i < cloud_->size(); ++i) {
-    const At foot = this->foot(enter(cloud_->point(i)), feet_[i]).at;
+    const At foot = this->foot(to_frame(cloud_->point(i)), feet_[i]).at;
     const Eigen::Array2i at = ((foot - low) / apart).array().round().cast<int>();
     const Eigen::Array2i from = (at - around).max(0), to = (at + around).min(size.array() - 1);
     for (int x = from.x(); x <= to.x(); ++x)

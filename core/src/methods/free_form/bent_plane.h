@@ -18,9 +18,9 @@ class BentPlane {
   /// Through a point of the plane, as wide as the cloud. The cloud must outlive it.
   BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
 
-  /// One Gauss-Newton step on the points of every `stride`-th place of the tree's order: images are
-  /// drawn to the tangent planes of their partners, against the bending energy times `stiffness`.
-  /// Partners farther than `tolerance` have little say.
+  /// One Gauss-Newton step on the points of every `stride`-th position of the tree's order: images
+  /// are drawn to the tangent planes of their partners, against the bending energy times
+  /// `stiffness`. Partners farther than `tolerance` have little say.
   void step(double tolerance, double stiffness, Index stride);
 
   void subdivide();
@@ -49,7 +49,7 @@ class BentPlane {
     double miss, weight;
   };
 
-  Vector3 enter(const Vector3& x) const { return axes_ * (x - origin_); }
+  Vector3 to_frame(const Vector3& x) const { return axes_ * (x - origin_); }
   Foot foot(const Vector3& x, HeightSpline::At from) const;
   std::optional<Pull> pull_of(Index i, double tolerance);
 

@@ -12,9 +12,9 @@ namespace symsurf::perpendicular {
 std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& seeds,
                            std::size_t most);
 
-/// Adds the sheets grown from trials, each from one that no sheet before explains, and refines
-/// those that may come near the best share explained so far. In the order found.
-void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds, std::vector<Sheet>& sheets,
-             const Context& context);
+/// Adds the surfaces grown from trials, each from one that no surface before explains, and refines
+/// those that may come near the best share support so far. In the order found.
+void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+             std::vector<GrownSurface>& surfaces, const Context& context);
 
 }  // namespace symsurf::perpendicular

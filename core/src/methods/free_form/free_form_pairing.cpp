@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "score/matching.h"
 
 namespace symsurf::perpendicular {
@@ -11,8 +11,8 @@ namespace symsurf::perpendicular {
 namespace {
 
 // Where partners are exact they agree about each other, and a point as near to its own image as
-// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the sheet may end
-// before it reaches the middle between two.
+// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the surface may
+// end before it reaches the middle between two.
 void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
   constexpr double as_near = 2, rounding = 1e-9;
   if (result.pairs.rows() == 0) return;
@@ -33,16 +33,16 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
 
 }  // namespace
 
-void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched, const Sheet& sheet,
-               double pair_distance, const Context& context) {
+void add_pairs(Result& result, const Cloud& cloud, const SearchCloud& searched,
+               const GrownSurface& surface, double pair_distance, const Context& context) {
   PointTree tree(cloud.points, context.stage(0, 0.2));
   // Farther off there are only mere neighbours.
-  const double limit = std::min(pair_distance, reach(sheet) * searched.spacing);
+  const double limit = std::min(pair_distance, reach(surface) * searched.spacing);
   symsurf::add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
                      context.stage(0.2, 0.7));
-  if (!sheet.exact)
+  if (!surface.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.7, 1));
-  drop_false_pairs(result, cloud, sheet.exact);
+  drop_false_pairs(result, cloud, surface.exact);
 }
 
 }  // namespace symsurf::perpendicular

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 
 namespace symsurf::perpendicular {
 
@@ -42,7 +42,7 @@ Points feet_of(const std::vector<Carried>& carried) {
   return feet;
 }
 
-// Pieces that hang together. Beside a true sheet, small ones are what chance has to offer.
+// Pieces that hang together. Beside a true surface, small ones are what chance has to offer.
 void drop_islands(const SearchCloud& cloud, std::vector<Carried>& carried) {
   if (carried.empty()) return;
   const Points feet = feet_of(carried);
@@ -127,12 +127,12 @@ double local_spacing(const SearchCloud& cloud, Index i) {
 
 }  // namespace
 
-double reach(const Sheet& sheet) { return sheet.exact ? 0.8 : 1.3; }
+double reach(const GrownSurface& surface) { return surface.exact ? 0.8 : 1.3; }
 
-void match(const SearchCloud& cloud, const FootOf& foot_of, Sheet& sheet) {
-  sheet.carried.clear();
-  sheet.points.clear();
-  sheet.partners.clear();
+void match(const SearchCloud& cloud, const FootOf& foot_of, GrownSurface& surface) {
+  surface.carried.clear();
+  surface.points.clear();
+  surface.partners.clear();
   std::vector<double> misses;
   for (Index p = 0; p < cloud.size(); ++p) {
     cloud.context.check();
@@ -142,7 +142,7 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, Sheet& sheet) {
     if (!foot_of(x, c.foot, c.normal)) continue;
     c.distance = c.normal.dot(x - c.foot);
     const Vector3 image = x - 2 * c.distance * c.normal;
-    const double farthest = reach(sheet) * local_spacing(cloud, i);
+    const double farthest = reach(surface) * local_spacing(cloud, i);
     const Neighbour near = cloud.tree.nearest(image, farthest * farthest);
     if (near.index < 0 || near.index == i) continue;
     const Vector3 n = cloud.normal(i), other = cloud.normal(near.index);
@@ -152,63 +152,63 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, Sheet& sheet) {
     c.miss = cloud.point(near.index) - image;
     c.partner_normal = cloud.normal(near.index);
     misses.push_back(c.miss.norm() / cloud.spacing);
-    sheet.carried.push_back(c);
-    sheet.points.push_back(static_cast<std::int32_t>(i));
-    sheet.partners.push_back(static_cast<std::int32_t>(near.index));
+    surface.carried.push_back(c);
+    surface.points.push_back(static_cast<std::int32_t>(i));
+    surface.partners.push_back(static_cast<std::int32_t>(near.index));
   }
   if (misses.empty()) return;
-  sheet.typical_miss = median(std::move(misses));
-  sheet.exact = sheet.typical_miss < exact_miss;
+  surface.typical_miss = median(std::move(misses));
+  surface.exact = surface.typical_miss < exact_miss;
 }
 
-void match(const SearchCloud& cloud, double precision, Sheet& sheet) {
+void match(const SearchCloud& cloud, double precision, GrownSurface& surface) {
   match(
       cloud,
       [&](const Vector3& x, Vector3& foot, Vector3& normal) {
-        return sheet.mirror->foot(x, precision, foot, normal);
+        return surface.mirror->foot(x, precision, foot, normal);
       },
-      sheet);
+      surface);
 }
 
-double flatness(const Sheet& sheet) {
+double flatness(const GrownSurface& surface) {
   Matrix3 spread = Matrix3::Zero();
-  for (const Carried& c : sheet.carried) spread += c.normal * c.normal.transpose();
+  for (const Carried& c : surface.carried) spread += c.normal * c.normal.transpose();
   const Vector3 values =
       Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[2] / static_cast<double>(sheet.carried.size());
+  return values[2] / static_cast<double>(surface.carried.size());
 }
 
-bool is_flat(const Sheet& sheet) { return flatness(sheet) > flat_enough; }
+bool is_flat(const GrownSurface& surface) { return flatness(surface) > flat_enough; }
 
-void refine(const SearchCloud& cloud, int rounds, Sheet& sheet) {
+void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
   std::size_t matched = 0;
   for (int round = 0; round < rounds; ++round) {
     const Smoothing smoothing =
-        sheet.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
-                    : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
-    const bool fresh = !sheet.mirror;
-    if (!sheet.exact) drop_islands(cloud, sheet.carried);
-    sheet.mirror = fitted(cloud, sheet.carried,
-                          fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
-    if (!sheet.mirror) return;
-    match(cloud, sheet.exact ? exact_foot_precision : foot_precision, sheet);
-    if (sheet.carried.size() < 6) {
-      sheet.mirror = nullptr;
+        surface.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
+                      : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
+    const bool fresh = !surface.mirror;
+    if (!surface.exact) drop_islands(cloud, surface.carried);
+    surface.mirror = fitted(cloud, surface.carried,
+                            fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
+    if (!surface.mirror) return;
+    match(cloud, surface.exact ? exact_foot_precision : foot_precision, surface);
+    if (surface.carried.size() < 6) {
+      surface.mirror = nullptr;
       return;
     }
-    sheet.explained = explained(cloud, sheet);
-    if (round > 1 && sheet.carried.size() <= matched + matched / 200) return;
-    matched = sheet.carried.size();
+    surface.support = support(cloud, surface);
+    if (round > 1 && surface.carried.size() <= matched + matched / 200) return;
+    matched = surface.carried.size();
   }
 }
 
-double explained(const SearchCloud& cloud, const Sheet& sheet) {
+double support(const SearchCloud& cloud, const GrownSurface& surface) {
   double sum = 0;
-  for (std::size_t k = 0; k < sheet.carried.size(); ++k) {
-    const Carried& c = sheet.carried[k];
-    const double tau = local_spacing(cloud, sheet.points[k]);
+  for (std::size_t k = 0; k < surface.carried.size(); ++k) {
+    const Carried& c = surface.carried[k];
+    const double tau = local_spacing(cloud, surface.points[k]);
     // Exact partners can be told from their neighbours however near the mirror they are.
-    const double least = sheet.exact ? 0.3 * tau : tau;
+    const double least = surface.exact ? 0.3 * tau : tau;
     const double moved = std::clamp(2 * std::abs(c.distance) / least - 1, 0.0, 1.0);
     sum += moved * landing(c, tau);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 
 namespace symsurf::perpendicular {
 

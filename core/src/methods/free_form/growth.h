@@ -8,7 +8,7 @@
 
 namespace symsurf::perpendicular {
 
-/// A coherent sheet of oriented midpoints while it grows outwards from one pair.
+/// A coherent surface of oriented midpoints while it grows outwards from one pair.
 class Growth {
  public:
   Growth(const SearchCloud& cloud, const Seed& seed);

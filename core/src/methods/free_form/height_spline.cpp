@@ -7,11 +7,11 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr int support = 4;  // coefficients that have a say along a side
+constexpr int spline_support = 4;  // coefficients that have a say along a side
 
 // The cubic B-splines that overlap a cell, and their derivatives, at t of its length, 0 to 1.
 struct Cubics {
-  std::array<double, support> value, first, second;
+  std::array<double, spline_support> value, first, second;
 
   Cubics(double t, double cell) {
     const double s = 1 - t;
@@ -43,7 +43,8 @@ HeightSpline::HeightSpline(const At& low, double cell, const Eigen::Vector2i& ce
     : low_(low),
       cell_(cell),
       cells_(cells),
-      coefficients_(Eigen::VectorXd::Zero((cells.array().cast<Index>() + (support - 1)).prod())) {}
+      coefficients_(
+          Eigen::VectorXd::Zero((cells.array().cast<Index>() + (spline_support - 1)).prod())) {}
 
 HeightSpline::HeightSpline(const At& low, const At& high, double cell)
     : HeightSpline(low, cell, ((high - low) / cell).array().ceil().max(1).cast<int>().matrix()) {
@@ -52,23 +53,24 @@ HeightSpline::HeightSpline(const At& low, const At& high, double cell)
 
 HeightSpline HeightSpline::subdivided() const {
   HeightSpline finer(low_, cell_ / 2, 2 * cells_);
-  const Eigen::MatrixXd c = Eigen::MatrixXd::Map(coefficients_.data(), cells_.y() + support - 1,
-                                                 cells_.x() + support - 1);
+  const Eigen::MatrixXd c = Eigen::MatrixXd::Map(
+      coefficients_.data(), cells_.y() + spline_support - 1, cells_.x() + spline_support - 1);
   const Eigen::MatrixXd both = subdivided_columns(subdivided_columns(c).transpose()).transpose();
   finer.coefficients_ = both.reshaped();
   return finer;
 }
 
 HeightSpline::Weights HeightSpline::weights(const At& at) const {
-  const At place = (at - low_) / cell_;
+  const At position = (at - low_) / cell_;
   const Eigen::Vector2i cell =
-      place.array().floor().cast<int>().max(0).min(cells_.array() - 1).matrix();
-  const At t = place - cell.cast<double>();
+      position.array().floor().cast<int>().max(0).min(cells_.array() - 1).matrix();
+  const At t = position - cell.cast<double>();
   const Cubics along_u(t.x(), cell_), along_v(t.y(), cell_);
   Weights w;
-  for (int i = 0, k = 0; i < support; ++i)
-    for (int j = 0; j < support; ++j, ++k) {
-      w.index[k] = static_cast<Index>(cell.x() + i) * (cells_.y() + support - 1) + cell.y() + j;
+  for (int i = 0, k = 0; i < spline_support; ++i)
+    for (int j = 0; j < spline_support; ++j, ++k) {
+      w.index[k] =
+          static_cast<Index>(cell.x() + i) * (cells_.y() + spline_support - 1) + cell.y() + j;
       w.h[k] = along_u.value[i] * along_v.value[j];
       w.u[k] = along_u.first[i] * along_v.value[j];
       w.v[k] = along_u.value[i] * along_v.first[j];

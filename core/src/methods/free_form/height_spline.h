@@ -17,8 +17,8 @@ class HeightSpline {
     double h, u, v, uu, uv, vv;
   };
 
-  /// What the coefficients that have a say at a place weigh there: in the height, in its slopes and
-  /// in its second derivatives.
+  /// What the coefficients that have a say at a position weigh there: in the height, in its slopes
+  /// and in its second derivatives.
   struct Weights {
     static constexpr int count = 16;
     using Row = Eigen::Matrix<double, 1, count>;
@@ -32,7 +32,7 @@ class HeightSpline {
   /// The same heights over cells of half the length (Lane and Riesenfeld 1980).
   HeightSpline subdivided() const;
 
-  /// The place nearest to this that has heights.
+  /// The position nearest to this that has heights.
   At clamped(const At& at) const { return at.cwiseMax(low_).cwiseMin(high()); }
 
   const At& low() const { return low_; }

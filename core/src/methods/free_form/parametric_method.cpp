@@ -8,24 +8,25 @@
 
 namespace symsurf::perpendicular {
 
-Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model)(const Sheet&),
-                       const Cloud& cloud, const ParameterValues& values, const Context& context) {
+Result find_parametric(const std::string& method,
+                       std::unique_ptr<Model> (*model)(const GrownSurface&), const Cloud& cloud,
+                       const ParameterValues& values, const Context& context) {
   constexpr std::size_t most_fitted = 5;
   Search found = search(cloud, values.integer("sample_size"), context.stage(0, 0.6));
   struct Fitted {
     std::unique_ptr<Mirror> mirror;
-    Sheet sheet;
+    GrownSurface surface;
   };
   std::vector<Fitted> fits;
-  const std::size_t count = std::min(found.sheets.size(), most_fitted);
+  const std::size_t count = std::min(found.surfaces.size(), most_fitted);
   for (std::size_t k = 0; k < count; ++k) {
     context.stage(0.6, 0.7).report(static_cast<double>(k) / static_cast<double>(count));
-    Fitted f{nullptr, found.sheets[k]};
-    f.mirror = fit(found.cloud, model(f.sheet), f.sheet);
+    Fitted f{nullptr, found.surfaces[k]};
+    f.mirror = fit(found.cloud, model(f.surface), f.surface);
     if (f.mirror) fits.push_back(std::move(f));
   }
   std::stable_sort(fits.begin(), fits.end(), [](const Fitted& a, const Fitted& b) {
-    return a.sheet.explained > b.sheet.explained;
+    return a.surface.support > b.surface.support;
   });
 
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
@@ -41,11 +42,12 @@ Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model
         f.mirror->transformed(found.cloud.diagonal, Matrix3::Identity(), found.cloud.centroid));
   if (mirrors.empty()) return result;
   result = score.ranked(method, mirrors);
-  const Sheet& sheet =
-      fits[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].sheet;
+  const GrownSurface& surface =
+      fits[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
   result.statistics["typical_miss"] =
-      sheet.typical_miss * found.cloud.spacing * found.cloud.diagonal;
-  add_pairs(result, cloud, found.cloud, sheet, values.real("pair_distance"), context.stage(0.8, 1));
+      surface.typical_miss * found.cloud.spacing * found.cloud.diagonal;
+  add_pairs(result, cloud, found.cloud, surface, values.real("pair_distance"),
+            context.stage(0.8, 1));
   return result;
 }
 

@@ -10,8 +10,9 @@ namespace symsurf::perpendicular {
 
 /// Finds free-form mirrors, fits one of the model's kind to the best of them and keeps the one that
 /// explains most of the cloud.
-Result find_parametric(const std::string& method, std::unique_ptr<Model> (*model)(const Sheet&),
-                       const Cloud& cloud, const ParameterValues& values, const Context& context);
+Result find_parametric(const std::string& method,
+                       std::unique_ptr<Model> (*model)(const GrownSurface&), const Cloud& cloud,
+                       const ParameterValues& values, const Context& context);
 
 /// The parameters of all methods that search as "perpendicular" does.
 std::vector<Parameter> search_parameters();

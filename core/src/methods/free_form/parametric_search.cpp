@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "base/semidefinite_solve.h"
 
 namespace symsurf::perpendicular {
@@ -25,17 +25,18 @@ double tukey_cost(double u) {
 }
 
 // Misses across the partner's surface count, along it only where partners are exact.
-System system(const SearchCloud& cloud, const Sheet& sheet, const Model& model, double scale) {
+System system(const SearchCloud& cloud, const GrownSurface& surface, const Model& model,
+              double scale) {
   System s{Eigen::MatrixXd::Zero(model.size(), model.size()), Eigen::VectorXd::Zero(model.size())};
-  const double along = sheet.exact ? 1 : 0.08;
+  const double along = surface.exact ? 1 : 0.08;
   Model::Jacobian jacobian(3, model.size());
   cloud.context.check();
-  for (std::size_t k = 0; k < sheet.points.size(); ++k) {
+  for (std::size_t k = 0; k < surface.points.size(); ++k) {
     Vector3 image;
-    if (!model.image(cloud.point(sheet.points[k]), image, jacobian)) continue;
-    const Vector3 n = sheet.carried[k].partner_normal;
+    if (!model.image(cloud.point(surface.points[k]), image, jacobian)) continue;
+    const Vector3 n = surface.carried[k].partner_normal;
     const Matrix3 metric = along * Matrix3::Identity() + (1 - along) * n * n.transpose();
-    const Vector3 miss = metric * (cloud.point(sheet.partners[k]) - image);
+    const Vector3 miss = metric * (cloud.point(surface.partners[k]) - image);
     const double u = miss.norm() / (4.7 * scale);
     s.cost += tukey_cost(u);
     if (u >= 1) continue;
@@ -47,17 +48,17 @@ System system(const SearchCloud& cloud, const Sheet& sheet, const Model& model, 
   return s;
 }
 
-double scale_of(const SearchCloud& cloud, const Sheet& sheet) {
+double scale_of(const SearchCloud& cloud, const GrownSurface& surface) {
   std::vector<double> misses;
-  for (const Carried& c : sheet.carried)
-    misses.push_back(sheet.exact ? c.miss.norm() : std::abs(c.miss.dot(c.partner_normal)));
+  for (const Carried& c : surface.carried)
+    misses.push_back(surface.exact ? c.miss.norm() : std::abs(c.miss.dot(c.partner_normal)));
   return std::max(1.5 * median(std::move(misses)), 0.02 * cloud.spacing);
 }
 
-void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model>& model) {
-  const double scale = scale_of(cloud, sheet);
+void improve(const SearchCloud& cloud, const GrownSurface& surface, std::unique_ptr<Model>& model) {
+  const double scale = scale_of(cloud, surface);
   double damping = 1e-9;
-  System here = system(cloud, sheet, *model, scale);
+  System here = system(cloud, surface, *model, scale);
   for (int k = 0; k < steps_a_round; ++k) {
     Eigen::MatrixXd damped = here.matrix;
     damped.diagonal().array() += damping * here.matrix.trace() + 1e-300;
@@ -65,7 +66,7 @@ void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model
     if (!by.allFinite()) return;
     std::unique_ptr<Model> next = model->copy();
     next->step(by);
-    System there = system(cloud, sheet, *next, scale);
+    System there = system(cloud, surface, *next, scale);
     if (there.cost > here.cost) {
       damping *= 1e3;
       continue;
@@ -77,9 +78,10 @@ void improve(const SearchCloud& cloud, const Sheet& sheet, std::unique_ptr<Model
 
 }  // namespace
 
-std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> model, Sheet& sheet) {
+std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> model,
+                            GrownSurface& surface) {
   if (!model) return nullptr;
-  sheet.mirror = nullptr;
+  surface.mirror = nullptr;
   std::unique_ptr<Mirror> mirror;
   for (int round = 0; round <= rounds; ++round) {
     mirror = model->mirror();
@@ -93,11 +95,11 @@ std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> mod
           normal = (x - foot) / distance;
           return true;
         },
-        sheet);
-    if (static_cast<int>(sheet.points.size()) < 2 * model->size()) return nullptr;
-    if (round < rounds) improve(cloud, sheet, model);
+        surface);
+    if (static_cast<int>(surface.points.size()) < 2 * model->size()) return nullptr;
+    if (round < rounds) improve(cloud, surface, model);
   }
-  sheet.explained = explained(cloud, sheet);
+  surface.support = support(cloud, surface);
   return mirror;
 }
 

@@ -23,11 +23,12 @@ class Model {
 };
 
 /// A general quadric by its ten coefficients, one of which is the scale.
-std::unique_ptr<Model> quadric_model(const Sheet& sheet);
+std::unique_ptr<Model> quadric_model(const GrownSurface& surface);
 
-/// The mirror of the model's kind nearest to a sheet, matched to the cloud and fitted to its pairs
-/// again and again (Levenberg-Marquardt, Tukey's weights). The sheet gets its pairs and share;
-/// null when the sheet has too few points or nothing fits.
-std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> model, Sheet& sheet);
+/// The mirror of the model's kind nearest to a surface, matched to the cloud and fitted to its
+/// pairs again and again (Levenberg-Marquardt, Tukey's weights). The surface gets its pairs and
+/// share; null when the surface has too few points or nothing fits.
+std::unique_ptr<Mirror> fit(const SearchCloud& cloud, std::unique_ptr<Model> model,
+                            GrownSurface& surface);
 
 }  // namespace symsurf::perpendicular

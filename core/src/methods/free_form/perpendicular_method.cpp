@@ -13,8 +13,8 @@ namespace symsurf {
 namespace {
 
 std::shared_ptr<Mirror> in_input_units(const perpendicular::SearchCloud& cloud,
-                                       const perpendicular::Sheet& sheet) {
-  return sheet.mirror->transformed(cloud.diagonal, Matrix3::Identity(), cloud.centroid);
+                                       const perpendicular::GrownSurface& surface) {
+  return surface.mirror->transformed(cloud.diagonal, Matrix3::Identity(), cloud.centroid);
 }
 
 Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
@@ -24,23 +24,23 @@ Result run_perpendicular(const Cloud& cloud, const ParameterValues& values,
   Result result;
   result.method = "perpendicular";
   result.statistics["noise"] = search.cloud.noise * search.cloud.diagonal;
-  if (search.sheets.empty()) return result;
+  if (search.surfaces.empty()) return result;
 
   const PointTree tree(cloud.points, context.stage(0.7, 0.75));
   const NearestPoints points(cloud.points, tree, context);
   const MirrorScore score(cloud, points, context.stage(0.75, 0.8));
   const auto most = 1 + static_cast<std::size_t>(values.integer("max_candidates"));
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (std::size_t k = 0; k < std::min(most, search.sheets.size()); ++k)
-    mirrors.push_back(in_input_units(search.cloud, search.sheets[k]));
+  for (std::size_t k = 0; k < std::min(most, search.surfaces.size()); ++k)
+    mirrors.push_back(in_input_units(search.cloud, search.surfaces[k]));
   Values statistics = std::move(result.statistics);
   result = score.ranked(result.method, mirrors);
   result.statistics.merge(statistics);
-  const perpendicular::Sheet& sheet =
-      search.sheets[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()];
+  const perpendicular::GrownSurface& surface =
+      search.surfaces[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()];
   result.statistics["typical_miss"] =
-      sheet.typical_miss * search.cloud.spacing * search.cloud.diagonal;
-  perpendicular::add_pairs(result, cloud, search.cloud, sheet, values.real("pair_distance"),
+      surface.typical_miss * search.cloud.spacing * search.cloud.diagonal;
+  perpendicular::add_pairs(result, cloud, search.cloud, surface, values.real("pair_distance"),
                            context.stage(0.8, 1));
   return result;
 }

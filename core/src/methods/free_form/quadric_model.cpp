@@ -78,12 +78,12 @@ class QuadricModel final : public Model {
 }  // namespace
 
 // f = 0 and grad f = n at the feet, by least squares: linear in the coefficients.
-std::unique_ptr<Model> quadric_model(const Sheet& sheet) {
-  if (sheet.carried.size() < 10) return nullptr;
+std::unique_ptr<Model> quadric_model(const GrownSurface& surface) {
+  if (surface.carried.size() < 10) return nullptr;
   Eigen::Matrix<double, 10, 10> matrix = Eigen::Matrix<double, 10, 10>::Zero();
   Coefficients right = Coefficients::Zero();
   constexpr double slope_weight = 0.01;
-  for (const Carried& c : sheet.carried) {
+  for (const Carried& c : surface.carried) {
     const Coefficients m = monomials(c.foot);
     const Eigen::Matrix<double, 3, 10> s = slopes(c.foot);
     matrix += m * m.transpose() + slope_weight * s.transpose() * s;

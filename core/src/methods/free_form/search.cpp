@@ -32,14 +32,14 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
     search.cloud.smooth();
     seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.4, 0.6));
   }
-  explore(search.cloud, seeds.along, search.sheets, context.stage(0.6, 0.7));
-  explore(search.cloud, seeds.across, search.sheets, context.stage(0.7, 0.75));
+  explore(search.cloud, seeds.along, search.surfaces, context.stage(0.6, 0.7));
+  explore(search.cloud, seeds.across, search.surfaces, context.stage(0.7, 0.75));
   const bool found =
-      std::any_of(search.sheets.begin(), search.sheets.end(), [](const Sheet& sheet) {
-        return sheet.explained > (sheet.exact ? settled_exactly : settled);
+      std::any_of(search.surfaces.begin(), search.surfaces.end(), [](const GrownSurface& surface) {
+        return surface.support > (surface.exact ? settled_exactly : settled);
       });
-  if (!found) bend_planes(cloud, search.cloud, search.sheets, context.stage(0.75, 0.85));
-  search.sheets = assemble(search.cloud, std::move(search.sheets), context.stage(0.85, 1));
+  if (!found) bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.75, 0.85));
+  search.surfaces = assemble(search.cloud, std::move(search.surfaces), context.stage(0.85, 1));
   return search;
 }
 

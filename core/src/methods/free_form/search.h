@@ -9,11 +9,11 @@
 
 namespace symsurf::perpendicular {
 
-/// The sheets over which a cloud is mirrored perpendicularly, best first, and the points that were
-/// searched.
+/// The surfaces over which a cloud is mirrored perpendicularly, best first, and the points that
+/// were searched.
 struct Search {
   SearchCloud cloud;
-  std::vector<Sheet> sheets;
+  std::vector<GrownSurface> surfaces;
 };
 
 Search search(const Cloud& cloud, Index sample_size, const Context& context);

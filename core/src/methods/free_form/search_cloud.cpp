@@ -8,7 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "base/radix_sort.h"
 #include "base/semidefinite_solve.h"
 

@@ -13,8 +13,8 @@ namespace {
 constexpr Index first_ends = 500;
 constexpr std::size_t most_tested = 2500;
 const double parallel_enough = std::cos(30 * M_PI / 180);
-constexpr double facing = 0.8;          // cosine between chord and normals
-constexpr double shortest_chord = 1.2;  // spacings
+constexpr double normal_consistency = 0.8;  // cosine between chord and normals
+constexpr double shortest_chord = 1.2;      // spacings
 
 double support_of(const SearchCloud& cloud, std::int32_t i, std::int32_t j) {
   const Vector3 middle = (cloud.point(i) + cloud.point(j)) / 2;
@@ -74,7 +74,8 @@ Seeds find_seeds(const SearchCloud& cloud, std::uint64_t seed, const Context& co
       const Vector3 other = cloud.normal(j);
       const double first = n.dot(chord), second = other.dot(chord);
       if (std::abs(n.dot(other) - 2 * first * second / squared) < parallel_enough) continue;
-      const bool faces = std::min(first * first, second * second) > facing * facing * squared;
+      const bool faces = std::min(first * first, second * second) >
+                         normal_consistency * normal_consistency * squared;
       (faces ? along : across).add({i, static_cast<std::int32_t>(j)});
     }
   }

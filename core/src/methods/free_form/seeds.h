@@ -17,7 +17,7 @@ struct Seed {
 /// Pairs whose normals mirror each other about the plane that bisects them, best supported first:
 /// the neighbours of one end, mirrored over that plane, should land on the cloud.
 struct Seeds {
-  std::vector<Seed> along;   ///< chords about along the normals: two sheets face each other
+  std::vector<Seed> along;   ///< chords about along the normals: two surfaces face each other
   std::vector<Seed> across;  ///< the others: far more, and most of them by chance
 };
 

@@ -16,9 +16,9 @@ struct ChordPeak {
 
 /// Peaks of the directions of the chords between points, best first.
 ///
-/// The directions fall into the bins of a cube map; a chord counts as it crosses the sheets at its
-/// ends, cos x cos, since chords within a sheet say nothing. Box sums at several scales are held
-/// against the ring around them.
+/// The directions fall into the bins of a cube map; a chord counts as it crosses the surfaces at
+/// its ends, cos x cos, since chords within a surface say nothing. Box sums at several scales are
+/// held against the ring around them.
 std::vector<ChordPeak> chord_peaks(const WorkingCloud& cloud, Index count);
 
 /// The direction about `start` on which most chords agree, found by halving a cone as long as

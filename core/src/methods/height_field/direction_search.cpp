@@ -17,7 +17,7 @@ constexpr double first_step = 0.09, last_step = 0.04;
 constexpr double pi = std::numbers::pi;
 
 bool better(const DirectionCandidate& a, const DirectionCandidate& b) {
-  return a.explained > b.explained;
+  return a.support > b.support;
 }
 
 std::vector<DirectionCandidate> distinct(std::vector<DirectionCandidate> candidates, Index count) {
@@ -33,7 +33,7 @@ std::vector<DirectionCandidate> distinct(std::vector<DirectionCandidate> candida
   return kept;
 }
 
-void climb(MidSheet& sheet, DirectionCandidate& candidate, const Context& context) {
+void maximise_measure(MidSurface& surface, DirectionCandidate& candidate, const Context& context) {
   for (double step = first_step; step >= last_step; step /= 2) {
     const auto across = orthogonal_to(candidate.direction);
     const Vector3 centre = candidate.direction;
@@ -42,7 +42,7 @@ void climb(MidSheet& sheet, DirectionCandidate& candidate, const Context& contex
       const double angle = k * pi / 3;
       const Vector3 moved =
           centre + step * across * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      const DirectionCandidate next{moved.normalized(), sheet.explained(moved.normalized())};
+      const DirectionCandidate next{moved.normalized(), surface.support(moved.normalized())};
       if (better(next, candidate)) candidate = next;
     }
   }
@@ -66,27 +66,27 @@ std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
   for (const ChordPeak& hint : hints) candidates.push_back({hint.direction});
   for (DirectionCandidate& c : candidates) {
     context.check();
-    c.explained = MidSheet::most_explained(coarse, c.direction);
+    c.support = MidSurface::most_explained(coarse, c.direction);
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
 
-  MidSheet screen(coarse, context);
+  MidSurface screen(coarse, context);
   std::vector<double> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     context.report(0.8 * static_cast<double>(i) / static_cast<double>(candidates.size()));
     std::sort(best.begin(), best.end(), std::greater<>());
-    if (static_cast<Index>(best.size()) > count && candidates[i].explained < best[count]) {
+    if (static_cast<Index>(best.size()) > count && candidates[i].support < best[count]) {
       candidates.resize(i);
       break;
     }
-    candidates[i].explained = screen.explained(candidates[i].direction);
-    best.push_back(candidates[i].explained);
+    candidates[i].support = screen.support(candidates[i].direction);
+    best.push_back(candidates[i].support);
   }
   candidates = distinct(std::move(candidates), count);
-  MidSheet sheet(cloud, context);
+  MidSurface surface(cloud, context);
   for (DirectionCandidate& candidate : candidates) {
-    candidate.explained = sheet.explained(candidate.direction);
-    climb(sheet, candidate, context);
+    candidate.support = surface.support(candidate.direction);
+    maximise_measure(surface, candidate, context);
   }
   return distinct(std::move(candidates), count);
 }

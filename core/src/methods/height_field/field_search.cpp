@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "methods/height_field/direction_search.h"
 #include "methods/height_field/exact_partners.h"
 #include "methods/height_field/partner_evidence.h"
-#include "methods/height_field/sheet_refinement.h"
+#include "methods/height_field/surface_refinement.h"
 
 namespace symsurf {
 
@@ -23,10 +23,10 @@ constexpr double suspected = 3;
 constexpr double no_evidence = 5;         // standard deviations that chance reaches
 constexpr double known_scatter = 7;       // from here on the scatter is believed
 constexpr double strong_evidence = 9;     // no need to look further
-constexpr double evidence_weight = 0.15;  // share of explained points a deviation is worth
+constexpr double evidence_weight = 0.15;  // share of support points a deviation is worth
 constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
-constexpr double as_much = 0.03;          // explained
-constexpr double rough_sheets = 0.1;      // spacings off a plane: noise, or sharp bends
+constexpr double as_much = 0.03;          // support
+constexpr double rough_surfaces = 0.1;    // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
@@ -34,20 +34,20 @@ constexpr int rounds = 6;
 class Ranking {
  public:
   Ranking(const WorkingCloud& cloud, const Context& context)
-      : cloud_(cloud), context_(context), sheet_(cloud, context, evidence_reach) {}
+      : cloud_(cloud), context_(context), surface_(cloud, context, evidence_reach) {}
 
   // Partners are looked for along those that explain most; once there is no doubt, only along
   // those that explain about as much: neighbours of one another, that show them more or less.
   void consider(const std::vector<Vector3>& directions) {
-    std::vector<std::pair<double, std::size_t>> explained;
+    std::vector<std::pair<double, std::size_t>> support;
     for (std::size_t k = 0; k < directions.size(); ++k) {
       context_.check();
-      explained.emplace_back(-sheet_.explained(directions[k]), k);
+      support.emplace_back(-surface_.support(directions[k]), k);
     }
-    std::sort(explained.begin(), explained.end());
-    explained.resize(std::min(explained.size(), most_examined));
-    for (const auto& [negative, k] : explained) {
-      if (convinced() && explained.front().first < negative - as_much) break;
+    std::sort(support.begin(), support.end());
+    support.resize(std::min(support.size(), most_examined));
+    for (const auto& [negative, k] : support) {
+      if (convinced() && support.front().first < negative - as_much) break;
       examine(directions[k]);
     }
   }
@@ -58,19 +58,20 @@ class Ranking {
 
  private:
   void examine(const Vector3& direction) {
-    const double explained = sheet_.explained(direction);
+    const double support = surface_.support(direction);
     context_.check();
-    PartnerEvidence evidence = partner_evidence(sheet_, cloud_, direction, context_);
+    PartnerEvidence evidence = partner_evidence(surface_, cloud_, direction, context_);
     if (evidence.significance > suspected) {
       // Partners that are there vote for better heights than chance does, and stand out more.
-      sheet_.explained(evidence.direction, evidence.scatter);
+      surface_.support(evidence.direction, evidence.scatter);
       context_.check();
-      const PartnerEvidence again = partner_evidence(sheet_, cloud_, evidence.direction, context_);
+      const PartnerEvidence again =
+          partner_evidence(surface_, cloud_, evidence.direction, context_);
       if (again.significance > evidence.significance) evidence = again;
     }
     const double common = std::min(1.0, evidence.share / common_share);
-    const double rank = explained + evidence_weight * common * common *
-                                        std::max(0.0, evidence.significance - no_evidence);
+    const double rank = support + evidence_weight * common * common *
+                                      std::max(0.0, evidence.significance - no_evidence);
     if (rank <= rank_) return;
     rank_ = rank;
     best_ = evidence;
@@ -81,7 +82,7 @@ class Ranking {
 
   const WorkingCloud& cloud_;
   const Context& context_;
-  MidSheet sheet_;
+  MidSurface surface_;
   PartnerEvidence best_;
   double rank_ = -1;
 };
@@ -116,7 +117,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
 
   const FieldEstimate exact = exact_partners(cloud, peaks, peak_cone, context);
   statistics["partners"] = std::string("exact");
-  if (exact.explained > exact_share) return exact;
+  if (exact.support > exact_share) return exact;
   context.report(0.3);
 
   Ranking ranking(cloud, context);
@@ -131,14 +132,15 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   if (start.significance > strong_evidence) {
     const FieldEstimate again =
         exact_partners(cloud, {{start.direction, 0}}, evidence_cone, context);
-    if (again.explained > exact_share) return again;
+    if (again.support > exact_share) return again;
   }
   statistics["partners"] = std::string("sheets");
   const double roughness =
       median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
-  const SheetPatches patches(cloud, roughness > rough_sheets ? rough_patch : smooth_patch, context);
+  const SurfacePatches patches(cloud, roughness > rough_surfaces ? rough_patch : smooth_patch,
+                               context);
   context.report(0.75);
-  return SheetRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
+  return SurfaceRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
 }
 
 }  // namespace symsurf

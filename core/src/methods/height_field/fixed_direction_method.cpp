@@ -1,7 +1,7 @@
 #include <symsurf/height_field.h>
 
 #include "base/parallel.h"
-#include "methods/height_field/credible_pairs.h"
+#include "methods/height_field/consistent_pairs.h"
 #include "methods/height_field/field_search.h"
 #include "methods/registry.h"
 #include "score/matching.h"
@@ -15,7 +15,7 @@ Points framed(const Cloud& cloud, const Context& context) {
   Points points(cloud.points.size(), 3);
   parallel_for(context, points.rows(), 1 << 14, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
-      points.row(i) = cloud.frame.enter(cloud.points[i]).transpose();
+      points.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
   });
   return points;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "base/semidefinite_solve.h"
 #include "methods/height_field/working_cloud.h"
 
@@ -21,17 +21,17 @@ constexpr double curvature_ridge = 1e-4;
 }  // namespace
 
 HeightRegression::HeightRegression(std::vector<HeightObservation> observations)
-    : observations_(std::move(observations)), tree_(places()) {}
+    : observations_(std::move(observations)), tree_(positions()) {}
 
-Points HeightRegression::places() const {
-  Points places(static_cast<Index>(observations_.size()), 3);
-  for (Index i = 0; i < places.rows(); ++i)
-    places.row(i) << observations_[i].place.x(), observations_[i].place.y(), 0;
-  return places;
+Points HeightRegression::positions() const {
+  Points positions(static_cast<Index>(observations_.size()), 3);
+  for (Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) << observations_[i].position.x(), observations_[i].position.y(), 0;
+  return positions;
 }
 
 Points HeightRegression::places_apart(double distance) const {
-  const Points all = places();
+  const Points all = positions();
   std::vector<char> covered(all.rows(), 0);
   std::vector<Index> kept;
   for (Index i = 0; i < all.rows(); ++i) {
@@ -42,7 +42,7 @@ Points HeightRegression::places_apart(double distance) const {
   return all(kept, Eigen::indexing::all);
 }
 
-double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
+double HeightRegression::height(const Eigen::Vector2d& position, std::span<const Neighbour> near,
                                 Index left_out) const {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const double radius = std::sqrt(near.back().squared_distance) * 1.0001;
@@ -57,7 +57,8 @@ double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Ne
     const double d = std::sqrt(n.squared_distance) / radius;
     const double cubic = 1 - d * d * d;
     const double weight = o.weight * cubic * cubic * cubic;
-    const double u = (o.place.x() - place.x()) / radius, v = (o.place.y() - place.y()) / radius;
+    const double u = (o.position.x() - position.x()) / radius,
+                 v = (o.position.y() - position.y()) / radius;
     const Vector6 row{1, u, v, u * u, u * v, v * v};
     normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     right += weight * (o.height - level) * row;
@@ -68,19 +69,19 @@ double HeightRegression::height(const Eigen::Vector2d& place, std::span<const Ne
   return level + solved(normal, right)[0];
 }
 
-void HeightRegression::nearest(const Eigen::Vector2d& place, Index neighbours,
+void HeightRegression::nearest(const Eigen::Vector2d& position, Index neighbours,
                                std::vector<Neighbour>& near) const {
-  tree_.nearest({place.x(), place.y(), 0}, neighbours + 1, near);
+  tree_.nearest({position.x(), position.y(), 0}, neighbours + 1, near);
 }
 
-Points HeightRegression::fitted(const Points& places, Index neighbours) const {
-  Points fits = places;
+Points HeightRegression::fitted(const Points& positions, Index neighbours) const {
+  Points fits = positions;
   std::vector<Index> kept;
   std::vector<Neighbour> near;
-  for (Index i = 0; i < places.rows(); ++i) {
-    const Eigen::Vector2d place(places(i, 0), places(i, 1));
-    nearest(place, neighbours, near);
-    fits(i, 2) = height(place, near, -1);
+  for (Index i = 0; i < positions.rows(); ++i) {
+    const Eigen::Vector2d position(positions(i, 0), positions(i, 1));
+    nearest(position, neighbours, near);
+    fits(i, 2) = height(position, near, -1);
     if (std::isfinite(fits(i, 2))) kept.push_back(i);
   }
   return fits(kept, Eigen::indexing::all);
@@ -91,8 +92,8 @@ void HeightRegression::reject_outliers(Index neighbours) {
   std::vector<double> residuals(n);
   std::vector<Neighbour> near;
   for (Index i = 0; i < n; ++i) {
-    nearest(observations_[i].place, neighbours, near);
-    residuals[i] = std::abs(observations_[i].height - height(observations_[i].place, near, i));
+    nearest(observations_[i].position, neighbours, near);
+    residuals[i] = std::abs(observations_[i].height - height(observations_[i].position, near, i));
   }
   for (double& r : residuals)
     if (!std::isfinite(r)) r = 0;
@@ -115,9 +116,10 @@ Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const
   for (Index i = 0; i < n; i += step) {
     const HeightObservation& o = observations_[i];
     if (!(o.weight > 0)) continue;
-    nearest(o.place, std::min(n - 1, offered.back()), near);
+    nearest(o.position, std::min(n - 1, offered.back()), near);
     for (std::size_t k = 0; k < offered.size() && offered[k] < n; ++k) {
-      const double residual = o.height - height(o.place, std::span(near).first(offered[k] + 1), i);
+      const double residual =
+          o.height - height(o.position, std::span(near).first(offered[k] + 1), i);
       if (!std::isfinite(residual)) continue;
       errors[k].sum += o.weight * residual * residual;
       errors[k].weights += o.weight;

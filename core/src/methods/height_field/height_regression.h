@@ -9,21 +9,21 @@
 
 namespace symsurf {
 
-/// What is known of a surface's height at one place of the plane.
+/// What is known of a surface's height at one position of the plane.
 struct HeightObservation {
-  Eigen::Vector2d place;
+  Eigen::Vector2d position;
   double height;
   double weight;
 };
 
-/// Robust local quadratic regression (loess, Cleveland 1979) of heights over scattered places.
+/// Robust local quadratic regression (loess, Cleveland 1979) of heights over scattered positions.
 class HeightRegression {
  public:
   explicit HeightRegression(std::vector<HeightObservation> observations);
 
-  /// The places (rows u, v, anything) with the heights fitted there, each from its `neighbours`
-  /// nearest observations, tricube weights; without places where all of these were rejected.
-  Points fitted(const Points& places, Index neighbours) const;
+  /// The positions (rows u, v, anything) with the heights fitted there, each from its `neighbours`
+  /// nearest observations, tricube weights; without positions where all of these were rejected.
+  Points fitted(const Points& positions, Index neighbours) const;
 
   /// Lowers the weight of observations that do not fit their surroundings (Tukey's biweight, from
   /// the median residual).
@@ -33,15 +33,16 @@ class HeightRegression {
   /// well as the best does.
   Index best_neighbours(const std::vector<Index>& offered) const;
 
-  /// Places of observations, as rows for fitted(), no two within `distance`: heights fitted side by
-  /// side differ a little, and a surface through them all would be steep between them.
+  /// Positions of observations, as rows for fitted(), no two within `distance`: heights fitted side
+  /// by side differ a little, and a surface through them all would be steep between them.
   Points places_apart(double distance) const;
 
  private:
-  Points places() const;
-  void nearest(const Eigen::Vector2d& place, Index neighbours, std::vector<Neighbour>& near) const;
-  /// Height at a place from those near it, but for `left_out`; NaN where all were rejected.
-  double height(const Eigen::Vector2d& place, std::span<const Neighbour> near,
+  Points positions() const;
+  void nearest(const Eigen::Vector2d& position, Index neighbours,
+               std::vector<Neighbour>& near) const;
+  /// Height at a position from those near it, but for `left_out`; NaN where all were rejected.
+  double height(const Eigen::Vector2d& position, std::span<const Neighbour> near,
                 Index left_out) const;
 
   std::vector<HeightObservation> observations_;

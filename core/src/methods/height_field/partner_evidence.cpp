@@ -20,7 +20,7 @@ struct Count {
   double inside = 0, inside_squares = 0;
   std::array<double, sectors> ring{};
 
-  // Against the fullest direction of the ring: sheets seen edge-on crowd along a line.
+  // Against the fullest direction of the ring: surfaces seen edge-on crowd along a line.
   double chance() const {
     constexpr double share =
         inner * inner / (ring_outer * ring_outer - ring_inner * ring_inner) * sectors;
@@ -43,8 +43,8 @@ SYMSURF_VECTORISED void shifted_squares(const double* u, const double* v, const 
 // The chords' offsets side by side: most are passed over, at every shift.
 class Offsets {
  public:
-  explicit Offsets(const std::vector<MidSheet::Chord>& chords) : squares_(chords.size()) {
-    for (const MidSheet::Chord& c : chords) {
+  explicit Offsets(const std::vector<MidSurface::Chord>& chords) : squares_(chords.size()) {
+    for (const MidSurface::Chord& c : chords) {
       u_.push_back(c.offset.x());
       v_.push_back(c.offset.y());
       length_.push_back(c.length);
@@ -64,9 +64,9 @@ class Offsets {
 
 }  // namespace
 
-PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
+PartnerEvidence partner_evidence(const MidSurface& surface, const WorkingCloud& cloud,
                                  const Vector3& direction, const Context& context) {
-  const std::vector<MidSheet::Chord> chords = sheet.chords();
+  const std::vector<MidSurface::Chord> chords = surface.chords();
   PartnerEvidence best{direction, 0, 0, 0};
   if (chords.size() < 10) return best;
 
@@ -84,7 +84,7 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
       for (std::size_t k = 0; k < chords.size(); ++k) {
         const double squared = squares[k];
         if (squared > ring_outer * ring_outer) continue;
-        const MidSheet::Chord& c = chords[k];
+        const MidSurface::Chord& c = chords[k];
         const Eigen::Vector2d o = c.offset - c.length * at;
         if (squared < inner * inner) {
           count.inside += c.weight;
@@ -101,7 +101,7 @@ PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& clou
       if (shift == shifts) {
         const double significance = count.significance();
         if (significance > best.significance)
-          best = {(direction + sheet.across() * at).normalized(), significance, scatter,
+          best = {(direction + surface.across() * at).normalized(), significance, scatter,
                   2 * (count.inside - count.chance()) / static_cast<double>(cloud.size())};
         break;
       }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/height_field/mid_sheet.h"
+#include "methods/height_field/mid_surface.h"
 
 namespace symsurf {
 
@@ -12,9 +12,9 @@ struct PartnerEvidence {
   double share = 0;         ///< of the points that have such a partner, each by its squareness
 };
 
-/// Tries scatters from a fraction of the spacing up to the sheet's reach; at each, a mean shift
+/// Tries scatters from a fraction of the spacing up to the surface's reach; at each, a mean shift
 /// of the direction, freed of the pull of the evenly spread chance partners.
-PartnerEvidence partner_evidence(const MidSheet& sheet, const WorkingCloud& cloud,
+PartnerEvidence partner_evidence(const MidSurface& surface, const WorkingCloud& cloud,
                                  const Vector3& direction, const Context& context);
 
 }  // namespace symsurf

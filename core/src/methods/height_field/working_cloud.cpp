@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/parallel.h"
-#include "base/quantile.h"
 
 namespace symsurf {
 

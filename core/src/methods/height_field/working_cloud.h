@@ -22,7 +22,7 @@ struct WorkingCloud {
   PointTree tree;            ///< of these points
   Points normals;            ///< unit, sign arbitrary; of the local regression plane
   Eigen::VectorXd flatness;  ///< distance from that plane, RMS
-  Eigen::VectorXd spacings;  ///< of the points on a sheet, about each point
+  Eigen::VectorXd spacings;  ///< of the points on a surface, about each point
   double spacing = 0;        ///< median of them
 };
 

@@ -3,15 +3,15 @@
 #include <array>
 #include <cmath>
 
-#include "methods/parametric/settling.h"
 #include "methods/parametric/shapes.h"
+#include "methods/parametric/surfel_icp.h"
 
 namespace symsurf {
 
 namespace {
 
-// Where a mirror sends a few places of the cloud: mirrors act alike where they send them to like
-// places.
+// Where a mirror sends a few positions of the cloud: mirrors act alike where they send them to like
+// positions.
 struct Action {
   static constexpr Index probes = 12;
 
@@ -40,23 +40,23 @@ struct Action {
 }  // namespace
 
 template <typename Shape>
-double explained_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
-                       double tolerance, Index stride) {
+double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
+                     double tolerance, Index stride) {
   return agreeing_share(surfels, map, shape, tolerance, stride, 0);
 }
 
 template <typename Shape>
-Candidate<Shape> settled(const Surfels& surfels, const SurfelMap& map, Candidate<Shape> candidate,
-                         double widest, double narrowest, int steps, Index stride) {
-  candidate.shape =
-      moved_onto_images(surfels, map, candidate.shape, widest, narrowest, steps, stride);
-  candidate.explained = explained_share(surfels, map, candidate.shape, narrowest, stride);
+Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
+                                    Candidate<Shape> candidate, double widest, double narrowest,
+                                    int steps, Index stride) {
+  candidate.shape = icp_steps(surfels, map, candidate.shape, widest, narrowest, steps, stride);
+  candidate.support = support_share(surfels, map, candidate.shape, narrowest, stride);
   return candidate;
 }
 
 template <typename Shape>
-void keep_distinct(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
-                   double distance, Index count) {
+void suppress_non_maxima(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
+                         double distance, Index count) {
   sort_best_first(candidates);
   std::vector<Candidate<Shape>> kept;
   std::vector<Action> actions;
@@ -84,33 +84,37 @@ std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, cons
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     if (i % 256 == 0) context.check();
     const Shape& shape = hypotheses[i];
-    if (explained_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
-    const double explained = explained_share(surfels, map, shape, tolerance, stride(first_look));
-    if (explained > least_explained) found.push_back({shape, explained});
+    if (support_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
+    const double support = support_share(surfels, map, shape, tolerance, stride(first_look));
+    if (support > least_explained) found.push_back({shape, support});
   }
   sort_best_first(found);
   found.resize(std::min(found.size(), first_count));
-  keep_distinct(surfels, found, 0.04, second_count);
+  suppress_non_maxima(surfels, found, 0.04, second_count);
   for (Candidate<Shape>& candidate : found) {
     context.check();
-    candidate.explained =
-        explained_share(surfels, map, candidate.shape, tolerance, stride(second_look));
+    candidate.support =
+        support_share(surfels, map, candidate.shape, tolerance, stride(second_look));
   }
-  keep_distinct(surfels, found, 0.06, count);
+  suppress_non_maxima(surfels, found, 0.06, count);
   return found;
 }
 
-template double explained_share(const Surfels&, const SurfelMap&, const UnitSphere&, double, Index);
+template double support_share(const Surfels&, const SurfelMap&, const UnitSphere&, double, Index);
 
-template Candidate<UnitPlane> settled(const Surfels&, const SurfelMap&, Candidate<UnitPlane>,
-                                      double, double, int, Index);
-template Candidate<UnitSphere> settled(const Surfels&, const SurfelMap&, Candidate<UnitSphere>,
-                                       double, double, int, Index);
-template Candidate<UnitCylinder> settled(const Surfels&, const SurfelMap&, Candidate<UnitCylinder>,
-                                         double, double, int, Index);
+template Candidate<UnitPlane> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                 Candidate<UnitPlane>, double, double, int, Index);
+template Candidate<UnitSphere> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                  Candidate<UnitSphere>, double, double, int,
+                                                  Index);
+template Candidate<UnitCylinder> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                    Candidate<UnitCylinder>, double, double, int,
+                                                    Index);
 
-template void keep_distinct(const Surfels&, std::vector<Candidate<UnitSphere>>&, double, Index);
-template void keep_distinct(const Surfels&, std::vector<Candidate<UnitCylinder>>&, double, Index);
+template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitSphere>>&, double,
+                                  Index);
+template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitCylinder>>&, double,
+                                  Index);
 
 template std::vector<Candidate<UnitSphere>> best_of(const std::vector<UnitSphere>&, const Surfels&,
                                                     const SurfelMap&, Index, const Context&);

@@ -13,19 +13,19 @@ namespace symsurf {
 
 // What the searches for mirrors of few numbers share. A `Shape` is such a mirror in the principal
 // frame: distance(x), reflect(x) (NaN without an image), reflect_direction(x, n), the unit normal
-// at the image of a sheet through x with normal n, and Shape::Step, one Gauss-Newton step. Compiled
-// for the shapes of shapes.h.
+// at the image of a surface through x with normal n, and Shape::Step, one Gauss-Newton step.
+// Compiled for the shapes of shapes.h.
 
 /// A mirror, the share of the surfels that it explains and that of the points that it maps onto
 /// partners of their own, beyond chance; both in [0, 1].
 template <typename Shape>
 struct Candidate {
   Shape shape;
-  double explained = 0;
+  double support = 0;
   double partnered = 0;
 
-  /// Many mirrors explain a plain sheet, but only the true one partners its points.
-  double merit() const { return explained + partnered; }
+  /// Many mirrors explain a plain surface, but only the true one partners its points.
+  double merit() const { return support + partnered; }
 };
 
 template <typename Shape>
@@ -38,19 +38,20 @@ void sort_best_first(std::vector<Candidate<Shape>>& candidates) {
 /// 35 % of all, so that a mirror the cloud lies along explains nothing). Surfels without an image
 /// count as moved. `stride` k looks at every k-th surfel.
 template <typename Shape>
-double explained_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
-                       double tolerance, Index stride = 1);
+double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
+                     double tolerance, Index stride = 1);
 
 /// Moves a mirror onto the surfels' images.
 template <typename Shape>
-Candidate<Shape> settled(const Surfels& surfels, const SurfelMap& map, Candidate<Shape> candidate,
-                         double widest, double narrowest, int steps, Index stride);
+Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
+                                    Candidate<Shape> candidate, double widest, double narrowest,
+                                    int steps, Index stride);
 
-/// Drops mirrors that send places of the cloud nearly where a better one does, within `distance`
+/// Drops mirrors that send positions of the cloud nearly where a better one does, within `distance`
 /// diagonals, root mean square; best first.
 template <typename Shape>
-void keep_distinct(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
-                   double distance, Index count);
+void suppress_non_maxima(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
+                         double distance, Index count);
 
 /// The best `count` of many hypotheses that differ: each meets a glance at few surfels first.
 template <typename Shape>

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "methods/parametric/unit_plane.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
@@ -25,9 +25,9 @@ class PlaneStep {
     const Vector3 off = along_slopes(metric.normal), pulled = along_slopes(gap);
     Matrix3 slopes;
     slopes << a * a + l * l, a * b, a, a * b, b * b + l * l, b, a, b, 1;
-    const double all = 4 * weight * metric.isotropic, sheet = 4 * weight * metric.off_sheet;
-    hessian_ += all * slopes + sheet * off * off.transpose();
-    gradient_ -= (all * pulled + sheet * metric.normal.dot(gap) * off) / 2;
+    const double all = 4 * weight * metric.isotropic, surface = 4 * weight * metric.off_surface;
+    hessian_ += all * slopes + surface * off * off.transpose();
+    gradient_ -= (all * pulled + surface * metric.normal.dot(gap) * off) / 2;
   }
 
   /// The plane after the step, and how far it moved; the same plane where nothing holds it.

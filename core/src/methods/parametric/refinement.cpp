@@ -4,17 +4,17 @@
 #include <array>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "base/symmetric_eigen.h"
-#include "cloud/sheet_spacing.h"
+#include "cloud/surface_spacing.h"
 #include "methods/parametric/shapes.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
 namespace {
 
-// `held`: what changes cost on the sheets; `moved`: how far they move the images, summed over
+// `held`: what changes cost on the surfaces; `moved`: how far they move the images, summed over
 // `count`.
 Eigen::Matrix<double, Eigen::Dynamic, 2> loosest_changes(const Eigen::MatrixXd& held,
                                                          Eigen::MatrixXd moved, double count) {
@@ -25,11 +25,11 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> loosest_changes(const Eigen::MatrixXd& 
 }
 
 // The mean over tolerances from coarse to fine: images that meet a point exactly count in full,
-// chance agreement less the finer one looks.
-double closeness(const Agreement& agreement) {
+// chance correspondence less the finer one looks.
+double closeness(const Correspondence& correspondence) {
   constexpr std::array score_tolerances{0.01, 0.005, 0.0025, 0.00125};
   double sum = 0;
-  for (const double tolerance : score_tolerances) sum += agreement.weight(tolerance);
+  for (const double tolerance : score_tolerances) sum += correspondence.weight(tolerance);
   return sum / static_cast<double>(score_tolerances.size());
 }
 
@@ -42,11 +42,11 @@ ParametricRefinement::ParametricRefinement(const Cloud& cloud, const NearestPoin
       points_(points),
       surfels_(surfels),
       context_(context),
-      spacing_(sheet_spacing(cloud.points, tree) / cloud.frame.size) {
+      spacing_(surface_spacing(cloud.points, tree) / cloud.frame.size) {
   constexpr Index most_samples = 8192;
   const Index n = cloud.points.size(), count = std::min(n, most_samples);
   for (Index k = 0; k < count; ++k) {
-    const Vector3 x = cloud.frame.enter(cloud.points[tree.order()[k * n / count]]);
+    const Vector3 x = cloud.frame.to_frame(cloud.points[tree.order()[k * n / count]]);
     const Index surfel = surfels.containing(x);
     if (surfel >= 0) samples_.push_back({x, &surfels[surfel]});
   }
@@ -66,13 +66,13 @@ auto ParametricRefinement::matches(const Shape& shape, double limit, Index strid
     if (!image.allFinite()) continue;
     asked.push_back(&samples_[i]);
     images.push_back(image);
-    queries.push_back(cloud_.frame.leave(image));
+    queries.push_back(cloud_.frame.from_frame(image));
   }
   std::vector<Match> found;
   const std::vector<Vector3> nearest = points_.nearest(queries, limit * cloud_.frame.size);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!nearest[k].allFinite()) continue;
-    const Vector3 partner = cloud_.frame.enter(nearest[k]);
+    const Vector3 partner = cloud_.frame.to_frame(nearest[k]);
     const Index surfel = surfels_.containing(partner);
     if (surfel >= 0) found.push_back({asked[k], images[k] - partner, &surfels_[surfel]});
   }
@@ -83,7 +83,7 @@ template <typename Shape>
 Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Index wanted,
                                               int steps) const {
   constexpr double narrowest = 0.003;
-  constexpr double along_sheet = 0.01;
+  constexpr double along_surface = 0.01;
   const Index stride = stride_for(wanted);
   Candidate<Shape> candidate = start;
   double tolerance = widest;
@@ -94,13 +94,13 @@ Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Ind
       const Sample& s = *match.sample;
       const double weight = displaced(candidate.shape.distance(s.position), widest);
       if (weight <= 0) continue;
-      const Agreement agreement(match.gap,
-                                candidate.shape.reflect_direction(s.position, s.surfel->normal),
-                                s.surfel->flatness, *match.partner);
-      residuals.push_back(agreement.squared);
+      const Correspondence correspondence(
+          match.gap, candidate.shape.reflect_direction(s.position, s.surfel->normal),
+          s.surfel->flatness, *match.partner);
+      residuals.push_back(correspondence.squared);
       const double trusted =
-          agreement.weight(tolerance) * inside_sheet(match.gap, *match.partner, spacing_);
-      sum.add(s.position, match.gap, agreement.metric(along_sheet), weight * trusted);
+          correspondence.weight(tolerance) * inside_surface(match.gap, *match.partner, spacing_);
+      sum.add(s.position, match.gap, correspondence.metric(along_surface), weight * trusted);
     }
     if (residuals.size() < 5) break;
     double moved;
@@ -108,7 +108,7 @@ Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Ind
     tolerance = std::clamp(2.5 * std::sqrt(median(std::move(residuals))), narrowest, widest);
     if (moved < 1e-5) break;
   }
-  candidate.explained = explained(candidate.shape, wanted);
+  candidate.support = support(candidate.shape, wanted);
   return candidate;
 }
 
@@ -139,7 +139,7 @@ Candidate<Shape> ParametricRefinement::fitted_to_exact_pairs(const Candidate<Sha
     if (moved < 1e-14) break;
   }
   if (typical >= exact * spacing_) return start;
-  candidate.explained = explained(candidate.shape, 1200);
+  candidate.support = support(candidate.shape, 1200);
   return candidate;
 }
 
@@ -151,10 +151,11 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Sha
     const Sample& s = *match.sample;
     const double weight = displaced(shape.distance(s.position), widest);
     if (weight <= 0) continue;
-    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
-                              s.surfel->flatness, *match.partner);
+    const Correspondence correspondence(match.gap,
+                                        shape.reflect_direction(s.position, s.surfel->normal),
+                                        s.surfel->flatness, *match.partner);
     const Vector3& n = match.partner->normal;
-    held.add(s.position, match.gap, n * n.transpose(), weight * agreement.weight(widest));
+    held.add(s.position, match.gap, n * n.transpose(), weight * correspondence.weight(widest));
     moved.add(s.position, match.gap, Matrix3::Identity(), weight);
     count += weight;
   }
@@ -162,7 +163,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Sha
 }
 
 template <typename Shape>
-double ParametricRefinement::explained(const Shape& shape, Index wanted) const {
+double ParametricRefinement::support(const Shape& shape, Index wanted) const {
   constexpr double least_moved = 0.35;
   const Index stride = stride_for(wanted);
   const double tolerance = std::max(0.01, spacing_ / 2);
@@ -172,9 +173,10 @@ double ParametricRefinement::explained(const Shape& shape, Index wanted) const {
     moved += displaced(shape.distance(samples_[i].position), tolerance);
   for (const Match& match : matches(shape, reach(), stride)) {
     const Sample& s = *match.sample;
-    const Agreement agreement(match.gap, shape.reflect_direction(s.position, s.surfel->normal),
-                              s.surfel->flatness, *match.partner);
-    agreeing += displaced(shape.distance(s.position), tolerance) * closeness(agreement);
+    const Correspondence correspondence(match.gap,
+                                        shape.reflect_direction(s.position, s.surfel->normal),
+                                        s.surfel->flatness, *match.partner);
+    agreeing += displaced(shape.distance(s.position), tolerance) * closeness(correspondence);
   }
   return agreeing / std::max(moved, least_moved * static_cast<double>(looked));
 }
@@ -191,6 +193,6 @@ template Candidate<UnitCylinder> ParametricRefinement::fitted_to_exact_pairs(
     const Candidate<UnitCylinder>&) const;
 template Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(
     const UnitSphere&) const;
-template double ParametricRefinement::explained(const UnitSphere&, Index) const;
+template double ParametricRefinement::support(const UnitSphere&, Index) const;
 
 }  // namespace symsurf

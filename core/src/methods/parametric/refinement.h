@@ -25,14 +25,14 @@ class ParametricRefinement {
   template <typename Shape>
   Candidate<Shape> fitted_to_exact_pairs(const Candidate<Shape>& start) const;
 
-  /// The two changes of the mirror's numbers, columns, that the cloud's sheets resist least,
+  /// The two changes of the mirror's numbers, columns, that the cloud's surfaces resist least,
   /// against how far they move the images: by 1, root mean square.
   template <typename Shape>
   Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Shape& shape) const;
 
   /// Of the samples the mirror moves, the share that meets the cloud.
   template <typename Shape>
-  double explained(const Shape& shape, Index wanted) const;
+  double support(const Shape& shape, Index wanted) const;
 
   /// Of the cloud's points, in the principal frame.
   double spacing() const { return spacing_; }

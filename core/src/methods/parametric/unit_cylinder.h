@@ -33,7 +33,7 @@ struct UnitCylinder {
     return x + 2 * (radius / length - 1) * v;
   }
 
-  /// The unit normal at the image of a sheet through x with normal n: tangents around the axis
+  /// The unit normal at the image of a surface through x with normal n: tangents around the axis
   /// stretch by 2r / |v| - 1, normals by its inverse.
   Vector3 reflect_direction(const Vector3& x, const Vector3& n) const {
     const Vector3 v = from_axis(x);

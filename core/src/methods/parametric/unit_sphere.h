@@ -45,7 +45,7 @@ struct UnitSphere {
     return x - twice_distance(x, length) / length * up;
   }
 
-  /// The unit normal at the image of a sheet through x with normal v: tangents across the radius
+  /// The unit normal at the image of a surface through x with normal v: tangents across the radius
   /// stretch by 2 / |gradient| - 1, normals by its inverse.
   Vector3 reflect_direction(const Vector3& x, const Vector3& v) const {
     const Vector3 up = gradient(x);
@@ -94,7 +94,7 @@ struct UnitSphere {
 };
 
 inline Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
-  return {frame.leave(sphere.centre()), frame.size * sphere.radius()};
+  return {frame.from_frame(sphere.centre()), frame.size * sphere.radius()};
 }
 
 }  // namespace symsurf

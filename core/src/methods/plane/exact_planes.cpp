@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/keep_unlike.h"
+#include "base/math.h"
 
 namespace symsurf {
 
@@ -33,7 +33,7 @@ std::vector<Shell> outer_shells(const Cloud& cloud) {
             })->squaredNorm();
   };
   for (Index i = 0; i < cloud.points.size(); ++i) {
-    const Vector3 x = cloud.frame.enter(cloud.points[i]);
+    const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
     if (x.squaredNorm() < least) continue;
     points.push_back(x);
     if (points.size() >= 4 * farthest) keep_farthest();
@@ -85,7 +85,7 @@ void keep_exact(std::vector<UnitPlane>& planes, const Points& positions, const C
   std::vector<Vector3> images;
   for (const UnitPlane& plane : planes)
     for (Index i = 0; i < positions.rows(); ++i)
-      images.push_back(cloud.frame.leave(plane.reflect(positions.row(i).transpose())));
+      images.push_back(cloud.frame.from_frame(plane.reflect(positions.row(i).transpose())));
   const std::vector<Vector3> partners = points.nearest(images, rounding * cloud.frame.size);
   std::size_t k = 0;
   std::erase_if(planes, [&](const UnitPlane&) {
@@ -107,7 +107,7 @@ std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& poi
       positions.row(k) = samples[k * samples.size() / positions.rows()].sampled.transpose();
     keep_exact(planes, positions, cloud, points);
   }
-  keep_unlike(planes, planes.size(), [](const UnitPlane& plane, const UnitPlane& other) {
+  suppress_non_maxima(planes, planes.size(), [](const UnitPlane& plane, const UnitPlane& other) {
     return plane.normal.cross(other.normal).norm() < least_angle;
   });
   // A flat cloud's own plane moves nothing.

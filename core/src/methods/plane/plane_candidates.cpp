@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
-#include "base/keep_unlike.h"
+#include "base/math.h"
 #include "methods/parametric/plane_step.h"
-#include "methods/parametric/settling.h"
+#include "methods/parametric/surfel_icp.h"
 
 namespace symsurf {
 
@@ -22,7 +22,7 @@ constexpr double least_explained = 0.1;
 constexpr double many = 1000;  // surfels; see Search
 constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
 
-// Two mirrors act alike where they send points to like places. Probes at the corners of a
+// Two mirrors act alike where they send points to like positions. Probes at the corners of a
 // tetrahedron as wide as the cloud.
 double difference(const UnitPlane& a, const UnitPlane& b) {
   static const std::array<Vector3, 4> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
@@ -38,11 +38,11 @@ struct Average {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   double weight = 0;
 
-  void add(const UnitPlane& plane, double explained) {
+  void add(const UnitPlane& plane, double support) {
     const double sign = plane.normal.dot(sum.head<3>()) < 0 ? -1 : 1;
-    sum.head<3>() += sign * explained * plane.normal;
-    sum[3] += sign * explained * plane.offset;
-    weight += explained;
+    sum.head<3>() += sign * support * plane.normal;
+    sum[3] += sign * support * plane.offset;
+    weight += support;
   }
   UnitPlane plane() const {
     const double length = sum.head<3>().norm();
@@ -80,7 +80,7 @@ UnitPlane plane_between(const Vector3& a, const Vector3& b) {
 void sort_best_first(std::vector<PlaneCandidate>& candidates) {
   std::stable_sort(
       candidates.begin(), candidates.end(),
-      [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.explained > b.explained; });
+      [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.support > b.support; });
 }
 
 void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
@@ -91,8 +91,8 @@ void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
 
 }  // namespace
 
-double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
-                       double tolerance, Index stride) {
+double support_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
+                     double tolerance, Index stride) {
   return agreeing_share(surfels, map, plane, tolerance, stride, contradiction);
 }
 
@@ -113,11 +113,11 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
       const Vector3 chord = b.position - a.position;
       const double squared = chord.squaredNorm();
       if (squared < shortest_chord * shortest_chord) continue;
-      const bool sheets = a.flatness * b.flatness > 0.25;
+      const bool surfaces = a.flatness * b.flatness > 0.25;
       const double cosine =
           a.normal.dot(b.normal) - 2 * chord.dot(a.normal) * chord.dot(b.normal) / squared;
-      if (sheets && std::abs(cosine) < facing_cosine) continue;
-      telling += sheets ? 1 : blind;
+      if (surfaces && std::abs(cosine) < facing_cosine) continue;
+      telling += surfaces ? 1 : blind;
       pairs.push_back({ticket(i, j), static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
     }
 
@@ -128,40 +128,40 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
-    const double explained = explained_share(surfels, map, plane, search_tolerance, glancing);
-    if (explained > least_explained) found.push_back({plane, explained});
+    const double support = support_share(surfels, map, plane, search_tolerance, glancing);
+    if (support > least_explained) found.push_back({plane, support});
   }
   keep_best(found, sparser * search.promising);
 
   std::map<std::int32_t, Average> bins;
   for (const auto& [plane, glanced] : found) {
-    const double explained = explained_share(surfels, map, plane, search_tolerance, coarse);
-    if (explained > least_explained) bins[bin(plane)].add(plane, explained);
+    const double support = support_share(surfels, map, plane, search_tolerance, coarse);
+    if (support > least_explained) bins[bin(plane)].add(plane, support);
   }
   found.clear();
   for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
   keep_best(found, sparser * search.averages);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
-    candidate.explained = explained_share(surfels, map, candidate.plane, search_tolerance, fine);
-  keep_distinct(found, 0.08, count);
+    candidate.support = support_share(surfels, map, candidate.plane, search_tolerance, fine);
+  suppress_non_maxima(found, 0.08, count);
   return found;
 }
 
-PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
-                       double widest, double narrowest, int steps, Index stride) {
-  candidate.plane =
-      moved_onto_images(surfels, map, candidate.plane, widest, narrowest, steps, stride);
-  candidate.explained = explained_share(surfels, map, candidate.plane, narrowest, stride);
+PlaneCandidate refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
+                                  PlaneCandidate candidate, double widest, double narrowest,
+                                  int steps, Index stride) {
+  candidate.plane = icp_steps(surfels, map, candidate.plane, widest, narrowest, steps, stride);
+  candidate.support = support_share(surfels, map, candidate.plane, narrowest, stride);
   return candidate;
 }
 
-void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
+void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
   sort_best_first(candidates);
-  keep_unlike(candidates, static_cast<std::size_t>(count),
-              [&](const PlaneCandidate& candidate, const PlaneCandidate& other) {
-                return difference(other.plane, candidate.plane) < distance;
-              });
+  suppress_non_maxima(candidates, static_cast<std::size_t>(count),
+                      [&](const PlaneCandidate& candidate, const PlaneCandidate& other) {
+                        return difference(other.plane, candidate.plane) < distance;
+                      });
 }
 
 }  // namespace symsurf

@@ -12,15 +12,15 @@ namespace symsurf {
 /// it.
 struct PlaneCandidate {
   UnitPlane plane;
-  double explained = 0;
+  double support = 0;
 };
 
 /// Share of the surfels whose images agree with the cloud, less some of those whose images come
 /// beside it, out of those the plane moves (at least 35 % of all, so that a plane the cloud lies
 /// along explains nothing). An image in the void says nothing: that part may be missing. `stride` k
 /// looks at every k-th surfel.
-double explained_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
-                       double tolerance, Index stride = 1);
+double support_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
+                     double tolerance, Index stride = 1);
 
 /// How much to try, on a thousand surfels or more. Of fewer, which lie further from their partners,
 /// fewer pairs come near a plane, and more are tried.
@@ -38,10 +38,11 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
                                              const Search& search, Index count);
 
 /// Moves a plane onto the surfels' images, looking less far with each step.
-PlaneCandidate settled(const Surfels& surfels, const SurfelMap& map, PlaneCandidate candidate,
-                       double widest, double narrowest, int steps, Index stride);
+PlaneCandidate refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
+                                  PlaneCandidate candidate, double widest, double narrowest,
+                                  int steps, Index stride);
 
 /// Drops planes that mirror the cloud nearly as a better one does; best first.
-void keep_distinct(std::vector<PlaneCandidate>& candidates, double distance, Index count);
+void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count);
 
 }  // namespace symsurf

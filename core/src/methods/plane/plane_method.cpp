@@ -20,7 +20,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr double meagre = 0.3;        // a best that explains less has the margins of one like this
+constexpr double least_best = 0.3;    // a best that explains less has the margins of one like this
 constexpr double maps_surface = 0.9;  // score of a plane that maps vertices onto vertices
 constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.5;  // of the best score
@@ -30,11 +30,11 @@ constexpr Index measured = 150;        // surfels that the measure is taken over
 
 struct Effort {
   Search search;
-  Index started;         // candidates that are settled on the surfels, roughly
-  Index settled_well;    // of these, are settled closely
-  Index quickly_fitted;  // of these, are fitted to the full cloud
-  Index finalists;       // of these, are fitted carefully
-  double hopeless;       // below the best by this share of it: not worth fitting
+  Index started;          // candidates that are settled on the surfels, roughly
+  Index settled_well;     // of these, are settled closely
+  Index quickly_fitted;   // of these, are fitted to the full cloud
+  Index finalists;        // of these, are fitted carefully
+  double far_below_best;  // below the best by this share of it: not worth fitting
 };
 
 constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.4};
@@ -44,22 +44,22 @@ constexpr double unexplained = 0.15;
 constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
 
 // Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
-void climb(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
+void maximise_measure(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
   const SymmetryMeasure measure(surfels.positions(measured));
   Eigen::Vector4d p;
   p << candidate.plane.normal, candidate.plane.offset;
   p = maximise<4>(measure, p, 0.02, 5);
   const double length = p.head<3>().norm();
   const UnitPlane plane{p.head<3>() / length, p[3] / length};
-  const double explained = explained_share(surfels, map, plane, 0.02, 3);
-  if (explained > candidate.explained) candidate = {plane, explained};
+  const double support = support_share(surfels, map, plane, 0.02, 3);
+  if (support > candidate.support) candidate = {plane, support};
 }
 
-double below(double best, double share) { return best - share * std::max(best, meagre); }
+double below(double best, double share) { return best - share * std::max(best, least_best); }
 
-void drop_hopeless(std::vector<PlaneCandidate>& candidates, double share) {
-  const double least = below(candidates.front().explained, share);
-  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.explained < least; });
+void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) {
+  const double least = below(candidates.front().support, share);
+  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.support < least; });
 }
 
 // On the thinned cloud alone.
@@ -69,15 +69,15 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
       candidate_planes(surfels, map, effort.search, effort.started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.04, 0.02, 3, 3);
-  keep_distinct(candidates, alike_planes, effort.started);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3);
+  suppress_non_maxima(candidates, alike_planes, effort.started);
   context.report(0.5);
-  climb(surfels, map, candidates.front());
-  drop_hopeless(candidates, effort.hopeless);
-  keep_distinct(candidates, alike_planes, effort.settled_well);
+  maximise_measure(surfels, map, candidates.front());
+  drop_far_below_best(candidates, effort.far_below_best);
+  suppress_non_maxima(candidates, alike_planes, effort.settled_well);
   for (PlaneCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 3);
-  keep_distinct(candidates, alike_planes, effort.quickly_fitted);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3);
+  suppress_non_maxima(candidates, alike_planes, effort.quickly_fitted);
   context.report(1);
   return candidates;
 }
@@ -96,11 +96,11 @@ void fit(const Refinement& refinement, const Effort& effort,
          std::vector<PlaneCandidate>& candidates, const Context& context) {
   improve(candidates, context.stage(0, 0.5),
           [&](const PlaneCandidate& c) { return refinement.quick(c); });
-  keep_distinct(candidates, alike_planes, effort.finalists);
-  drop_hopeless(candidates, effort.hopeless);
+  suppress_non_maxima(candidates, alike_planes, effort.finalists);
+  drop_far_below_best(candidates, effort.far_below_best);
   improve(candidates, context.stage(0.5, 1),
           [&](const PlaneCandidate& c) { return refinement.careful(c); });
-  keep_distinct(candidates, alike_planes, effort.finalists);
+  suppress_non_maxima(candidates, alike_planes, effort.finalists);
 }
 
 // Where the cloud extends most along the mirror: slabs across it hold points with their partners.
@@ -135,27 +135,27 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
   fit(refinement, usual, candidates, context.stage(0, 0.3));
-  if (candidates.front().explained < unexplained) {
+  if (candidates.front().support < unexplained) {
     std::vector<PlaneCandidate> more =
         promising_planes(surfels, map, thorough, context.stage(0.3, 0.5));
     fit(refinement, thorough, more, context.stage(0.5, 0.6));
     candidates.insert(candidates.end(), more.begin(), more.end());
-    keep_distinct(candidates, alike_planes, thorough.finalists);
+    suppress_non_maxima(candidates, alike_planes, thorough.finalists);
   }
   improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
     return PlaneCandidate{c.plane, score.glance(*mirror_of(c.plane, cloud)).share};
   });
-  keep_distinct(candidates, alike_planes, refined_at_most);
-  std::erase_if(candidates, [best = candidates.front().explained](const PlaneCandidate& c) {
-    return c.explained < worth_refining * best;
+  suppress_non_maxima(candidates, alike_planes, refined_at_most);
+  std::erase_if(candidates, [best = candidates.front().support](const PlaneCandidate& c) {
+    return c.support < worth_refining * best;
   });
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
   improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
-    return PlaneCandidate{refinement.refined(c.plane), c.explained};
+    return PlaneCandidate{refinement.refined(c.plane), c.support};
   });
-  keep_distinct(candidates, alike_planes, static_cast<Index>(candidates.size()));
+  suppress_non_maxima(candidates, alike_planes, static_cast<Index>(candidates.size()));
   std::vector<UnitPlane> planes;
   for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
   return planes;

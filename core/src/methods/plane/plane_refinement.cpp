@@ -4,16 +4,16 @@
 #include <cmath>
 #include <limits>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "methods/parametric/plane_step.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
 namespace {
 
 // To fit to; telling planes apart asks for more.
-constexpr Index few_samples = 250, many_samples = 1000, telling_samples = 1300;
+constexpr Index few_samples = 250, many_samples = 1000, ranking_samples = 1300;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
 // Stricter than the score: where much is missing, it is how close the rest comes that tells a false
@@ -26,10 +26,10 @@ std::uint32_t place_on_curve(const Vector3& x) {
   constexpr int bits = 8;
   constexpr double shift = 0.038197;  // off any lattice, as the surfels' grid
   const Eigen::Vector3i cell = ((x.array() + 1 + shift) * (1 << (bits - 1)) / 1.1).cast<int>();
-  std::uint32_t place = 0;
+  std::uint32_t position = 0;
   for (int bit = bits - 1; bit >= 0; --bit)
-    for (int axis = 0; axis < 3; ++axis) place = place << 1 | (cell[axis] >> bit & 1);
-  return place;
+    for (int axis = 0; axis < 3; ++axis) position = position << 1 | (cell[axis] >> bit & 1);
+  return position;
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
   }
   std::stable_sort(samples_.begin(), samples_.end(),
-                   [](const Sample& a, const Sample& b) { return a.place < b.place; });
+                   [](const Sample& a, const Sample& b) { return a.position < b.position; });
   noise_ = measured_noise();
   kernel_ = {.meets = std::clamp(noise_.deviation(), closest, close),
              .misses = misses,
@@ -54,9 +54,9 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   for (Sample& s : samples_) s.smoothed = noise_.smoothed(s.point, *s.surfel);
 }
 
-SheetNoise Refinement::measured_noise() const {
+SurfaceNoise Refinement::measured_noise() const {
   const Index stride = stride_for(few_samples);
-  std::vector<OnSheet> asked;
+  std::vector<OnSurface> asked;
   for (std::size_t i = 0; i < samples_.size(); i += stride)
     asked.push_back({samples_[i].point, samples_[i].surfel});
   return {asked, neighbours_of(asked, cloud_.frame, points_)};
@@ -72,21 +72,21 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   std::vector<Vector3> images;
   images.reserve(samples_.size() / stride + 1);
   for (std::size_t i = 0; i < samples_.size(); i += stride)
-    images.push_back(cloud_.frame.leave(plane.reflect(samples_[i].point)));
+    images.push_back(cloud_.frame.from_frame(plane.reflect(samples_[i].point)));
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
   std::vector<Match> found;
   found.reserve(images.size());
   for (Index k = 0; k < static_cast<Index>(partners.size()); ++k) {
     if (!partners[k].allFinite()) continue;
-    const Vector3 x = cloud_.frame.enter(partners[k]);
+    const Vector3 x = cloud_.frame.to_frame(partners[k]);
     if (const Surfel* surfel = surfel_at(x)) found.push_back({k * stride, x, surfel});
   }
   return found;
 }
 
-double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& found,
-                             Index stride) const {
-  double moved = 0, explained = 0;
+double Refinement::support(const UnitPlane& plane, const std::vector<Match>& found,
+                           Index stride) const {
+  double moved = 0, support = 0;
   Index looked = 0;
   for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
     moved += displaced(plane.distance(samples_[i].smoothed), score_tolerance);
@@ -94,11 +94,12 @@ double Refinement::explained(const UnitPlane& plane, const std::vector<Match>& f
     const Sample& s = samples_[match.sample];
     const double weight = displaced(plane.distance(s.smoothed), score_tolerance);
     const Vector3 gap = smoothed_gap(plane, match);
-    const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
-                              *match.surfel);
-    explained += weight * kernel_(distance_past(gap, *match.surfel, spacing_), agreement.facing);
+    const Correspondence correspondence(gap, plane.reflect_direction(s.surfel->normal),
+                                        s.surfel->flatness, *match.surfel);
+    support += weight * kernel_(distance_past(gap, *match.surfel, spacing_),
+                                correspondence.normal_consistency);
   }
-  return explained / std::max(moved, 0.35 * static_cast<double>(looked));
+  return support / std::max(moved, 0.35 * static_cast<double>(looked));
 }
 
 Index Refinement::stride_for(Index wanted) const {
@@ -111,7 +112,7 @@ PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  return rated(fitted(start.plane, 0.01, stride_for(many_samples), 2), stride_for(telling_samples));
+  return rated(fitted(start.plane, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
@@ -120,19 +121,19 @@ UnitPlane Refinement::refined(const UnitPlane& start) const {
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
-  const Index many = stride_for(many_samples), telling = stride_for(telling_samples);
+  const Index many = stride_for(many_samples), telling = stride_for(ranking_samples);
   const UnitPlane rough = fitted(start, wide, many, steps);
   const std::vector<Match> around = matches(rough, reach, telling);
-  const double roughly = explained(rough, around, telling);
+  const double roughly = support(rough, around, telling);
   const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
-  const bool close = closely.explained > roughly;
+  const bool close = closely.support > roughly;
   const UnitPlane plane =
       fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
   return fitted_to_exact_pairs(plane);
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
-  return {plane, explained(plane, matches(plane, reach, stride), stride)};
+  return {plane, support(plane, matches(plane, reach, stride), stride)};
 }
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
@@ -142,7 +143,7 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                              std::vector<Match> found) const {
   constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
-  constexpr double along_sheet = 0.01;  // partners hold the plane hardly where they may slide
+  constexpr double along_surface = 0.01;  // partners hold the plane hardly where they may slide
   const double stale = 0.1 * spacing_, settled = 0.02 * spacing_;
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
@@ -158,14 +159,14 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
       if (weight <= 0) continue;
       const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_.deviation())};
       const Vector3 gap = smoothed_gap(plane, match);
-      const Agreement agreement(gap, plane.reflect_direction(s.surfel->normal), s.surfel->flatness,
-                                p);
+      const Correspondence correspondence(gap, plane.reflect_direction(s.surfel->normal),
+                                          s.surfel->flatness, p);
       const double r = distance_past(gap, p, spacing_) / tolerance;
-      const double trusted =
-          weight * agreement.facing * inside_sheet(gap, p, spacing_) * fading(r * r / 2);
+      const double trusted = weight * correspondence.normal_consistency *
+                             inside_surface(gap, p, spacing_) * fading(r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
-      sum.add(s.smoothed, gap, agreement.metric(along_sheet), trusted);
+      sum.add(s.smoothed, gap, correspondence.metric(along_surface), trusted);
     }
     if (weights < 4) return plane;
     double change;

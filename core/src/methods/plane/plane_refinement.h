@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "cloud/sheet_noise.h"
+#include "cloud/surface_noise.h"
 #include "cloud/surfels.h"
 #include "methods/plane/plane_candidates.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -15,7 +15,7 @@ namespace symsurf {
 /// Fits planes to the full cloud: samples of it are mirrored and meet the nearest of all points.
 class Refinement {
  public:
-  /// The surfels give the normals, at each place the flattest.
+  /// The surfels give the normals, at each position the flattest.
   Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
              const Surfels& fine);
 
@@ -40,19 +40,19 @@ class Refinement {
   struct Sample {
     Vector3 point;
     const Surfel* surfel;
-    std::uint32_t place;       // along a curve that fills space
+    std::uint32_t position;    // along a curve that fills space
     Vector3 smoothed = point;  // less its noise
   };
 
   // Every how manieth sample to look at, for about so many.
   Index stride_for(Index wanted) const;
-  SheetNoise measured_noise() const;
+  SurfaceNoise measured_noise() const;
   Vector3 smoothed_gap(const UnitPlane& plane, const Match& match) const;
   PlaneCandidate rated(const UnitPlane& plane, Index stride) const;
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
-  double explained(const UnitPlane& plane, const std::vector<Match>& found, Index stride) const;
+  double support(const UnitPlane& plane, const std::vector<Match>& found, Index stride) const;
   // `found`: the plane's partners, where they are known.
   UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                    std::vector<Match> found = {}) const;
@@ -61,8 +61,8 @@ class Refinement {
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
-  double spacing_;  // of the points on a sheet
-  SheetNoise noise_;
+  double spacing_;  // of the points on a surface
+  SurfaceNoise noise_;
   NearMissKernel kernel_;
   std::vector<Sample> samples_;  // spread evenly over the cloud
 };

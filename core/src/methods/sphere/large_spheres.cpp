@@ -45,20 +45,20 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
       std::stable_partition(candidates.begin(), candidates.end(), [&](const SphereCandidate& c) {
         if (!could_be_plane(c.shape)) return true;
         const double flat =
-            settled(surfels, map, touching_plane(c.shape), 0.03, 0.02, 4, 1).explained;
-        return flat <= as_much * explained_share(surfels, map, c.shape, 0.02);
+            refined_on_surfels(surfels, map, touching_plane(c.shape), 0.03, 0.02, 4, 1).support;
+        return flat <= as_much * support_share(surfels, map, c.shape, 0.02);
       });
   std::vector<SphereCandidate> taken(planes, candidates.end());
   candidates.erase(planes, candidates.end());
-  keep_distinct(surfels, taken, alike_spheres, taken_at_most);
+  suppress_non_maxima(surfels, taken, alike_spheres, taken_at_most);
   return taken;
 }
 
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
   drop(
       [&](const SphereCandidate& c) {
-        return c.partnered == 0 && fitted_plane(refinement, c.shape).explained >
-                                       as_much * refinement.explained(c.shape, looked_at);
+        return c.partnered == 0 && fitted_plane(refinement, c.shape).support >
+                                       as_much * refinement.support(c.shape, looked_at);
       },
       candidates);
 }

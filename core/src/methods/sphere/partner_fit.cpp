@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 #include "methods/parametric/sphere_step.h"
-#include "methods/sphere/sheet_slide.h"
-#include "score/agreement.h"
+#include "methods/sphere/surface_slide.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
@@ -72,12 +72,12 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
   std::vector<Neighbour> near;
   for (Index k = 0; k < count && static_cast<Index>(found.size()) < sampled; ++k) {
     const Index i = tree_.order()[k * n / count];
-    const Vector3 x = cloud_.frame.enter(cloud_.points[i]), image = sphere.reflect(x);
+    const Vector3 x = cloud_.frame.to_frame(cloud_.points[i]), image = sphere.reflect(x);
     if (!image.allFinite() || displaced(sphere.distance(x), spacing_) < 1) continue;
-    tree_.nearest(cloud_.frame.leave(image), near_image, near);
+    tree_.nearest(cloud_.frame.from_frame(image), near_image, near);
     std::vector<Chord> chords;
     for (const Neighbour& partner : near) {
-      const Vector3 chord = cloud_.frame.enter(cloud_.points[partner.index]) - x;
+      const Vector3 chord = cloud_.frame.to_frame(cloud_.points[partner.index]) - x;
       if (!(chord.norm() > spacing_)) continue;
       const Vector3 middle = x + chord / 2, u = chord.normalized();
       chords.push_back({middle, u.dot(sphere.gradient(middle)) < 0 ? Vector3(-u) : u});
@@ -93,25 +93,25 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   constexpr Index run = 8;  // points
   const Index n = tree_.size(), runs = (std::min(n, wanted) + run - 1) / run;
   std::vector<Vector3> positions, images, queries;
-  Index places = 0;
+  Index moved_points = 0;
   for (Index k = 0; k < runs * run; ++k) {
     const Index p = k / run * std::max<Index>(0, n - run) / std::max<Index>(1, runs - 1) + k % run;
     if (p >= n) break;
-    const Vector3 x = cloud_.frame.enter(cloud_.points[tree_.order()[p]]);
+    const Vector3 x = cloud_.frame.to_frame(cloud_.points[tree_.order()[p]]);
     if (displaced(sphere.distance(x), spacing_) < 1) continue;
     const Vector3 image = sphere.reflect(x);
-    ++places;
+    ++moved_points;
     if (!image.allFinite()) continue;
     positions.push_back(x);
     images.push_back(image);
-    queries.push_back(cloud_.frame.leave(image));
+    queries.push_back(cloud_.frame.from_frame(image));
   }
-  if (asked) *asked = places;
+  if (asked) *asked = moved_points;
   const std::vector<Vector3> nearest = points_.nearest(queries, reach * cloud_.frame.size);
   std::vector<Meeting> found;
   for (std::size_t k = 0; k < nearest.size(); ++k)
     if (nearest[k].allFinite())
-      found.push_back({positions[k], images[k] - cloud_.frame.enter(nearest[k])});
+      found.push_back({positions[k], images[k] - cloud_.frame.to_frame(nearest[k])});
   return found;
 }
 
@@ -132,8 +132,9 @@ Points PartnerFit::unmet(const UnitSphere& sphere) const {
   Index count = 0;
   for (const std::int32_t i : tree_.order()) {
     context_.check();
-    const Vector3 image = sphere.reflect(cloud_.frame.enter(cloud_.points[i]));
-    if (image.allFinite() && tree_.nearest(cloud_.frame.leave(image), reach * reach).index >= 0)
+    const Vector3 image = sphere.reflect(cloud_.frame.to_frame(cloud_.points[i]));
+    if (image.allFinite() &&
+        tree_.nearest(cloud_.frame.from_frame(image), reach * reach).index >= 0)
       continue;
     rest.row(count++) = cloud_.points[i].transpose();
   }
@@ -166,31 +167,31 @@ double PartnerFit::closeness(const UnitSphere& sphere) const {
 
 SphereCandidate PartnerFit::slid(const SphereCandidate& start,
                                  const Eigen::Matrix<double, 4, 2>& loosest) const {
-  struct Place {
+  struct Position {
     UnitSphere sphere;
     double nearness;
   };
-  std::vector<Place> places;
+  std::vector<Position> positions;
   const auto sort = [&] {
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& a, const Place& b) { return a.nearness > b.nearness; });
+    std::stable_sort(positions.begin(), positions.end(),
+                     [](const Position& a, const Position& b) { return a.nearness > b.nearness; });
   };
   for (const UnitSphere& there : spheres_around(start.shape, loosest, spacing_))
-    places.push_back({there, nearness(there, on_the_way)});
-  if (places.empty()) return start;
+    positions.push_back({there, nearness(there, on_the_way)});
+  if (positions.empty()) return start;
   sort();
-  const double usual = places[places.size() / 2].nearness;
+  const double usual = positions[positions.size() / 2].nearness;
   const auto excess = [&](double nearness) {
     return (nearness - usual) / std::max(1 - usual, 0.1);
   };
-  places.resize(std::min(tried_starts, places.size()));
-  for (Place& place : places) place.nearness = nearness(place.sphere, second_look);
+  positions.resize(std::min(tried_starts, positions.size()));
+  for (Position& position : positions) position.nearness = nearness(position.sphere, second_look);
   sort();
 
   SphereCandidate best = start;
-  for (std::size_t i = 0; i < std::min(attempts, places.size()); ++i) {
-    if (excess(places[i].nearness) < worth_refining) break;
-    const UnitSphere sphere = refined(places[i].sphere, second_look, 5);
+  for (std::size_t i = 0; i < std::min(attempts, positions.size()); ++i) {
+    if (excess(positions[i].nearness) < worth_refining) break;
+    const UnitSphere sphere = refined(positions[i].sphere, second_look, 5);
     const double partnered = excess(nearness(sphere, look));
     if (partnered < clearly_nearer || partnered <= best.partnered) continue;
     best.shape = sphere;

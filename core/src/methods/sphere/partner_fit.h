@@ -8,10 +8,11 @@
 
 namespace symsurf {
 
-/// Fits spheres where the same points stand on both sides. A sheet that slides along itself holds a
-/// sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point and
-/// its partner, its normal u there along their line, so that two of them tell the curvature k and
-/// whether they agree, u1 - u2 = k (m1 - m2). Partners are sought among the points near the images.
+/// Fits spheres where the same points stand on both sides. A surface that slides along itself holds
+/// a sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point
+/// and its partner, its normal u there along their line, so that two of them tell the curvature k
+/// and whether they agree, u1 - u2 = k (m1 - m2). Partners are sought among the points near the
+/// images.
 class PartnerFit {
  public:
   /// The spacing of the points, in the principal frame.

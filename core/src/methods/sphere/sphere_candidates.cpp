@@ -17,10 +17,10 @@ constexpr Index pairs_tried = 40000, pairs_kept = 4000;
 // Of both signs: to which side of the pair the centre lies. Diagonals.
 constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
 
-constexpr Index started = 48;       // candidates that are settled on the surfels
-constexpr std::size_t climbed = 3;  // of these, have their measure maximised
-constexpr Index measured = 500;     // surfels that the measure is taken over
-constexpr double hopeless = 0.6;    // of what the best explains: not worth fitting
+constexpr Index started = 48;           // candidates that are settled on the surfels
+constexpr std::size_t maximised = 3;    // of these, have their measure maximised
+constexpr Index measured = 500;         // surfels that the measure is taken over
+constexpr double far_below_best = 0.6;  // of what the best explains: not worth fitting
 
 // Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point and
 // the normal of the sphere there; the curvature is scanned. The best `count` that differ.
@@ -38,20 +38,21 @@ std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const Sur
       [](const UnitSphere& sphere) { return sphere.radius(); }, surfels, map, count, context);
 }
 
-void drop_hopeless(std::vector<SphereCandidate>& candidates) {
-  const double least = hopeless * candidates.front().explained;
-  std::erase_if(candidates, [&](const SphereCandidate& c) { return c.explained < least; });
+void drop_far_below_best(std::vector<SphereCandidate>& candidates) {
+  const double least = far_below_best * candidates.front().support;
+  std::erase_if(candidates, [&](const SphereCandidate& c) { return c.support < least; });
 }
 
 // From each of the best candidates to the maximum next to it of Hruda's measure, where that
 // explains more.
-void climb(const Surfels& surfels, const SurfelMap& map, std::vector<SphereCandidate>& candidates) {
+void maximise_measure(const Surfels& surfels, const SurfelMap& map,
+                      std::vector<SphereCandidate>& candidates) {
   const SphereMeasure measure(surfels.positions(measured));
-  for (std::size_t i = 0; i < std::min(climbed, candidates.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(maximised, candidates.size()); ++i) {
     const UnitSphere sphere =
         UnitSphere::of(maximise<5>(measure, candidates[i].shape.coefficients(), 0.02, 8));
-    const double explained = explained_share(surfels, map, sphere, 0.02, 3);
-    if (explained > candidates[i].explained) candidates[i] = {sphere, explained};
+    const double support = support_share(surfels, map, sphere, 0.02, 3);
+    if (support > candidates[i].support) candidates[i] = {sphere, support};
   }
 }
 
@@ -63,16 +64,16 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
   std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started, context);
   if (candidates.empty()) candidates.push_back({});
   for (SphereCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.04, 0.02, 4, 3);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
   std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
   if (!candidates.empty()) {
-    keep_distinct(surfels, candidates, alike_spheres, started);
-    climb(surfels, map, candidates);
-    drop_hopeless(candidates);
+    suppress_non_maxima(surfels, candidates, alike_spheres, started);
+    maximise_measure(surfels, map, candidates);
+    drop_far_below_best(candidates);
   }
   for (SphereCandidate& candidate : candidates)
-    candidate = settled(surfels, map, candidate, 0.02, 0.012, 4, 1);
-  keep_distinct(surfels, candidates, alike_spheres, count);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  suppress_non_maxima(surfels, candidates, alike_spheres, count);
   candidates.insert(candidates.end(), planes.begin(), planes.end());
   return candidates;
 }

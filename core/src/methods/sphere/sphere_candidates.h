@@ -9,7 +9,7 @@ namespace symsurf {
 
 using SphereCandidate = Candidate<UnitSphere>;
 
-/// Spheres closer than this are one, for keep_distinct.
+/// Spheres closer than this are one, for suppress_non_maxima.
 constexpr double alike_spheres = 0.04;
 
 /// The best `count` spheres that differ, on the thinned cloud alone: from pairs of surfels, of any

@@ -6,8 +6,8 @@
 #include "methods/registry.h"
 #include "methods/sphere/large_spheres.h"
 #include "methods/sphere/partner_fit.h"
-#include "methods/sphere/sheet_slide.h"
 #include "methods/sphere/sphere_candidates.h"
+#include "methods/sphere/surface_slide.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 
@@ -19,10 +19,10 @@ constexpr std::size_t finalists = 8;          // are fitted to the full cloud
 constexpr std::size_t polished_spheres = 3;   // and of these, to ever more of it
 constexpr double promising = 0.8;             // and from here on worth sliding
 constexpr double symmetric = 0.35;            // more than what shapes without a mirror explain
-constexpr double on_sheets = 0.97;            // of what it explained before
+constexpr double on_surfaces = 0.97;          // of what it support before
 constexpr double partnered_by_chance = 0.25;  // fewer partners than that prove nothing
 constexpr double least_rest = 0.25;           // of the cloud: worth a search of its own
-constexpr double partnered_exactly = 0.8;     // partners that need no sheets
+constexpr double partnered_exactly = 0.8;     // partners that need no surfaces
 constexpr Index patches_again = 3;  // times as many, where no sphere found has partners of its own
 constexpr int most_slides = 3;      // of one sphere, at the most
 
@@ -31,35 +31,35 @@ bool any_partnered(const std::vector<SphereCandidate>& candidates) {
                      [](const SphereCandidate& c) { return c.partnered > 0; });
 }
 
-// Through noise some points meet others by chance: that outweighs no sheet.
+// Through noise some points meet others by chance: that outweighs no surface.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
   double most = 0;
-  for (const SphereCandidate& c : candidates) most = std::max(most, c.explained);
+  for (const SphereCandidate& c : candidates) most = std::max(most, c.support);
   for (SphereCandidate& c : candidates)
-    if (c.partnered < partnered_by_chance && c.explained < on_sheets * most) c.partnered = 0;
+    if (c.partnered < partnered_by_chance && c.support < on_surfaces * most) c.partnered = 0;
 }
 
-// As far as each slide brings it nearer, and off no sheet.
+// As far as each slide brings it nearer, and off no surface.
 SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement& refinement,
                      const PartnerFit& partner_fit) {
   for (int k = 0; k < most_slides; ++k) {
     SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
     if (next.partnered <= candidate.partnered) break;
-    next.explained = refinement.explained(next.shape, 800);
-    if (next.explained < on_sheets * candidate.explained) break;
+    next.support = refinement.support(next.shape, 800);
+    if (next.support < on_surfaces * candidate.support) break;
     candidate = next;
   }
   return candidate;
 }
 
-// Onto partners; where noise hides these, and it is worth the time, along the sheets before.
+// Onto partners; where noise hides these, and it is worth the time, along the surfaces before.
 SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
                               const ParametricRefinement& refinement,
                               const PartnerFit& partner_fit) {
   const SphereCandidate on_partners = slid(fitted, refinement, partner_fit);
-  if (on_partners.partnered >= partnered_by_chance || !is_best || fitted.explained < symmetric)
+  if (on_partners.partnered >= partnered_by_chance || !is_best || fitted.support < symmetric)
     return on_partners;
-  return slid(slid_along_sheets(fitted, refinement), refinement, partner_fit);
+  return slid(slid_along_surfaces(fitted, refinement), refinement, partner_fit);
 }
 
 // Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
@@ -121,7 +121,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
        spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
                        context.stage(0.5, 0.6)))
     candidates.push_back(candidate);
-  keep_distinct(surfels, candidates, alike_spheres, finalists);
+  suppress_non_maxima(surfels, candidates, alike_spheres, finalists);
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered == 0) {
       candidate = refinement.fitted(candidate, 800, 3);
@@ -130,7 +130,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
             through_noise(candidate, &candidate == &candidates.front(), refinement, partner_fit);
     }
   drop_chance_partners(candidates);
-  keep_distinct(surfels, candidates, alike_spheres, finalists);
+  suppress_non_maxima(surfels, candidates, alike_spheres, finalists);
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
@@ -139,15 +139,15 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       candidate.shape = partner_fit.refined(candidate.shape, 3000);
   }
   for (SphereCandidate& candidate : candidates)
-    if (candidate.partnered > 0) candidate.explained = refinement.explained(candidate.shape, 1200);
+    if (candidate.partnered > 0) candidate.support = refinement.support(candidate.shape, 1200);
   const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
   if (candidates.empty()) return best;
-  keep_distinct(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
+  suppress_non_maxima(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
 
   SphereCandidate& first = candidates.front();
   if (first.partnered == 0 || partner_fit.closeness(first.shape) < partnered_exactly)
-    first.shape = settled_on_sheets(first, refinement).shape;
+    first.shape = settled_on_surfaces(first, refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));

@@ -5,8 +5,8 @@
 
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
-#include "cloud/sheet_spacing.h"
-#include "cloud/tree_normals.h"
+#include "cloud/normals.h"
+#include "cloud/surface_spacing.h"
 
 namespace symsurf {
 
@@ -17,7 +17,7 @@ double midpoint_score(PointsView points, const PointTree& tree, const Result& re
   constexpr Index neighbours = 11, samples = 2000, grain = 64;
   const PointsView midpoints(result.surface_points);
   if (midpoints.size() < neighbours) return 0;
-  const double tolerance = sheet_spacing(points, tree);
+  const double tolerance = surface_spacing(points, tree);
   if (!(tolerance > 0)) return 0;
 
   const PointTree midpoint_tree(midpoints, context.stage(0, 0.3));

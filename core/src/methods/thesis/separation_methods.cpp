@@ -81,7 +81,7 @@ double clearance(const Cloud& cloud, const PointTree& tree, const Separation& se
   double known = 0;  // no point is nearer to the last midpoint searched for
   // A few first: the sooner a short distance is known, the less there is to search. Looking 2 % of
   // the diagonal farther than needed spares over two thirds of the searches (10^5 points on two
-  // sheets).
+  // surfaces).
   for (const Index stride : {Index{64}, Index{1}})
     interruptible_for(context, (separation.upper + stride - 1) / stride, [&](Index k) {
       const Vector3& midpoint = midpoints[k * stride];

@@ -36,8 +36,8 @@ double phi(double squared, double support) {
   return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
 }
 
-// A grid over a few hundred points: each cell lists those within reach of some place in it, so that
-// a look tells which may be the closest.
+// A grid over a few hundred points: each cell lists those within reach of some position in it, so
+// that a look tells which may be the closest.
 class NearbyPoints {
  public:
   NearbyPoints(PointsView points, double reach) {
@@ -86,7 +86,7 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
   const double reach = support(points);
   const NearbyPoints nearby(points, reach);
   struct Image {
-    Vector3 place;
+    Vector3 position;
     const std::vector<Vector3>* nearby;
   };
   // 0 where it is less than `least`: an image near the cloud adds no more than 1, others nothing.
@@ -94,8 +94,8 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
     images.clear();
     for (Index i = 0; i < points.size(); ++i) {
       Image image;
-      if (!mirrored(points[i], sphere.centre, sphere.radius, image.place)) continue;
-      image.nearby = &nearby(image.place);
+      if (!mirrored(points[i], sphere.centre, sphere.radius, image.position)) continue;
+      image.nearby = &nearby(image.position);
       if (!image.nearby->empty()) images.push_back(image);
     }
     double sum = 0, rest = static_cast<double>(images.size());
@@ -103,7 +103,7 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
       if (sum + rest-- < least) return 0.0;
       double closest = reach * reach;
       for (const Vector3& x : *image.nearby)
-        closest = std::min(closest, (x - image.place).squaredNorm());
+        closest = std::min(closest, (x - image.position).squaredNorm());
       sum += phi(closest, reach);
     }
     return sum;

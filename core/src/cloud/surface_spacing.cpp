@@ -1,14 +1,14 @@
-#include "cloud/sheet_spacing.h"
+#include "cloud/surface_spacing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "base/quantile.h"
+#include "base/math.h"
 
 namespace symsurf {
 
-double sheet_spacing(PointsView points, const PointTree& tree, Index copies) {
+double surface_spacing(PointsView points, const PointTree& tree, Index copies) {
   constexpr Index sixth = 6, samples = 2000;
   const Index neighbours = std::min(copies * (sixth + 1), points.size());
   const Index step = std::max<Index>(1, points.size() / samples);

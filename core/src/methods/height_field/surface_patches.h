@@ -6,11 +6,11 @@
 
 namespace symsurf {
 
-/// The sheets of a cloud between its points: about each point a quadratic patch over its tangent
+/// The surfaces of a cloud between its points: about each point a quadratic patch over its tangent
 /// plane, fitted to its neighbours.
-class SheetPatches {
+class SurfacePatches {
  public:
-  SheetPatches(const WorkingCloud& cloud, Index neighbours, const Context& context);
+  SurfacePatches(const WorkingCloud& cloud, Index neighbours, const Context& context);
 
   /// How far x must move along the unit direction to lie on the patch about point j; NaN where the
   /// patch and the direction are nearly parallel.

@@ -8,13 +8,13 @@
 namespace symsurf {
 
 /// What offsets count between an image and its partner: in any direction, and, on top, off the
-/// sheet.
+/// surface.
 struct Metric {
-  double isotropic, off_sheet;
-  Vector3 normal;  ///< of the sheet, unit
+  double isotropic, off_surface;
+  Vector3 normal;  ///< of the surface, unit
 
   operator Matrix3() const {
-    Matrix3 m = off_sheet * normal * normal.transpose();
+    Matrix3 m = off_surface * normal * normal.transpose();
     m.diagonal().array() += isotropic;
     return m;
   }
@@ -28,42 +28,42 @@ inline double fading(double x) {
 }
 
 /// How well an image lands on its partner: its offset from the partner's tangent plane counts in
-/// full, along the plane hardly, because partners are samples of a sheet.
-struct Agreement {
+/// full, along the plane hardly, because partners are samples of a surface.
+struct Correspondence {
   const Facet& partner;
-  double isotropic;  ///< how much an offset in any direction counts
-  double gap;        ///< squared, in all directions alike
-  double squared;    ///< squared residual = offset' metric offset
-  double facing;     ///< 0..1: do the normals mirror each other?
+  double isotropic;           ///< how much an offset in any direction counts
+  double gap;                 ///< squared, in all directions alike
+  double squared;             ///< squared residual = offset' metric offset
+  double normal_consistency;  ///< 0..1: do the normals mirror each other?
 
-  Agreement(const Vector3& offset, const Vector3& image_normal, double image_flatness,
-            const Facet& partner)
+  Correspondence(const Vector3& offset, const Vector3& image_normal, double image_flatness,
+                 const Facet& partner)
       : partner(partner), gap(offset.squaredNorm()) {
-    const double flat = partner.flatness, off_sheet = offset.dot(partner.normal);
+    const double flat = partner.flatness, off_surface = offset.dot(partner.normal);
     isotropic = isotropic_share(flat, 0.08);
-    squared = flat * off_sheet * off_sheet + isotropic * gap;
+    squared = flat * off_surface * off_surface + isotropic * gap;
     const double cosine = image_normal.dot(partner.normal);
     const double turned = image_flatness * flat * (1 - cosine * cosine);
-    facing = (1 - turned) * (1 - turned);
+    normal_consistency = (1 - turned) * (1 - turned);
   }
 
   Metric metric() const { return {isotropic, partner.flatness, partner.normal}; }
 
-  /// The same where an offset along a sheet counts that much.
-  Metric metric(double along_sheet) const {
-    return {isotropic_share(partner.flatness, along_sheet), partner.flatness, partner.normal};
+  /// The same where an offset along a surface counts that much.
+  Metric metric(double along_surface) const {
+    return {isotropic_share(partner.flatness, along_surface), partner.flatness, partner.normal};
   }
 
   /// 0..1. Where the gap is small in every direction, nobody asks for normals.
   double weight(double tolerance) const {
     const double scale = 1 / (2 * tolerance * tolerance);
-    return std::max(facing * fading(squared * scale), fading(9 * gap * scale));
+    return std::max(normal_consistency * fading(squared * scale), fading(9 * gap * scale));
   }
 
  private:
-  static double isotropic_share(double flat, double along_sheet) {
+  static double isotropic_share(double flat, double along_surface) {
     constexpr double inside_blob = 0.4;
-    return along_sheet * flat + inside_blob * (1 - flat);
+    return along_surface * flat + inside_blob * (1 - flat);
   }
 };
 
@@ -86,10 +86,11 @@ struct NearMissKernel {
   double meets, misses;  ///< distances from the surface, over the cloud's size
   double penalty;        ///< what a miss counts
 
-  /// `facing`, 0..1: do the normals mirror each other?
-  double operator()(double residual, double facing) const {
+  /// `normal_consistency`, 0..1: do the normals mirror each other?
+  double operator()(double residual, double normal_consistency) const {
     const double near = residual / meets, past = residual / misses;
-    return facing / (1 + near * near) - penalty * past * past * std::exp(1 - past * past);
+    return normal_consistency / (1 + near * near) -
+           penalty * past * past * std::exp(1 - past * past);
   }
 };
 
@@ -99,8 +100,8 @@ inline double displaced(double distance, double tolerance) {
 }
 
 /// 0..1. Past a rim images find their partners on it, whose tangent plane says nothing there;
-/// inside a sheet the nearest point is hardly further along it than half the spacing.
-inline double inside_sheet(const Vector3& gap, const Facet& partner, double spacing) {
+/// inside a surface the nearest point is hardly further along it than half the spacing.
+inline double inside_surface(const Vector3& gap, const Facet& partner, double spacing) {
   const double off = gap.dot(partner.normal);
   const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - off * off));
   const double past = 3 * partner.flatness * std::max(0.0, along / spacing - 0.5);

@@ -1,11 +1,11 @@
-#include "methods/height_field/sheet_refinement.h"
+#include "methods/height_field/surface_refinement.h"
 
 #include <symsurf/height_field.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/quantile.h"
+#include "base/math.h"
 
 namespace symsurf {
 
@@ -15,7 +15,7 @@ constexpr double least_displacement = 1.5;  // spacings
 constexpr double reach = 3;                 // spacings from an image to its partner
 constexpr std::size_t least_matches = 12;
 constexpr double far_gap = 6;        // median gaps
-constexpr double least_limit = 0.2;  // spacings: patches of sparse sheets are wrong by as much
+constexpr double least_limit = 0.2;  // spacings: patches of sparse surfaces are wrong by as much
 constexpr double turn_gain = 3;      // nearest neighbours see only part of a turn
 constexpr double longest_turn = 0.05;
 constexpr double node_spacing = 0.6;  // spacings
@@ -24,18 +24,18 @@ const std::vector<Index> offered_neighbours{16, 28, 50, 90, 160, 280};
 
 struct Frame {
   explicit Frame(const Vector3& v) : across(orthogonal_to(v)), direction(v) {}
-  Vector3 enter(const Vector3& x) const {
+  Vector3 to_frame(const Vector3& x) const {
     Vector3 y;
     y << across.transpose() * x, direction.dot(x);
     return y;
   }
-  Points enter(const Points& x) const {
+  Points to_frame(const Points& x) const {
     Points y(x.rows(), 3);
     y.leftCols<2>() = x * across;
     y.col(2) = x * direction;
     return y;
   }
-  Points leave(const Points& y) const {
+  Points from_frame(const Points& y) const {
     return y.leftCols<2>() * across.transpose() + y.col(2) * direction.transpose();
   }
   Eigen::Matrix<double, 3, 2> across;
@@ -44,31 +44,31 @@ struct Frame {
 
 }  // namespace
 
-SheetRefinement::SheetRefinement(const WorkingCloud& cloud, const SheetPatches& patches,
-                                 const Context& context)
+SurfaceRefinement::SurfaceRefinement(const WorkingCloud& cloud, const SurfacePatches& patches,
+                                     const Context& context)
     : cloud_(cloud), patches_(patches), context_(context), votes_(cloud, context, 1.5) {}
 
-FieldEstimate SheetRefinement::voted(const Vector3& direction, double scatter) {
-  votes_.explained(direction, scatter);
+FieldEstimate SurfaceRefinement::voted(const Vector3& direction, double scatter) {
+  votes_.support(direction, scatter);
   const Frame frame(direction);
   std::vector<HeightObservation> observations;
-  for (const MidSheet::Chord& c : votes_.chords()) {
-    const Vector3 y = frame.enter(Vector3((cloud_.point(c.low) + cloud_.point(c.high)) / 2));
+  for (const MidSurface::Chord& c : votes_.chords()) {
+    const Vector3 y = frame.to_frame(Vector3((cloud_.point(c.low) + cloud_.point(c.high)) / 2));
     observations.push_back({y.head<2>(), y.z(), c.weight});
   }
   if (observations.size() < least_matches) return {};
   const HeightRegression regression(std::move(observations));
-  return {direction, frame.leave(regression.fitted(votes_.cells(), start_neighbours))};
+  return {direction, frame.from_frame(regression.fitted(votes_.cells(), start_neighbours))};
 }
 
-SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate) const {
+SurfaceRefinement::Matches SurfaceRefinement::matches(const FieldEstimate& estimate) const {
   const Vector3& v = estimate.direction;
   const HeightField field(v, estimate.nodes);
   const double far = reach * cloud_.spacing;
   struct Match {
     Index point, partner;
     double distance;  // of the point from the surface
-    double gap;       // from the image along the direction to the partner's sheet
+    double gap;       // from the image along the direction to the partner's surface
     Vector3 aside;    // from the image to the partner
   };
   std::vector<Match> found;
@@ -103,13 +103,13 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
     const double ratio = std::min(1.0, std::abs(m.gap) / limit);
     const double robust = (1 - ratio * ratio) * (1 - ratio * ratio);
     if (!(robust > 0)) continue;
-    result.explained += robust / moved;
-    // Heights are as uncertain as the sheets are steep, and sheets as their points are sparse.
+    result.support += robust / moved;
+    // Heights are as uncertain as the surfaces are steep, and surfaces as their points are sparse.
     const double here = std::abs(patches_.normal(m.point).dot(v));
     const double there = std::abs(patches_.normal(m.partner).dot(v));
     const double square = here * there / std::hypot(here, there);
     const double density = std::pow(cloud_.spacing / cloud_.spacings[m.partner], 4);
-    const Vector3 y = frame.enter(cloud_.point(m.point));
+    const Vector3 y = frame.to_frame(cloud_.point(m.point));
     result.observations.push_back(
         {y.head<2>(), y.z() - m.distance + m.gap / 2, robust * square * square * density});
     // The image moves by -2 distance along a turn of the direction.
@@ -126,16 +126,17 @@ SheetRefinement::Matches SheetRefinement::matches(const FieldEstimate& estimate)
   return result;
 }
 
-void SheetRefinement::refit(FieldEstimate& estimate, Matches found) const {
+void SurfaceRefinement::refit(FieldEstimate& estimate, Matches found) const {
   const Frame frame(estimate.direction);
   const HeightRegression regression(std::move(found.observations));
-  estimate.nodes = frame.leave(regression.fitted(frame.enter(estimate.nodes), round_neighbours));
+  estimate.nodes =
+      frame.from_frame(regression.fitted(frame.to_frame(estimate.nodes), round_neighbours));
   Eigen::Vector2d step = found.turn;
   if (step.norm() > longest_turn) step *= longest_turn / step.norm();
   estimate.direction = (estimate.direction + frame.across * step).normalized();
 }
 
-FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatter, int rounds) {
+FieldEstimate SurfaceRefinement::operator()(const Vector3& direction, double scatter, int rounds) {
   start_ = direction;
   if (std::isfinite(scatter))
     rims_.reset();
@@ -144,7 +145,7 @@ FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatt
   FieldEstimate estimate = voted(direction, scatter);
   for (int round = 1; round <= rounds && estimate.nodes.rows() > 0; ++round) {
     Matches found = matches(estimate);
-    estimate.explained = found.explained;
+    estimate.support = found.support;
     if (found.observations.size() < least_matches) return {};
     if (round < rounds) {
       refit(estimate, std::move(found));
@@ -154,7 +155,7 @@ FieldEstimate SheetRefinement::operator()(const Vector3& direction, double scatt
     HeightRegression regression(std::move(found.observations));
     regression.reject_outliers(round_neighbours);
     const Index neighbours = regression.best_neighbours(offered_neighbours);
-    estimate.nodes = frame.leave(
+    estimate.nodes = frame.from_frame(
         regression.fitted(regression.places_apart(node_spacing * cloud_.spacing), neighbours));
   }
   return estimate;

@@ -1,4 +1,4 @@
-#include "methods/height_field/mid_sheet.h"
+#include "methods/height_field/mid_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,15 +6,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/rows_of.h"
+#include "base/math.h"
 #include "base/vectorised.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr double least_gap = 1.5;  // spacings between two sheets
-constexpr double steepest = 3;     // slope of a sheet that is still trusted
+constexpr double least_gap = 1.5;  // spacings between two surfaces
+constexpr double steepest = 3;     // slope of a surface that is still trusted
 constexpr double window = 1.0;     // spacings, of heights that agree
 constexpr double rough = 1.5;      // spacings
 constexpr double most_cells_a_point = 512;
@@ -45,20 +45,20 @@ SYMSURF_VECTORISED void squared_offsets(const double* u, const double* v, Index 
 
 }  // namespace
 
-MidSheet::MidSheet(const WorkingCloud& cloud, const Context& context, double reach)
+MidSurface::MidSurface(const WorkingCloud& cloud, const Context& context, double reach)
     : cloud_(cloud),
       context_(context),
       reach_(reach * cloud.spacing),
       least_cell_(std::max(1.5, reach) * cloud.spacing),
       flat_(cloud.size(), 3),
-      sheet_(cloud.size(), 3),
+      surface_(cloud.size(), 3),
       cell_of_(cloud.size()),
       u_(cloud.size()),
       v_(cloud.size()),
-      places_(cloud.size()),
+      positions_(cloud.size()),
       aside_(cloud.size()) {}
 
-double MidSheet::explained(const Vector3& direction, double scatter) {
+double MidSurface::support(const Vector3& direction, double scatter) {
   project(direction);
   sort_into_cells();
   collect_votes(scatter);
@@ -79,17 +79,17 @@ double MidSheet::explained(const Vector3& direction, double scatter) {
   }
   double sum = 0, weights = 0;
   for (Index i = 0; i < cloud_.size(); ++i) {
-    sum += sheet_(i, 2) * explained_[i];
-    weights += sheet_(i, 2);
+    sum += surface_(i, 2) * explained_[i];
+    weights += surface_(i, 2);
   }
   return sum / weights * std::sqrt(weights / static_cast<double>(cloud_.size()));
 }
 
-double MidSheet::most_explained(const WorkingCloud& cloud, const Vector3& direction) {
+double MidSurface::most_explained(const WorkingCloud& cloud, const Vector3& direction) {
   return std::sqrt((cloud.normals * direction).cwiseAbs().mean());
 }
 
-void MidSheet::project(const Vector3& direction) {
+void MidSurface::project(const Vector3& direction) {
   across_ = orthogonal_to(direction);
   flat_.leftCols<2>() = cloud_.points * across_;
   flat_.col(2) = cloud_.points * direction;
@@ -99,11 +99,11 @@ void MidSheet::project(const Vector3& direction) {
     Eigen::Vector2d slope = -(across_.transpose() * normal) / (along == 0 ? 1e-9 : along);
     const double steep = slope.norm();
     if (steep > steepest) slope *= steepest / steep;
-    sheet_.row(i) << slope.x(), slope.y(), std::abs(along);
+    surface_.row(i) << slope.x(), slope.y(), std::abs(along);
   }
 }
 
-void MidSheet::sort_into_cells() {
+void MidSurface::sort_into_cells() {
   low_ = flat_.leftCols<2>().colwise().minCoeff().transpose();
   const Eigen::Vector2d high = flat_.leftCols<2>().colwise().maxCoeff().transpose();
   const Eigen::Vector2d extent = high - low_;
@@ -125,12 +125,12 @@ void MidSheet::sort_into_cells() {
     const std::int32_t at = next_[cell_of_[i]]++;
     u_[at] = flat_(i, 0);
     v_[at] = flat_(i, 1);
-    places_[at] = {flat_(i, 2), sheet_(i, 0), sheet_(i, 1), sheet_(i, 2),
-                   static_cast<std::int32_t>(i)};
+    positions_[at] = {flat_(i, 2), surface_(i, 0), surface_(i, 1), surface_(i, 2),
+                      static_cast<std::int32_t>(i)};
   }
 }
 
-void MidSheet::collect_votes(double scatter) {
+void MidSurface::collect_votes(double scatter) {
   votes_.clear();
   const double narrow = 1 / (2 * scatter * scatter);
   for (Index r = 0; r < rows_; ++r) {
@@ -150,15 +150,15 @@ void MidSheet::collect_votes(double scatter) {
 }
 
 // Of the p-th point with those of a run.
-void MidSheet::vote(std::int32_t p, std::int32_t begin, std::int32_t end, double narrow) {
+void MidSurface::vote(std::int32_t p, std::int32_t begin, std::int32_t end, double narrow) {
   const double u_here = u_[p], v_here = v_[p];
   squared_offsets(u_.data() + begin, v_.data() + begin, end - begin, u_here, v_here, aside_.data());
   const double far = reach_ * reach_, gap = least_gap * cloud_.spacing;
-  const Place& i = places_[p];
+  const Position& i = positions_[p];
   for (std::int32_t q = begin; q < end; ++q) {
     const double aside = aside_[q - begin];
     if (aside > far) continue;
-    const Place& j = places_[q];
+    const Position& j = positions_[q];
     const double du = u_[q] - u_here, dv = v_[q] - v_here;
     const double from_i = i.height + (i.slope_u * du + i.slope_v * dv) / 2;
     const double from_j = j.height - (j.slope_u * du + j.slope_v * dv) / 2;
@@ -179,7 +179,7 @@ void MidSheet::vote(std::int32_t p, std::int32_t begin, std::int32_t end, double
 }
 
 // The window of heights with most weight wins its cell.
-void MidSheet::count_votes() {
+void MidSurface::count_votes() {
   vote_start_.assign(columns_ * rows_ + 1, 0);
   for (const Vote& vote : votes_) ++vote_start_[vote.cell + 1];
   std::partial_sum(vote_start_.begin(), vote_start_.end(), vote_start_.begin());
@@ -214,7 +214,7 @@ void MidSheet::count_votes() {
   }
 }
 
-std::vector<MidSheet::Chord> MidSheet::chords() const {
+std::vector<MidSurface::Chord> MidSurface::chords() const {
   const double agree = window * cloud_.spacing;
   std::vector<Chord> chords;
   for (const Vote& vote : votes_) {
@@ -223,13 +223,13 @@ std::vector<MidSheet::Chord> MidSheet::chords() const {
     const Index low = upwards ? vote.first : vote.second;
     const Index high = upwards ? vote.second : vote.first;
     const Vector3 chord = (flat_.row(high) - flat_.row(low)).transpose();
-    chords.push_back({low, high, chord.head<2>(), chord.z(), sheet_(low, 2) * sheet_(high, 2)});
+    chords.push_back({low, high, chord.head<2>(), chord.z(), surface_(low, 2) * surface_(high, 2)});
   }
   return chords;
 }
 
 // The least bend of the surface through a cell and two opposite neighbours.
-double MidSheet::roughness(Index cell) const {
+double MidSurface::roughness(Index cell) const {
   const Index r = cell / columns_, c = cell % columns_;
   double least = 4 * cloud_.spacing;
   for (const auto& [dc, dr] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
@@ -242,7 +242,7 @@ double MidSheet::roughness(Index cell) const {
   return least;
 }
 
-Points MidSheet::cells() const {
+Points MidSurface::cells() const {
   std::vector<Vector3> found;
   for (Index cell = 0; cell < columns_ * rows_; ++cell)
     if (voted_[cell])

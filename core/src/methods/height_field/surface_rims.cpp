@@ -1,4 +1,4 @@
-#include "methods/height_field/sheet_rims.h"
+#include "methods/height_field/surface_rims.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace {
 
 constexpr Index rim_neighbours = 24, looked_at = 56;
 constexpr double on_the_rim = 0.42;   // lean
-constexpr double least_lean = 0.2;    // chance leans as much inside a sheet
+constexpr double least_lean = 0.2;    // chance leans as much inside a surface
 constexpr double lean_a_reach = 0.5;  // that is lost going inwards
-constexpr double same_sheet = 0.6;    // cosine between normals
-constexpr double thickness = 0.35;    // of a sheet, against the reach
+constexpr double same_surface = 0.6;  // cosine between normals
+constexpr double thickness = 0.35;    // of a surface, against the reach
 constexpr double end_on = 0.1;        // sine below which a rim is seen end-on
 
 constexpr double inside = 0.6;             // reaches, of a point that sees no rim
@@ -26,7 +26,7 @@ constexpr double prior_difference = 0.02;  // diagonals
 
 }  // namespace
 
-SheetRims::SheetRims(const WorkingCloud& cloud)
+SurfaceRims::SurfaceRims(const WorkingCloud& cloud)
     : cloud_(cloud), lean_(Points::Zero(cloud.size(), 3)), reach_(cloud.size()) {
   std::vector<Neighbour> near;
   for (Index i = 0; i < cloud.size(); ++i) {
@@ -39,7 +39,7 @@ SheetRims::SheetRims(const WorkingCloud& cloud)
       const double off = normal.dot(d);
       const double far = std::sqrt(n.squared_distance);
       if (n.index == i || std::abs(off) > std::max(thickness * far, 0.5 * cloud.spacing) ||
-          std::abs(normal.dot(cloud.normal(n.index))) < same_sheet)
+          std::abs(normal.dot(cloud.normal(n.index))) < same_surface)
         continue;
       sum += d - off * normal;
       reach_[i] = far;
@@ -49,7 +49,7 @@ SheetRims::SheetRims(const WorkingCloud& cloud)
   }
 }
 
-bool SheetRims::seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, Rim& rim) const {
+bool SurfaceRims::seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, Rim& rim) const {
   const Vector3 lean = lean_.row(i).transpose();
   const double size = lean.norm();
   if (size < least_lean) return false;
@@ -69,7 +69,7 @@ bool SheetRims::seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, 
 
 void RimAlignment::add(Index point, Index partner, const Eigen::Vector2d& aside, double arm,
                        double weight) {
-  SheetRims::Rim own, other;
+  SurfaceRims::Rim own, other;
   const bool own_seen = rims_.seen_across(point, across_, own);
   const bool other_seen = rims_.seen_across(partner, across_, other);
   if (!own_seen && !other_seen) return;

@@ -1,4 +1,4 @@
-#include "methods/sphere/sheet_slide.h"
+#include "methods/sphere/surface_slide.h"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +25,12 @@ constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
 
 // Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
 // along an axis where it has no maximum, on the side that it rises to.
-Eigen::Vector2d highest(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& values) {
+Eigen::Vector2d highest(const Eigen::Matrix2Xd& positions, const Eigen::VectorXd& values) {
   using Powers = Eigen::Vector<double, 6>;
   Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
   Powers products = Powers::Zero();
-  for (Index k = 0; k < places.cols(); ++k) {
-    const double x = places(0, k), y = places(1, k);
+  for (Index k = 0; k < positions.cols(); ++k) {
+    const double x = positions(0, k), y = positions(1, k);
     const Powers powers{{1, x, y, x * x, x * y, y * y}};
     squares += powers * powers.transpose();
     products += values[k] * powers;
@@ -61,45 +61,44 @@ std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
   return around;
 }
 
-SphereCandidate slid_along_sheets(SphereCandidate candidate,
-                                  const ParametricRefinement& refinement) {
-  candidate.explained = refinement.explained(candidate.shape, second_samples);
+SphereCandidate slid_along_surfaces(SphereCandidate candidate,
+                                    const ParametricRefinement& refinement) {
+  candidate.support = refinement.support(candidate.shape, second_samples);
   for (int slide = 0; slide < slides; ++slide) {
-    std::vector<SphereCandidate> places;
+    std::vector<SphereCandidate> positions;
     for (const UnitSphere& sphere :
          spheres_around(candidate.shape, refinement.loosest(candidate.shape), refinement.spacing()))
-      places.push_back({sphere, refinement.explained(sphere, first_samples)});
-    sort_best_first(places);
-    places.resize(std::min(tried_slides, places.size()));
-    const double before = candidate.explained;
-    for (const SphereCandidate& place : places) {
-      const SphereCandidate fitted = refinement.fitted(place, second_samples, 6);
-      if (fitted.explained > candidate.explained + clearly_more) candidate = fitted;
+      positions.push_back({sphere, refinement.support(sphere, first_samples)});
+    sort_best_first(positions);
+    positions.resize(std::min(tried_slides, positions.size()));
+    const double before = candidate.support;
+    for (const SphereCandidate& position : positions) {
+      const SphereCandidate fitted = refinement.fitted(position, second_samples, 6);
+      if (fitted.support > candidate.support + clearly_more) candidate = fitted;
     }
-    if (candidate.explained == before) break;
+    if (candidate.support == before) break;
   }
   return candidate;
 }
 
-SphereCandidate settled_on_sheets(const SphereCandidate& candidate,
-                                  const ParametricRefinement& refinement) {
+SphereCandidate settled_on_surfaces(const SphereCandidate& candidate,
+                                    const ParametricRefinement& refinement) {
   constexpr int side = 2 * few + 1;
-  Eigen::Matrix2Xd places(2, side * side);
+  Eigen::Matrix2Xd positions(2, side * side);
   for (int k = 0; k < side * side; ++k)
-    places.col(k) = Eigen::Vector2d(k / side - few, k % side - few) / few;
+    positions.col(k) = Eigen::Vector2d(k / side - few, k % side - few) / few;
   SphereCandidate settled = candidate;
   for (const double step : rounds) {
     const Eigen::Matrix<double, 4, 2> around =
         few * step * refinement.spacing() * refinement.loosest(settled.shape);
-    Eigen::VectorXd values(places.cols());
-    for (Index k = 0; k < places.cols(); ++k)
-      values[k] = refinement.explained(settled.shape.changed(around * places.col(k)), settling);
-    settled.shape = settled.shape.changed(around * highest(places, values));
+    Eigen::VectorXd values(positions.cols());
+    for (Index k = 0; k < positions.cols(); ++k)
+      values[k] = refinement.support(settled.shape.changed(around * positions.col(k)), settling);
+    settled.shape = settled.shape.changed(around * highest(positions, values));
     settled = refinement.fitted(settled, refitted, 3);
   }
-  settled.explained = refinement.explained(settled.shape, look_again);
-  return settled.explained > refinement.explained(candidate.shape, look_again) ? settled
-                                                                               : candidate;
+  settled.support = refinement.support(settled.shape, look_again);
+  return settled.support > refinement.support(candidate.shape, look_again) ? settled : candidate;
 }
 
 }  // namespace symsurf

@@ -5,7 +5,7 @@
 
 #include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
-#include "score/agreement.h"
+#include "score/correspondence.h"
 
 namespace symsurf {
 
@@ -16,7 +16,7 @@ template <typename Shape>
 double agreeing_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
                       double tolerance, Index stride, double contradiction) {
   constexpr double least_moved = 0.35;
-  double moved = 0, explained = 0;
+  double moved = 0, support = 0;
   Index looked = 0;
   for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
     const Surfel& s = surfels[i];
@@ -26,20 +26,20 @@ double agreeing_share(const Surfels& surfels, const SurfelMap& map, const Shape&
     const Vector3 image = shape.reflect(s.position);
     const Index j = map.nearest(image);
     if (j < 0) continue;
-    const Agreement agreement(image - surfels[j].position,
-                              shape.reflect_direction(s.position, s.normal), s.flatness,
-                              surfels[j]);
-    const double agrees = agreement.weight(tolerance);
-    explained += weight * (agrees - contradiction * (1 - agrees));
+    const Correspondence correspondence(image - surfels[j].position,
+                                        shape.reflect_direction(s.position, s.normal), s.flatness,
+                                        surfels[j]);
+    const double agrees = correspondence.weight(tolerance);
+    support += weight * (agrees - contradiction * (1 - agrees));
   }
-  return explained / std::max(moved, least_moved * static_cast<double>(looked));
+  return support / std::max(moved, least_moved * static_cast<double>(looked));
 }
 
 /// The mirror moved onto the surfels' images, looking less far with each step. For a `Shape` see
 /// candidate.h; `stride` k looks at every k-th surfel.
 template <typename Shape>
-Shape moved_onto_images(const Surfels& surfels, const SurfelMap& map, Shape shape, double widest,
-                        double narrowest, int steps, Index stride) {
+Shape icp_steps(const Surfels& surfels, const SurfelMap& map, Shape shape, double widest,
+                double narrowest, int steps, Index stride) {
   for (int step = 0; step < steps; ++step) {
     const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
     typename Shape::Step sum(shape);
@@ -51,9 +51,9 @@ Shape moved_onto_images(const Surfels& surfels, const SurfelMap& map, Shape shap
       const Index j = map.nearest(image);
       if (j < 0) continue;
       const Vector3 gap = image - surfels[j].position;
-      const Agreement agreement(gap, shape.reflect_direction(s.position, s.normal), s.flatness,
-                                surfels[j]);
-      sum.add(s.position, gap, agreement.metric(), weight * agreement.weight(tolerance));
+      const Correspondence correspondence(gap, shape.reflect_direction(s.position, s.normal),
+                                          s.flatness, surfels[j]);
+      sum.add(s.position, gap, correspondence.metric(), weight * correspondence.weight(tolerance));
     }
     shape = sum.taken();
   }

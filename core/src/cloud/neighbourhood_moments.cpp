@@ -1,4 +1,4 @@
-#include "cloud/surroundings.h"
+#include "cloud/neighbourhood_moments.h"
 
 #include <cmath>
 #include <vector>
@@ -10,9 +10,9 @@ namespace symsurf {
 namespace {
 
 // `found`: nearest first.
-Surroundings surroundings_of(const Vector3& x, PointsView points,
-                             const std::vector<Neighbour>& found) {
-  Surroundings around;
+NeighbourhoodMoments moments_of(const Vector3& x, PointsView points,
+                                const std::vector<Neighbour>& found) {
+  NeighbourhoodMoments around;
   const double farthest = found.back().squared_distance;
   if (!(farthest > 0)) return around;
   around.radius = std::sqrt(farthest);
@@ -31,16 +31,16 @@ Surroundings surroundings_of(const Vector3& x, PointsView points,
 
 }  // namespace
 
-void visit_surroundings(PointsView points, const PointTree& tree, Index k,
-                        const std::vector<Index>& places, const Context& context,
-                        const std::function<void(Index, const Surroundings&)>& visit) {
+void visit_neighbourhoods(PointsView points, const PointTree& tree, Index k,
+                          const std::vector<Index>& positions, const Context& context,
+                          const std::function<void(Index, const NeighbourhoodMoments&)>& visit) {
   constexpr Index grain = 1024;
-  parallel_for(context, static_cast<Index>(places.size()), grain, [&](Index begin, Index end) {
+  parallel_for(context, static_cast<Index>(positions.size()), grain, [&](Index begin, Index end) {
     std::vector<Neighbour> found;
     for (Index v = begin; v < end; ++v) {
-      const Vector3 x = points[tree.order()[places[v]]];
+      const Vector3 x = points[tree.order()[positions[v]]];
       tree.nearest(x, k + 1, found);  // the point itself is the nearest
-      visit(v, surroundings_of(x, points, found));
+      visit(v, moments_of(x, points, found));
     }
   });
 }

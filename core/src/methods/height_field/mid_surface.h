@@ -4,37 +4,37 @@
 #include <limits>
 #include <vector>
 
-#include "base/orthogonal_to.h"
+#include "base/math.h"
 #include "methods/height_field/working_cloud.h"
 
 namespace symsurf {
 
-/// The surface half-way between the sheets of a cloud along a direction, cell by cell of the
+/// The surface half-way between the surfaces of a cloud along a direction, cell by cell of the
 /// projection, found by a vote: every two points that nearly lie over each other propose a height,
-/// carried to the middle of the cell by the slopes of their sheets.
-class MidSheet {
+/// carried to the middle of the cell by the slopes of their surfaces.
+class MidSurface {
  public:
   /// Kept between directions, so that trying many of them allocates nothing.
   /// Points no farther apart in projection than `reach` spacings vote.
-  MidSheet(const WorkingCloud& cloud, const Context& context, double reach = 1.3);
+  MidSurface(const WorkingCloud& cloud, const Context& context, double reach = 1.3);
 
   /// How well the surface for this direction explains the cloud, 0 to 1: the share of points that
-  /// it carries onto another sheet, where it is smooth, each weighed by how squarely its sheet
+  /// it carries onto another surface, where it is smooth, each weighed by how squarely its surface
   /// meets the direction.
   /// Where partners are known to scatter across the direction by only so much, the closer they
   /// come the more they count.
-  double explained(const Vector3& direction,
-                   double scatter = std::numeric_limits<double>::infinity());
+  double support(const Vector3& direction,
+                 double scatter = std::numeric_limits<double>::infinity());
 
-  /// What explained() cannot exceed, however well the surface fits: cheap.
+  /// What support() cannot exceed, however well the surface fits: cheap.
   static double most_explained(const WorkingCloud& cloud, const Vector3& direction);
 
-  /// Two points that the last direction's surface carries onto each other's sheet.
+  /// Two points that the last direction's surface carries onto each other's surface.
   struct Chord {
     Index low, high;         ///< points, low below the surface
     Eigen::Vector2d offset;  ///< from low to high, across the direction
     double length;           ///< along it
-    double weight;           ///< how squarely it meets the two sheets, 0 to 1
+    double weight;           ///< how squarely it meets the two surfaces, 0 to 1
   };
   std::vector<Chord> chords() const;
 
@@ -48,8 +48,8 @@ class MidSheet {
     float height, weight;
   };
   // A point as the projection sees it.
-  struct Place {
-    double height, slope_u, slope_v, square;  // slopes of its sheet, |normal . direction|
+  struct Position {
+    double height, slope_u, slope_v, square;  // slopes of its surface, |normal . direction|
     std::int32_t point;
   };
 
@@ -67,12 +67,12 @@ class MidSheet {
   double least_cell_, cell_;  // edges
   Eigen::Vector2d low_;       // of the grid
   Index columns_ = 0, rows_ = 0;
-  Points flat_;                                    // u, v, height
-  Eigen::Array<double, Eigen::Dynamic, 3> sheet_;  // slope in u, in v, |normal . direction|
+  Points flat_;                                      // u, v, height
+  Eigen::Array<double, Eigen::Dynamic, 3> surface_;  // slope in u, in v, |normal . direction|
   std::vector<std::int32_t> start_, cell_of_;
-  std::vector<double> u_, v_;  // cell by cell
-  std::vector<Place> places_;  // cell by cell
-  std::vector<double> aside_;  // squared, of the points a point may meet
+  std::vector<double> u_, v_;        // cell by cell
+  std::vector<Position> positions_;  // cell by cell
+  std::vector<double> aside_;        // squared, of the points a point may meet
   std::vector<Vote> votes_;
   std::vector<std::int32_t> vote_start_, next_;
   std::vector<std::uint64_t> by_cell_;  // height and weight in order, packed

@@ -12,7 +12,7 @@ namespace symsurf {
 
 /// How a cloud lies around one of its points: its nearest others, of a weight that falls with the
 /// distance as 1 - (d / radius)^2. Which of several as far as the last are counted does not matter.
-struct Surroundings {
+struct NeighbourhoodMoments {
   double radius = 0;                     ///< how far the last lies
   Vector3 mean = Vector3::Zero();        ///< from the point, in radii
   Matrix3 covariance = Matrix3::Zero();  ///< in radii squared
@@ -21,10 +21,11 @@ struct Surroundings {
   double one_sided() const { return mean.norm(); }
 };
 
-/// Calls visit(v, surroundings by the k nearest others of the point tree.order()[places[v]]) for
-/// all of the places, on several threads at once; fastest where they ascend.
-void visit_surroundings(PointsView points, const PointTree& tree, Index k,
-                        const std::vector<Index>& places, const Context& context,
-                        const std::function<void(Index v, const Surroundings& around)>& visit);
+/// Calls visit(v, surroundings by the k nearest others of the point tree.order()[positions[v]]) for
+/// all of the positions, on several threads at once; fastest where they ascend.
+void visit_neighbourhoods(
+    PointsView points, const PointTree& tree, Index k, const std::vector<Index>& positions,
+    const Context& context,
+    const std::function<void(Index v, const NeighbourhoodMoments& around)>& visit);
 
 }  // namespace symsurf

@@ -1,10 +1,10 @@
-#include "methods/height_field/sheet_patches.h"
+#include "methods/height_field/surface_patches.h"
 
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
-#include "base/orthogonal_to.h"
+#include "base/math.h"
 #include "base/semidefinite_solve.h"
 
 namespace symsurf {
@@ -16,7 +16,7 @@ constexpr int crossings = 3;  // Newton steps of a line onto a patch
 
 }  // namespace
 
-SheetPatches::SheetPatches(const WorkingCloud& cloud, Index neighbours, const Context& context)
+SurfacePatches::SurfacePatches(const WorkingCloud& cloud, Index neighbours, const Context& context)
     : patches_(cloud.size()) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   std::vector<Neighbour> near;
@@ -47,7 +47,7 @@ SheetPatches::SheetPatches(const WorkingCloud& cloud, Index neighbours, const Co
   }
 }
 
-double SheetPatches::along(Index j, const Vector3& x, const Vector3& direction) const {
+double SurfacePatches::along(Index j, const Vector3& x, const Vector3& direction) const {
   const Patch& patch = patches_[j];
   const double da = patch.first.dot(direction), db = patch.second.dot(direction);
   const double dn = patch.normal.dot(direction);

@@ -12,16 +12,16 @@ namespace symsurf {
 std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
                                        const Eigen::Matrix<double, 4, 2>& loosest, double spacing);
 
-/// Where noise hides which points are partners, sheets alone tell spheres apart that slide along
+/// Where noise hides which points are partners, surfaces alone tell spheres apart that slide along
 /// them, and a fit creeps: slides the sphere over the plane of its loosest changes, for as long as
-/// another place explains clearly more.
-SphereCandidate slid_along_sheets(SphereCandidate candidate,
-                                  const ParametricRefinement& refinement);
+/// another position explains clearly more.
+SphereCandidate slid_along_surfaces(SphereCandidate candidate,
+                                    const ParametricRefinement& refinement);
 
-/// Fits a quadratic to what places over the same plane explain, near the sphere, and goes where it
-/// is highest: many places together tell more than each, which noise moves up and down. The
+/// Fits a quadratic to what positions over the same plane explain, near the sphere, and goes where
+/// it is highest: many positions together tell more than each, which noise moves up and down. The
 /// candidate as it was where it explains no more there.
-SphereCandidate settled_on_sheets(const SphereCandidate& candidate,
-                                  const ParametricRefinement& refinement);
+SphereCandidate settled_on_surfaces(const SphereCandidate& candidate,
+                                    const ParametricRefinement& refinement);
 
 }  // namespace symsurf

@@ -4,15 +4,15 @@
 
 namespace symsurf {
 
-/// Where the sheets of a cloud end. A mirror maps rims onto rims, and where no point has an exact
-/// partner that is what tells its direction: half-way between two sheets there is a surface along
+/// Where the surfaces of a cloud end. A mirror maps rims onto rims, and where no point has an exact
+/// partner that is what tells its direction: half-way between two surfaces there is a surface along
 /// any direction.
 ///
 /// A point near a rim has its neighbours on one side of it: their mean offset, as a share of their
 /// reach, grows from 0 inside to 4/(3 pi) on a straight rim.
-class SheetRims {
+class SurfaceRims {
  public:
-  explicit SheetRims(const WorkingCloud& cloud);
+  explicit SurfaceRims(const WorkingCloud& cloud);
 
   /// A piece of rim as it looks along a direction.
   struct Rim {
@@ -25,17 +25,17 @@ class SheetRims {
 
  private:
   const WorkingCloud& cloud_;
-  Points lean_;  // mean offset of the neighbours within the sheet, as a share of their reach
+  Points lean_;  // mean offset of the neighbours within the surface, as a share of their reach
   Eigen::VectorXd reach_;  // of the neighbours
 };
 
-/// Least squares for the turn of a direction that carries rims onto rims. Sheets of different
+/// Least squares for the turn of a direction that carries rims onto rims. Surfaces of different
 /// density end, as far as their points tell, differently far inside their rims: one common
 /// difference is an unknown too. A prior keeps the direction near where the search began, for
-/// sheets so close that turning moves no rim.
+/// surfaces so close that turning moves no rim.
 class RimAlignment {
  public:
-  RimAlignment(const SheetRims& rims, const Eigen::Matrix<double, 3, 2>& across)
+  RimAlignment(const SurfaceRims& rims, const Eigen::Matrix<double, 3, 2>& across)
       : rims_(rims), across_(across) {}
 
   /// A point whose image lies by `aside` away from its partner, and moves by `arm` times a turn.
@@ -45,7 +45,7 @@ class RimAlignment {
   Eigen::Vector2d turn(const Eigen::Vector2d& start) const;
 
  private:
-  const SheetRims& rims_;
+  const SurfaceRims& rims_;
   Eigen::Matrix<double, 3, 2> across_;
   Matrix3 normal_ = Matrix3::Zero();  // of the turn and the common difference
   Vector3 right_ = Vector3::Zero();

@@ -1,10 +1,10 @@
-#include "methods/height_field/credible_pairs.h"
+#include "methods/height_field/consistent_pairs.h"
 
 #include <algorithm>
 #include <vector>
 
+#include "base/math.h"
 #include "base/parallel.h"
-#include "base/quantile.h"
 #include "score/matching.h"
 #include "spatial/point_tree.h"
 
@@ -37,15 +37,15 @@ void keep_credible_pairs(Result& result, double spacing, const Context& context)
   if (residuals.size() == 0) return;
   const double typical = median(std::vector(residuals.begin(), residuals.end()));
   const double limit = std::max(far_residual * typical, far_at_least * spacing);
-  std::vector<Index> credible, doubtful;
+  std::vector<Index> consistent, doubtful;
   for (Index i = 0; i < residuals.size(); ++i) {
     if (residuals[i] <= limit)
-      credible.push_back(i);
+      consistent.push_back(i);
     else if (residuals[i] <= near * spacing)
       doubtful.push_back(i);
   }
   if (!doubtful.empty()) {
-    const Points known = result.surface_points(credible, Eigen::indexing::all);
+    const Points known = result.surface_points(consistent, Eigen::indexing::all);
     const PointTree tree(known, context.stage(0, 0.5));
     std::vector<char> kept(doubtful.size());
     parallel_for(context.stage(0.5, 1), kept.size(), 1 << 10, [&](Index begin, Index end) {
@@ -54,10 +54,10 @@ void keep_credible_pairs(Result& result, double spacing, const Context& context)
         kept[k] = surrounded(result.surface_points.row(doubtful[k]), known, tree, found);
     });
     for (std::size_t k = 0; k < kept.size(); ++k)
-      if (kept[k]) credible.push_back(doubtful[k]);
-    std::sort(credible.begin(), credible.end());
+      if (kept[k]) consistent.push_back(doubtful[k]);
+    std::sort(consistent.begin(), consistent.end());
   }
-  keep_pairs(result, credible);
+  keep_pairs(result, consistent);
 }
 
 }  // namespace symsurf
