@@ -32,7 +32,7 @@ struct LeastEigen {
 };
 
 /// In a quarter of the time of eigen_of: Newton's steps on the characteristic polynomial, from
-/// below, then inverse iterations with the adjugate in the inverse's position (Golub and Van Loan,
+/// below, then inverse iterations with the adjugate in the inverse's place (Golub and Van Loan,
 /// 7.6.1). For entries that have a fourth power.
 LeastEigen least_eigen_of(const Matrix3& semidefinite);
 

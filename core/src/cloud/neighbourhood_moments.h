@@ -21,7 +21,7 @@ struct NeighbourhoodMoments {
   double one_sided() const { return mean.norm(); }
 };
 
-/// Calls visit(v, surroundings by the k nearest others of the point tree.order()[positions[v]]) for
+/// Calls visit(v, moments of the k nearest others of the point tree.order()[positions[v]]) for
 /// all of the positions, on several threads at once; fastest where they ascend.
 void visit_neighbourhoods(
     PointsView points, const PointTree& tree, Index k, const std::vector<Index>& positions,

@@ -29,7 +29,7 @@ struct MirrorFit {
 ///
 /// A point whose image is a point of the cloud has support 1. Around any other the cloud and its
 /// mirror image are compared within a ball. With r the distance of their means across the surface
-/// and c = (n . n')^2 the correspondence of their normals,
+/// and c = (n . n')^2 the consistency of their normals,
 ///
 ///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
 ///

@@ -13,7 +13,7 @@ std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& se
                            std::size_t most);
 
 /// Adds the surfaces grown from trials, each from one that no surface before explains, and refines
-/// those that may come near the best share support so far. In the order found.
+/// those that may come near the best support so far. In the order found.
 void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds,
              std::vector<GrownSurface>& surfaces, const Context& context);
 

@@ -99,7 +99,7 @@ void Growth::refit(std::int32_t i) {
   static thread_local std::vector<std::int32_t> listed;
   data.clear();
   listed.clear();
-  // Whoever is met more than once is nearer the middle of it all, and weighs more.
+  // A point that is met more than once is nearer the middle of it all, and weighs more.
   const auto meet = [&](std::int32_t j) {
     if (partner_[j] < 0) return;
     const auto slot = static_cast<std::size_t>(slot_of_[j]);

@@ -44,7 +44,7 @@ class Refinement {
     Vector3 smoothed = point;  // less its noise
   };
 
-  // Every how manieth sample to look at, for about so many.
+  // The stride between samples, for about so many.
   Index stride_for(Index wanted) const;
   SurfaceNoise measured_noise() const;
   Vector3 smoothed_gap(const UnitPlane& plane, const Match& match) const;
