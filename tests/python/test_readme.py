@@ -1,4 +1,5 @@
-"""The README's opening examples run, and its table of methods is the methods' own description."""
+"""The README's opening examples and those of the methods' pages run; the README's table of methods
+is the methods' own description."""
 
 from __future__ import annotations
 
@@ -16,8 +17,8 @@ README = (ROOT / "README.md").read_text()
 OPENING = README.split("\n## ")[0]  # the sections after it need hosts of their own
 
 
-def examples(language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", OPENING, re.MULTILINE | re.DOTALL)
+def examples(language: str, page: str = OPENING) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
@@ -37,6 +38,17 @@ def test_python_examples(example, folder):
     pytest.importorskip("pyvista")
     done = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+PAGES = [ROOT / "docs/methods" / f"{name}.md" for name in symsurf.methods()]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_methods_have_pages_whose_examples_find_the_mirror(page, tmp_path):
+    (example,) = examples("python", page.read_text())
+    done = subprocess.run([sys.executable, "-c", example], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "found" in done.stdout
 
 
 def command_lines() -> list[str]:

@@ -52,8 +52,8 @@ MethodImplementation perpendicular_method() {
   method.name = "perpendicular";
   method.title = "Curved mirror, perpendicular mapping";
   method.summary =
-      "Finds a curved mirror of any shape that maps points along its normals, by growing sheets of "
-      "oriented midpoints and by bending planes.";
+      "Finds a curved mirror of any shape that maps points along its normals, by growing surfaces "
+      "of oriented midpoints and by bending planes.";
   method.parameters = perpendicular::search_parameters();
   method.minimum_points = perpendicular::least_points;
   method.preprocessing.keep_interior = perpendicular::has_exact_partners;

@@ -71,7 +71,7 @@ MethodImplementation normals_only_method() {
   method.title = "Symmetry by normals (thesis, Algorithm 3)";
   method.summary =
       "Pairs each point with the point nearest to the line along "
-      "its normal: for two sheets at a "
+      "its normal: for two surfaces at a "
       "constant distance.";
   method.parameters = normal_parameters();
   method.preprocessing = Preprocessing::none();
