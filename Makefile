@@ -1,6 +1,6 @@
-# make setup | demo | paraview | meshlab | meshlab-gui | test | bench | accuracy: each sets up what it
-# needs first, and only what is missing.
-.PHONY: setup demo paraview meshlab meshlab-gui test bench bench-meshlab accuracy
+# make setup | demo | paraview | meshlab | meshlab-gui | test | lint | tidy | bench | accuracy: each
+# sets up what it needs first, and only what is missing.
+.PHONY: setup demo paraview meshlab meshlab-gui test lint tidy bench bench-meshlab accuracy
 
 setup:
 	@.ci/setup python tests
@@ -18,6 +18,16 @@ paraview:
 test:
 	@.ci/setup tests
 	@.ci/suites
+
+# Format, style and types, in seconds; `make test` runs it too.
+lint:
+	@.ci/setup lint
+	@.ci/lint
+
+# What clang-tidy finds in the core, by the checks of .clang-tidy.
+tidy:
+	@.ci/setup tidy
+	@run-clang-tidy-16 -quiet -p build/tidy
 
 bench:
 	@.ci/setup benchmarks paraview

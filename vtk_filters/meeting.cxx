@@ -15,7 +15,8 @@ namespace {
 constexpr int meeting_tag = 7121;
 
 // Awake at first: where each process has a core of its own, many waits are shorter than falling
-// asleep. Then each sleep is a small part of the time waited so far, and oversleeping costs no more.
+// asleep. Then each sleep is a small part of the time waited so far, and oversleeping costs no
+// more.
 void wait(vtkMPICommunicator::Request& request) {
   using std::chrono::steady_clock, std::chrono::microseconds;
   constexpr steady_clock::duration patience = microseconds(20), longest = microseconds(1000);

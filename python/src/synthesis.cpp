@@ -79,7 +79,8 @@ void bind_generators(py::module_& module) {
   bind_description<Generator>(module, "Generator", "The description of a generator of samples.")
       .def_readonly("mirrors_points", &Generator::mirrors_points,
                     "Whether it mirrors given points.");
-  module.def("generators", [] { return by_name(generators()); }, "All generators by name.");
+  module.def(
+      "generators", [] { return by_name(generators()); }, "All generators by name.");
   module.def(
       "generate",
       [](const std::string& name, const py::dict& parameters,
@@ -109,7 +110,8 @@ void bind_generators(py::module_& module) {
 
 void bind_damages(py::module_& module) {
   bind_description<Damage>(module, "Damage", "The description of a kind of damage.");
-  module.def("damages", [] { return by_name(damages()); }, "All kinds of damage by name.");
+  module.def(
+      "damages", [] { return by_name(damages()); }, "All kinds of damage by name.");
   module.def(
       "damage",
       [](const std::string& name, const PointsArgument& points, const py::dict& parameters,

@@ -27,7 +27,7 @@ from ._core import (
     straight_mirror,
 )
 from .detection import detect, match
-from .detectors import *  # noqa: F403 (detect_<method>, one for each in methods())
+from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
 from .result import Result
 from .sampling import downsample, estimate_normals

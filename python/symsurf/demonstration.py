@@ -32,7 +32,7 @@ class Finding:
     case: Case
     result: Result
     angle: float
-    """Between the normals, degrees."""
+    """Between the normals, degrees; NaN where no plane was found, as is the offset."""
     offset: float
     """Between the planes at the centre of the points, % of the diagonal."""
 
@@ -58,6 +58,8 @@ def cases() -> Iterator[Case]:
 def find(case: Case) -> Finding:
     result = detect(case.shape.points, "plane")
     found, truth = result.mirror, case.truth
+    if not isinstance(found, Plane):
+        return Finding(case, result, angle=float("nan"), offset=float("nan"))
     centre = case.shape.points.mean(axis=0, keepdims=True)
     sign = 1 if found.normal @ truth.normal >= 0 else -1
     gap = found.signed_distance(centre)[0] - sign * truth.signed_distance(centre)[0]
@@ -86,6 +88,8 @@ def remove_part(shape: Shape, share: float) -> Shape:
     points = shape.points
     distances = np.linalg.norm(points - points[points[:, 0].argmax()], axis=1)
     kept = distances > np.quantile(distances, share)
+    if shape.faces is None:
+        return Shape(points[kept])
     faces = shape.faces[kept[shape.faces].all(axis=1)]
     return Shape(points[kept], (np.cumsum(kept) - 1)[faces])
 
@@ -95,4 +99,6 @@ def moved(case: Case, rng: np.random.Generator) -> Case:
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
     shape = Shape(case.shape.points @ rotation.T, case.shape.faces)
-    return Case(case.name, case.damage, shape, Plane(rotation @ case.truth.normal, case.truth.offset))
+    return Case(
+        case.name, case.damage, shape, Plane(rotation @ case.truth.normal, case.truth.offset)
+    )

@@ -55,7 +55,7 @@ def points_above(
     if threshold is None:
         chosen = _mask(values, kind)
     else:
-        if isinstance(threshold, (str, bytes)) or not np.isscalar(threshold) or np.isnan(threshold):
+        if not _is_number(threshold):
             raise InvalidParameter(f"threshold is {threshold!r}; allowed is a number")
         chosen = values > threshold
     if not chosen.any():
@@ -68,9 +68,12 @@ def points_above(
     return np.ascontiguousarray(np.asarray(grid.cell_centers().points, dtype=float)[numbers])
 
 
-def _scalars(
-    grid: pyvista.DataSet, name: str | None, kind: str
-) -> tuple[NDArray[np.generic], bool]:
+def _is_number(value: Any) -> bool:
+    text = isinstance(value, (str, bytes))
+    return not text and np.isscalar(value) and not np.isnan(value)
+
+
+def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArray[Any], bool]:
     if name is None:
         name = grid.active_scalars_name
         if name is None:
@@ -97,7 +100,7 @@ def _scalars(
     )
 
 
-def _mask(values: NDArray[np.generic], kind: str) -> NDArray[np.bool_]:
+def _mask(values: NDArray[Any], kind: str) -> NDArray[np.bool_]:
     if values.dtype.kind == "b":
         return values
     if values.dtype.kind in "iu" and values.size:
@@ -118,7 +121,7 @@ def _is_regular(grid: Any) -> bool:
     x = np.asarray(grid.points, dtype=float).reshape(*grid.dimensions[::-1], 3)
     origin = x[0, 0, 0]
     lines = x[:, :1, :1] - origin, x[:1, :, :1] - origin, x[:1, :1, :] - origin
-    rounding = 1e-6 * (np.linalg.norm(np.ptp(x.reshape(-1, 3), axis=0)) + 1e-300)
+    rounding = 1e-6 * (float(np.linalg.norm(np.ptp(x.reshape(-1, 3), axis=0))) + 1e-300)
     if np.abs(x - (origin + lines[0] + lines[1] + lines[2])).max() > rounding:
         return False
     return all(_is_straight(line.reshape(-1, 3), rounding) for line in lines)

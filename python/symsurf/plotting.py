@@ -114,7 +114,7 @@ def _object(
         faces = result.faces if points is None else None
         shape = Shape(np.asarray(chosen, dtype=float), faces)
     residuals = _residuals(result, len(shape.points))
-    finite = np.isfinite(shape.points).all(axis=1)
+    finite = np.all(np.isfinite(shape.points), axis=1)
     if not finite.any():
         raise InvalidInput(f"none of the {len(finite)} points is finite")
     kept, faces = shape.points[finite], shape.faces

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +66,7 @@ def read_truth(path: Path) -> Truth:
         raise InvalidInput(f"{path}: not the truth of a sample ({error})") from error
 
 
-def _value(value: object) -> object:
+def _value(value: Any) -> Any:
     return np.array(value, dtype=float) if isinstance(value, list) else value
 
 

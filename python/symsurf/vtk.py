@@ -102,7 +102,8 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         return 1
 
     def _detected(self, source: vtkPolyData) -> Result:
-        method = methods().get(self._options["Method"])
+        name = self._options["Method"]
+        method = methods().get(name)
         normals = source.GetPointData().GetNormals() if self._options["UseNormals"] else None
         if self._options["UseNormals"] and not normals and source.GetNumberOfPoints():
             raise InvalidInput(
@@ -113,7 +114,7 @@ class MirrorDetection(VTKPythonAlgorithmBase):
             warnings.simplefilter("ignore", InputWarning)  # said below as VTK says it
             result = detect(
                 _rows(source.GetPoints() and source.GetPoints().GetData()),
-                self._options["Method"],
+                name,
                 faces=_triangles(source) if self._options["UseFaces"] else None,
                 normals=normals and _rows(normals),
                 nonfinite="refuse" if self._options["RefuseNonfinite"] else "skip",
@@ -121,7 +122,7 @@ class MirrorDetection(VTKPythonAlgorithmBase):
                 threads=self._options["NumberOfThreads"],
                 progress=self._progress,
                 **{
-                    parameter.name: self._options[_property(method.name, parameter.name)]
+                    parameter.name: self._options[_property(name, parameter.name)]
                     for parameter in (method.parameters if method else ())
                 },
             )
@@ -184,7 +185,9 @@ def _add_properties() -> None:
     }
     for method in methods().values():
         for parameter in method.parameters:
-            properties[_property(method.name, parameter.name)] = f"{parameter.doc} Allowed: {allowed(parameter)}."
+            properties[_property(method.name, parameter.name)] = (
+                f"{parameter.doc} Allowed: {allowed(parameter)}."
+            )
     for name, doc in properties.items():
         for accessor in _accessors(name, doc):
             setattr(MirrorDetection, accessor.__name__, accessor)
@@ -220,17 +223,21 @@ def _cells(rows: NDArray[np.int64]) -> vtkCellArray:
 
 def _set_mirror_meshes(output: vtkPolyData, result: Result, with_candidates: bool) -> None:
     ranked = [result, *(result.candidates if with_candidates else [])]
-    drawn = [(rank, each) for rank, each in enumerate(ranked) if each.mirror is not None]
+    drawn = [
+        (rank, each.score, each.mirror)
+        for rank, each in enumerate(ranked)
+        if each.mirror is not None
+    ]
     if not drawn:
         return
-    vertices, triangles = zip(*(each.mirror.mesh() for _, each in drawn))
+    vertices, triangles = zip(*(mirror.mesh() for *_, mirror in drawn))
     first_vertices = np.cumsum([0, *map(len, vertices[:-1])])
     corners = [rows + first for rows, first in zip(triangles, first_vertices)]
     counts = [len(rows) for rows in triangles]
     output.SetPoints(_points(np.vstack(vertices)))
     output.SetPolys(_cells(np.vstack(corners)))
-    ranks = np.repeat(np.array([rank for rank, _ in drawn], np.int32), counts)
-    scores = np.repeat([each.score for _, each in drawn], counts)
+    ranks = np.repeat(np.array([rank for rank, *_ in drawn], np.int32), counts)
+    scores = np.repeat([score for _, score, _ in drawn], counts)
     output.GetCellData().AddArray(numpyTovtkDataArray(ranks, "Rank"))
     output.GetCellData().AddArray(numpyTovtkDataArray(scores, "Score"))
 
@@ -248,11 +255,11 @@ def _candidate_values(candidates: list[Result]) -> dict[str, Any]:
     """By name, a row a candidate."""
     if not candidates:
         return {}
-    mirrors = [candidate.mirror for candidate in candidates]
     values = {"candidate_scores": np.array([[candidate.score] for candidate in candidates])}
-    if all(isinstance(mirror, Plane) for mirror in mirrors):
-        values["candidate_normals"] = np.array([mirror.normal for mirror in mirrors])
-        values["candidate_offsets"] = np.array([[mirror.offset] for mirror in mirrors])
+    planes = [each.mirror for each in candidates if isinstance(each.mirror, Plane)]
+    if len(planes) == len(candidates):
+        values["candidate_normals"] = np.array([plane.normal for plane in planes])
+        values["candidate_offsets"] = np.array([[plane.offset] for plane in planes])
     return values
 
 

@@ -6,6 +6,7 @@ import argparse
 import os
 import time
 from concurrent.futures import ProcessPoolExecutor
+from itertools import chain
 
 from . import cad_planes, candidates, curved, deformed, exact, kinds, planes, scores, without_mirror
 from .case import Case, Figures
@@ -52,7 +53,10 @@ def main() -> None:
         return
     left_out = {s: lacking(s) for case in chosen for s in case.subjects if lacking(s)}
     if left_out:
-        names, files = ", ".join(left_out), ", ".join(dict.fromkeys(sum(left_out.values(), [])))
+        names, files = (
+            ", ".join(left_out),
+            ", ".join(dict.fromkeys(chain.from_iterable(left_out.values()))),
+        )
         print(f"left out {names}: the folder SYMSURF_SHAPES, {FOLDER}, has no {files}")
     print(line(COLUMNS), flush=True)
     start = time.monotonic()

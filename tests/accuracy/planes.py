@@ -17,7 +17,9 @@ COUNT = 4096
 def difference(found: Plane, truth: Plane, points: Points) -> tuple[float, float]:
     """The angle in degrees, and the planes' distance at the points' centre over the diagonal."""
     cosine = found.normal @ truth.normal
-    angle = np.degrees(np.arctan2(np.linalg.norm(np.cross(found.normal, truth.normal)), abs(cosine)))
+    angle = np.degrees(
+        np.arctan2(np.linalg.norm(np.cross(found.normal, truth.normal)), abs(cosine))
+    )
     centre = points.mean(axis=0, keepdims=True)
     gap = found.signed_distance(centre) - np.sign(cosine) * truth.signed_distance(centre)
     return float(angle), float(abs(gap[0])) / diagonal(points)

@@ -31,9 +31,7 @@ class Sheets:
 
 def known_surface(name: str, mapping: str) -> Mirror:
     numbers = {"surface": name, "mapping": mapping, "scale": 1.0}
-    return make_mirror(
-        "surface", numbers | {"rotation": np.eye(3), "translation": np.zeros(3)}
-    )
+    return make_mirror("surface", numbers | {"rotation": np.eye(3), "translation": np.zeros(3)})
 
 
 def random_places(name: str, count: int, rng: np.random.Generator) -> NDArray[np.float64]:
@@ -116,9 +114,7 @@ def _along_z(
     return _posed(points, truth, len(upper), exact, rng)
 
 
-def _waving(
-    x: NDArray[np.float64], near: float, far: float, waves: int
-) -> NDArray[np.float64]:
+def _waving(x: NDArray[np.float64], near: float, far: float, waves: int) -> NDArray[np.float64]:
     """Distances in that many legs from ``near`` to ``far`` and back, for x from -1 to 1."""
     leg = (x + 1) / 2 * waves
     return near + (far - near) * (1 - np.abs(1 - leg % 2) if waves else np.zeros_like(x))

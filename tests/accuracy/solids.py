@@ -14,9 +14,7 @@ from symsurf import Cylinder, Plane
 
 from .poses import Points
 
-FOLDER = Path(
-    os.environ.get("SYMSURF_SHAPES", Path(__file__).parents[3] / "shared" / "data")
-)
+FOLDER = Path(os.environ.get("SYMSURF_SHAPES", Path(__file__).parents[3] / "shared" / "data"))
 MESHES = ("ant", "airplane", "cow", "face")
 ASYMMETRIC = ("bumpy", "lumps", "facets", "sheet")
 FILES = {
@@ -36,7 +34,9 @@ def lacking(subject: str) -> list[str]:
     return [file for file in sum(needed, ()) if not (FOLDER / file).exists()]
 
 
-def sampled(points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator) -> Points:
+def sampled(
+    points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator
+) -> Points:
     """Points (count, 3), uniform over the triangles."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)

@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")

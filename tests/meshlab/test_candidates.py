@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import Shape
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
@@ -36,14 +35,16 @@ def candidate_layers(mesh_set: pymeshlab.MeshSet) -> list[pymeshlab.Mesh]:
 
 
 @pytest.mark.parametrize("seed", (0, 1))
-@pytest.mark.parametrize(("shape_of", "planes"), [(box, 3), (lambda s: prism(s, 3), 4), (lambda s: prism(s, 6), 7)])
+@pytest.mark.parametrize(
+    ("shape_of", "planes"), [(box, 3), (lambda s: prism(s, 3), 4), (lambda s: prism(s, 6), 7)]
+)
 def test_returned_values_are_those_of_python(shape_of, planes, seed):
     shape = shape_of(seed)
     expected = symsurf.detect(shape.points, "plane", faces=shape.faces).candidates
     returned = shape.mesh_set().apply_filter("compute_mirror_plane")
     assert returned["candidates"] == len(expected) == planes - 1
     assert np.allclose(returned["candidate_scores"], 1)
-    near = dict(rtol=0, atol=1e-12 * shape.diagonal)
+    near = {"rtol": 0, "atol": 1e-12 * shape.diagonal}
     normals = returned["candidate_normals"].reshape(-1, 3)
     assert np.allclose(normals, [c.mirror.normal for c in expected], **near)
     assert np.allclose(returned["candidate_offsets"], [c.mirror.offset for c in expected], **near)
@@ -73,7 +74,10 @@ def test_the_layer_can_be_reflected_over_a_candidate():
     returned = mesh_set.apply_filter("compute_mirror_plane", show_candidates=True)
     number = next(m.id() for m in candidate_layers(mesh_set))
     mirror = symsurf.Plane(returned["candidate_normals"][:3], returned["candidate_offsets"][0])
-    for layer, over in [(number, mirror), (None, symsurf.Plane(returned["normal"], returned["offset"]))]:
+    for layer, over in [
+        (number, mirror),
+        (None, symsurf.Plane(returned["normal"], returned["offset"])),
+    ]:
         chosen = {} if layer is None else {"mirror_layer": layer}
         reflected = mesh_set.apply_filter("apply_mirror_reflection", **chosen)["reflection_layer"]
         points = mesh_set[reflected].vertex_matrix()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import SHAPES, Shape, cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
@@ -47,7 +46,7 @@ def layer(mesh_set: pymeshlab.MeshSet, name: str) -> pymeshlab.Mesh:
 def assert_same(mesh_set: pymeshlab.MeshSet, returned: dict, expected, shape: Shape, rows=None):
     """The document and the returned values against a result over the points `rows`."""
     rows = np.arange(len(shape.points)) if rows is None else rows
-    near = dict(rtol=0, atol=1e-12 * shape.diagonal)
+    near = {"rtol": 0, "atol": 1e-12 * shape.diagonal}
     assert returned["score"] == pytest.approx(expected.score, abs=1e-12)
     assert returned["pairs"] == len(expected.pairs)
     assert returned["found"] is (expected.verdict == "found")

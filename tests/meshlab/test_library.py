@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pymeshlab
 import pytest
-
 from conftest import BUILD, plugin_file
 
 LIBRARIES = {
@@ -63,6 +62,7 @@ def in_host(scalar: str) -> subprocess.CompletedProcess:
         env=os.environ | {"LD_LIBRARY_PATH": str(LIBRARIES[scalar])},
         capture_output=True,
         text=True,
+        check=False,
     )
 
 

@@ -7,7 +7,6 @@ import inspect
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import cloud
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import SHAPES, cloud, lump, lump_cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
-
 from shapes import cloud
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
@@ -40,9 +39,7 @@ def test_pairs_are_mirrored_over_the_true_mirror(generator):
 def test_the_current_layer_can_be_mirrored():
     shape = cloud(3)
     mesh_set = shape.mesh_set()
-    mesh_set.apply_filter(
-        FILTER, generator="spherical", use_current_layer=True, radius_divisor=1.5
-    )
+    mesh_set.apply_filter(FILTER, generator="spherical", use_current_layer=True, radius_divisor=1.5)
     points = mesh_set.current_mesh().vertex_matrix()
     inside = np.linalg.norm(shape.points, axis=1) < shape.diagonal / 1.5
     assert len(points) <= 2 * inside.sum()

@@ -68,6 +68,7 @@ def run_host(environment: dict[str, str], tmp_path: Path) -> Callable[..., Any]:
             capture_output=True,
             text=True,
             timeout=timeout,
+            check=False,
         )
         assert done.returncode == 0, done.stdout + done.stderr
         return json.loads(answer.read_text())

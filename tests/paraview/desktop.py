@@ -127,6 +127,7 @@ class Desktop:
                 env=self._environment,
                 capture_output=True,
                 text=True,
+                check=False,
             )
             return found.stdout.split()[-1] if found.stdout.strip() else None
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 
@@ -94,7 +94,9 @@ def test_xml_is_the_description(
             map(float, default(parameter) if " " in text else [parameter.default])
         )
     if parameter.type in ("integer", "real"):
-        domain = element.find("IntRangeDomain" if parameter.type == "integer" else "DoubleRangeDomain")
+        domain = element.find(
+            "IntRangeDomain" if parameter.type == "integer" else "DoubleRangeDomain"
+        )
         low, high = map(float, parameter.range.strip("[]()").split(", "))
         assert float(domain.get("min", "-inf")) == low
         assert float(domain.get("max", "inf")) == high

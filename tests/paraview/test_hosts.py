@@ -58,7 +58,9 @@ def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> Non
     assert set(points.values()) == {0}
 
 
-def test_state_and_trace_bring_the_same_mirror_back(run_host: Callable[..., Any], tmp_path: Path) -> None:
+def test_state_and_trace_bring_the_same_mirror_back(
+    run_host: Callable[..., Any], tmp_path: Path
+) -> None:
     for kind in ("state.py", "trace.py"):
         before, after = run_host("pvpython", kind, tmp_path)
         assert before == after

@@ -52,10 +52,11 @@ def of_candidates(candidates: list[symsurf.Result]) -> dict[str, np.ndarray]:
 
 
 def by_pip_vtk(points: np.ndarray) -> Mirrors:
-    from symsurf.vtk import MirrorDetection
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+    from symsurf.vtk import MirrorDetection
 
     vtk_points, data = vtkPoints(), vtkPolyData()
     vtk_points.SetData(numpy_to_vtk(points, deep=True))

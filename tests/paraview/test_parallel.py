@@ -64,7 +64,11 @@ def server(processes: int, environment: dict[str, str]) -> Iterator[int]:
         port = probe.getsockname()[1]
     command = f"mpiexec --oversubscribe -n {processes} pvserver --server-port={port}"
     process = subprocess.Popen(
-        command.split(), env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command.split(),
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     try:
         for line in process.stdout:

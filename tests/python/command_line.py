@@ -16,7 +16,9 @@ Done = subprocess.CompletedProcess
 
 def run(*words: object, cwd: Path | None = None) -> Done[str]:
     command = [sys.executable, "-m", "symsurf", *map(str, words)]
-    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        command, cwd=cwd, capture_output=True, text=True, timeout=120, check=False
+    )
 
 
 def run_here(line: str, folder: Path) -> Done[str]:

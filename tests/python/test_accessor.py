@@ -10,7 +10,7 @@ import pytest
 import symsurf
 
 pyvista = pytest.importorskip("pyvista", "0.48", reason="needs PyVista 0.48 or later")
-import symsurf.accessor  # noqa: E402, F401  (an installed symsurf needs no import)
+import symsurf.accessor  # an installed symsurf needs no import
 
 
 def test_detect_is_symsurf_detect_on_the_mesh() -> None:

@@ -130,6 +130,8 @@ def test_the_mirror_of_a_mask_is_that_of_its_boundary():
     voxels = np.argwhere(mask)
     result = symsurf.detect(voxels)
     assert result.mirror.kind == "plane"
-    assert np.abs(result.mirror.signed_distance([[0, 0, 40], [60, 0, 40], [0, 70, 40]])).max() < 1e-9
+    assert (
+        np.abs(result.mirror.signed_distance([[0, 0, 40], [60, 0, 40], [0, 70, 40]])).max() < 1e-9
+    )
     assert result.statistics["boundary_points"] < len(voxels) / 4
     assert len(result.pairs) == len(voxels) and result.residuals.max() < 1e-9

@@ -35,9 +35,7 @@ def shell(line: str, folder) -> str:
     return done.stdout
 
 
-@pytest.fixture(
-    params=[(sample, damage) for sample in SAMPLES for damage in DAMAGES], ids=" ".join
-)
+@pytest.fixture(params=[(sample, damage) for sample in SAMPLES for damage in DAMAGES], ids=" ".join)
 def cloud(request, tmp_path):
     """A folder with the damaged sample in points.xyz, its truth beside it."""
     sample, damage = request.param

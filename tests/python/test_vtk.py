@@ -11,11 +11,12 @@ import symsurf
 
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
-from symsurf.vtk import MirrorDetection  # noqa: E402
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkCommonCore import vtkPoints  # noqa: E402
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid  # noqa: E402
-from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource  # noqa: E402
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
+
+from symsurf.vtk import MirrorDetection
 
 PLANE = symsurf.Plane([1, 2, -0.5], 1.3)
 
@@ -124,7 +125,11 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     line = np.arange(9.0)[:, None] * [1, 2, 3]
     found = detection(mirrored_shape())
     good = found.GetInputDataObject(0, 0)
-    for points, said in [(nan[:4], "3 of 4 points given are finite"), (line, "line"), (line[:1], "1 points")]:
+    for points, said in [
+        (nan[:4], "3 of 4 points given are finite"),
+        (line, "line"),
+        (line[:1], "1 points"),
+    ]:
         found.SetInputData(polydata(points))
         assert said in error_of(found)
         assert found.GetOutput(0).GetNumberOfPoints() == 0
@@ -148,7 +153,9 @@ def test_points_that_are_not_finite_are_left_out() -> None:
     assert "3 points are not finite" in said
     mapping = found.GetOutput(2)
     partners = array(mapping, "MirrorPartner")
-    assert (partners[[0, 1, -1]] == -1).all() and (array(mapping, "MirrorSide")[[0, 1, -1]] == 0).all()
+    assert (partners[[0, 1, -1]] == -1).all() and (
+        array(mapping, "MirrorSide")[[0, 1, -1]] == 0
+    ).all()
     np.testing.assert_array_equal(partners[plain.pairs[:, 0] + 2], plain.pairs[:, 1] + 2)
     fields = found.GetOutput(0).GetFieldData()
     assert fields.GetArray("NonfinitePoints").GetValue(0) == 3

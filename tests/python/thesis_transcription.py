@@ -28,9 +28,7 @@ def directions() -> Iterator[Array]:
     for i in range(10):
         for j in range(10 if i else 1):
             phi, theta = i * np.pi / 10, j * np.pi / 10
-            yield np.array(
-                [np.sin(phi) * np.cos(theta), np.sin(phi) * np.sin(theta), np.cos(phi)]
-            )
+            yield np.array([np.sin(phi) * np.cos(theta), np.sin(phi) * np.sin(theta), np.cos(phi)])
 
 
 def squared_from_line(points: Array, start: Array, direction: Array) -> Array:
@@ -91,7 +89,9 @@ def _best(points: Array, error: Callable[..., float]) -> Separated:
         upper, lower = np.flatnonzero(above), np.flatnonzero(~above)
         if len(upper) == 0 or len(lower) == 0:
             continue
-        distances = np.array([squared_from_line(points[lower], points[x], direction) for x in upper])
+        distances = np.array(
+            [squared_from_line(points[lower], points[x], direction) for x in upper]
+        )
         partner = lower[np.argmin(distances, axis=1)]
         midpoints = (points[upper] + points[partner]) / 2
         clearance = min(np.linalg.norm(points - y, axis=1).min() for y in midpoints)

@@ -56,7 +56,7 @@ def _row(finding: Finding) -> str:
     return ROW.format(
         finding.case.name,
         finding.case.damage,
-        len(result.points),
+        len(finding.case.shape.points),
         f"{finding.angle:.4f}°",
         f"{finding.offset:.4f} %",
         f"{result.score:.3f}",

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 from .._core import Damage, Generator
 from ..descriptions import allowed
 from .values import shown, value_from
 
-Description = Generator | Damage
+Description: TypeAlias = Generator | Damage
 
 
 def add_kinds(

@@ -7,6 +7,7 @@ import json
 import math
 import sys
 import warnings
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -140,7 +141,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
         for path in arguments.files
     }
     inputs = {path.resolve() for path in arguments.files}
-    for output in sum(outputs.values(), []):
+    for output in chain.from_iterable(outputs.values()):
         if output.resolve() in inputs:
             raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
     if arguments.output.exists():
@@ -151,13 +152,17 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
 def _record(path: Path, result: Result) -> dict[str, Any]:
     return {
         "file": str(path),
-        "points": len(result.points),
+        "points": _point_count(result),
         "pairs": len(result.pairs),
         "surface_points": len(result.surface_points),
         "median_residual": plain(_median_residual(result)),
         "verdict": result.verdict,
         "reason": result.reason,
     } | summary(result)
+
+
+def _point_count(result: Result) -> int:
+    return 0 if result.points is None else len(result.points)
 
 
 def _median_residual(result: Result) -> float:
@@ -171,7 +176,7 @@ def _report(path: Path, result: Result) -> str:
         lines.append(f"  mirror    {', '.join([result.mirror.kind, *numbers])}")
     lines.append(f"  verdict   {result.verdict}: {result.reason}")
     lines.append(f"  score     {result.score:.3f} (method {result.method})")
-    paired = f"{len(result.pairs)} of {len(result.points)} points"
+    paired = f"{len(result.pairs)} of {_point_count(result)} points"
     residual = f"median residual {_median_residual(result):.3g}" if len(result.pairs) else ""
     lines.append(f"  pairs     {', '.join(filter(None, [paired, residual]))}")
     if result.candidates:

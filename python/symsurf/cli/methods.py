@@ -22,7 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
-        print(json.dumps({name: _record(method) for name, method in all_methods().items()}, indent=1))
+        print(
+            json.dumps({name: _record(method) for name, method in all_methods().items()}, indent=1)
+        )
     else:
         print("\n\n".join(_text(method) for method in all_methods().values()))
     return 0

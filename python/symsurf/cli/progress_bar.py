@@ -19,7 +19,9 @@ class ProgressBar:
         if self._shown:
             done = round(WIDTH * fraction)
             bar = "━" * done + " " * (WIDTH - done)
-            print(f"\r{self._title} {bar} {fraction:4.0%}", end="\033[K", file=sys.stderr, flush=True)
+            print(
+                f"\r{self._title} {bar} {fraction:4.0%}", end="\033[K", file=sys.stderr, flush=True
+            )
 
     def __enter__(self) -> ProgressBar:
         return self

@@ -32,8 +32,10 @@ def vtp_bytes(result: Result) -> bytes:
         "<FieldData>",
         *_field_data(result),
         "</FieldData>",
-        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count}"'
-        f' NumberOfPolys="{len(triangles)}">',
+        (
+            f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count}"'
+            f' NumberOfPolys="{len(triangles)}">'
+        ),
         '<PointData Scalars="Residual">',
         _array("Residual", residuals),
         _array("MirrorPoint", pairs[0]),

@@ -6,7 +6,9 @@ from session import answer, fetched, lopsided
 good = lopsided(simple.Sphere())
 line = simple.Line(Resolution=5)
 point = simple.PointSource(NumberOfPoints=1)
-nothing = simple.Threshold(Input=good, LowerThreshold=10, UpperThreshold=11, Scalars=["POINTS", "Normals"])
+nothing = simple.Threshold(
+    Input=good, LowerThreshold=10, UpperThreshold=11, Scalars=["POINTS", "Normals"]
+)
 nothing = simple.ExtractSurface(Input=nothing)
 broken = simple.Calculator(Input=good, CoordinateResults=1, Function="coords / (coordsX - coordsX)")
 

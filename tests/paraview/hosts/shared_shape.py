@@ -12,7 +12,7 @@ if len(sys.argv) > 3:
     simple.Connect("localhost", int(sys.argv[3]))
     simple.LoadPlugin(os.environ["SYMSURF_PLUGIN"], remote=True, ns=vars(simple))
 
-from session import answer, fetched, field, is_client, point_array  # noqa: E402
+from session import answer, fetched, field, is_client, point_array
 
 SHARE = """
 import numpy as np

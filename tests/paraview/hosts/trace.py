@@ -17,7 +17,7 @@ with open(os.path.join(sys.argv[2], "trace_made.py"), "w") as file:
 
 simple.Delete(detection)
 simple.Delete(cone)
-exec(compile(text, "trace_made.py", "exec"))
+exec(compile(text, "trace_made.py", "exec"))  # noqa: S102 (to replay it is the test)
 replayed = [p for (name, _), p in simple.GetSources().items() if name.startswith("MirrorDetection")]
 assert len(replayed) == 1
 answer([before, field(fetched(replayed[0]))])
