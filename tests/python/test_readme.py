@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from conftest import ROOT
@@ -33,24 +34,27 @@ def folder(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("example", examples("python"))
-def test_python_examples(example, folder):
-    pytest.importorskip("pyvista")
+def output_of(example: str, folder: Path) -> str:
     done = subprocess.run(
         [sys.executable, "-c", example], cwd=folder, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize("example", examples("python"))
+def test_python_examples(example, folder):
+    pytest.importorskip("pyvista")
+    output_of(example, folder)
 
 
 PAGES = [ROOT / "docs/methods" / f"{name}.md" for name in symsurf.methods()]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_methods_have_pages_whose_examples_find_the_mirror(page, tmp_path):
+def test_examples_of_the_methods_pages_find_the_mirror(page, tmp_path):
     (example,) = examples("python", page.read_text())
-    done = subprocess.run([sys.executable, "-c", example], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert "found" in done.stdout
+    assert "found" in output_of(example, tmp_path)
 
 
 def command_lines() -> list[str]:
