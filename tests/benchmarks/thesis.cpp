@@ -120,11 +120,11 @@ void report_all() {
       sphere{"around a sphere", around_sphere};
   constexpr Index count = 100'000;
   for (const Shape& shape : {sheets, shuffled, object})
-    report_units("separation", shape, count, 20);
+    report_units("separation", shape, count, 30);
   for (const Shape& shape : {sheets, object}) report_growth("separation", shape, 1.2);
   for (const Shape& shape : {offset, object}) {
-    report_units("separation_normals", shape, count, 30);
-    report_units("normals_only", shape, count, 5);
+    report_units("separation_normals", shape, count, 150);
+    report_units("normals_only", shape, count, 30);
   }
   for (const Shape& shape : {sphere, offset, object}) report_seconds("sphere", shape, 10'000, 0.3);
 }

@@ -2,19 +2,9 @@
 
 #include <symsurf/errors.h>
 
-#include "score/verdict.h"
+#include "methods/common_parameters.h"
 
 namespace symsurf {
-
-namespace {
-
-Parameter minimum_score() {
-  return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
-                         "Below it the verdict is \"none\": what was found is no symmetry of the "
-                         "shape.");
-}
-
-}  // namespace
 
 const std::vector<MethodImplementation>& implementations() {
   static const std::vector<MethodImplementation> list = [] {

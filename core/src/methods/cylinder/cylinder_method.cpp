@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "methods/common_parameters.h"
 #include "methods/cylinder/cylinder_candidates.h"
 #include "methods/parametric/refinement.h"
 #include "methods/registry.h"
@@ -108,13 +109,9 @@ MethodImplementation cylinder_method() {
       "Finds the circular cylinder that mirrors the shape along its radius: a plane of symmetry "
       "bent about an axis.";
   method.parameters = {
-      Parameter::integer("sample_size", 700, 100, 100000, "points",
-                         "Patches of the cloud that the search for the cylinder works on."),
-      Parameter::integer("max_candidates", 5, 0, 7, "",
-                         "Other cylinders to report at the most, best first."),
-      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
+      surfels_searched(700, "the cylinder"),
+      max_candidates(5, 7, "cylinders"),
+      pair_distance(),
   };
   method.minimum_points = 12;
   method.automatic = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "methods/common_parameters.h"
 #include "methods/free_form/free_form_pairing.h"
 #include "methods/free_form/search.h"
 #include "score/mirror_score.h"
@@ -55,11 +56,8 @@ std::vector<Parameter> search_parameters() {
   return {
       Parameter::integer("sample_size", 12000, 200, 100000, "points",
                          "Points that the search works on; larger clouds are thinned to it."),
-      Parameter::integer("max_candidates", 10, 0, 1000, "",
-                         "Other mirrors to report at the most, best first."),
-      Parameter::real("pair_distance", 0.02, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
+      max_candidates(10, 1000, "mirrors"),
+      pair_distance(0.02),
   };
 }
 

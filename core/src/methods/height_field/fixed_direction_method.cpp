@@ -1,6 +1,7 @@
 #include <symsurf/height_field.h>
 
 #include "base/parallel.h"
+#include "methods/common_parameters.h"
 #include "methods/height_field/consistent_pairs.h"
 #include "methods/height_field/field_search.h"
 #include "methods/registry.h"
@@ -61,9 +62,7 @@ MethodImplementation fixed_direction_method() {
                            "The direction of mapping, if known to a degree; (0, 0, 0) searches."),
       Parameter::integer("sample_size", 5000, 100, 100000, "points",
                          "Points that the search works on."),
-      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
+      pair_distance(),
   };
   method.minimum_points = 20;
   method.preprocessing.extract_boundary = false;

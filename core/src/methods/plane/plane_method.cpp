@@ -7,6 +7,7 @@
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "distributed/slabs.h"
+#include "methods/common_parameters.h"
 #include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
@@ -212,13 +213,9 @@ MethodImplementation plane_method() {
       "Finds the plane that mirrors the shape best (Hruda, Kolingerova and Vasa 2022), refined on "
       "the full cloud.";
   method.parameters = {
-      Parameter::integer("sample_size", 1000, 100, 100000, "points",
-                         "Patches of the cloud that the search for the plane works on."),
-      Parameter::integer("max_candidates", 64, 0, 64, "",
-                         "Other planes to report at the most, best first."),
-      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
+      surfels_searched(1000, "the plane"),
+      max_candidates(64, 64, "planes"),
+      pair_distance(),
   };
   method.automatic = true;
   // Duplicates in different parts of a distributed cloud are not known to be such.

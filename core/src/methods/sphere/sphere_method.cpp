@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "methods/common_parameters.h"
 #include "methods/parametric/refinement.h"
 #include "methods/registry.h"
 #include "methods/sphere/large_spheres.h"
@@ -167,13 +168,9 @@ MethodImplementation sphere_method() {
       "Finds the sphere that mirrors the shape best, of any radius: candidates from pairs of "
       "points, Hruda's measure over all pairs, refined on the full cloud.";
   method.parameters = {
-      Parameter::integer("sample_size", 700, 100, 100000, "points",
-                         "Patches of the cloud that the search for the sphere works on."),
-      Parameter::integer("max_candidates", 5, 0, 7, "",
-                         "Other spheres to report at the most, best first."),
-      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer than this has no "
-                      "partner."),
+      surfels_searched(700, "the sphere"),
+      max_candidates(5, 7, "spheres"),
+      pair_distance(),
   };
   method.minimum_points = 5;
   method.automatic = true;

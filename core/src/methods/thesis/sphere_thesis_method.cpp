@@ -7,6 +7,7 @@
 
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
+#include "methods/common_parameters.h"
 #include "methods/registry.h"
 #include "score/matching.h"
 #include "score/symmetry_measure.h"
@@ -217,10 +218,7 @@ MethodImplementation sphere_thesis_method() {
       Parameter::integer("radii", 10, 1, 1000, "", "How many radii are tried, evenly spaced."),
       Parameter::integer("sample_size", 300, 10, 2000, "points",
                          "Points at the least that the cloud is thinned to."),
-      Parameter::real("pair_distance", 0.05, 0, 1, "diagonal",
-                      "A point whose image has no point of the cloud nearer "
-                      "than this has no "
-                      "partner."),
+      pair_distance(),
   };
   method.minimum_points = 5;
   method.preprocessing = Preprocessing::none();
