@@ -11,6 +11,8 @@ namespace symsurf {
 /// Seeds of repeated tests: whatever fails for one of them fails.
 constexpr std::uint64_t seeds = 8;
 
+/// Draws stand in statements of their own: compilers differ in which argument they evaluate first,
+/// and the clouds are to be the same with all of them.
 class RandomCloud {
  public:
   explicit RandomCloud(std::uint64_t seed) : random_(seed) {}
@@ -21,9 +23,13 @@ class RandomCloud {
   Vector3 in_box() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
   Vector3 direction() {
     std::normal_distribution<double> normal;
-    return Vector3(normal(random_), normal(random_), normal(random_)).normalized();
+    const double z = normal(random_), y = normal(random_), x = normal(random_);
+    return Vector3(x, y, z).normalized();
   }
-  Matrix3 rotation() { return Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix(); }
+  Matrix3 rotation() {
+    const Vector3 axis = direction();
+    return Eigen::AngleAxisd(uniform(0, 3), axis).toRotationMatrix();
+  }
 
   Points box(Index n) {
     return rows(n, [&] { return in_box(); });
@@ -34,7 +40,10 @@ class RandomCloud {
   /// Corners of unit cells, each several times: distances tie, and are exact.
   Points lattice(Index n, int side) {
     std::uniform_int_distribution<int> at(0, side - 1);
-    return rows(n, [&] { return Vector3(at(random_), at(random_), at(random_)); });
+    return rows(n, [&] {
+      const int z = at(random_), y = at(random_), x = at(random_);
+      return Vector3(x, y, z);
+    });
   }
 
  private:

@@ -49,7 +49,8 @@ void parallel_for(const Context& context, Index count, Index grain,
     if (--at_work == 0) ended.notify_one();
   };
   const auto wait = [&] {
-    for (std::unique_lock lock(mutex); at_work > 0;) {
+    std::unique_lock lock(mutex);
+    while (at_work > 0) {
       ended.wait_for(lock, patience);
       lock.unlock();
       context.check();

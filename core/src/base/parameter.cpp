@@ -52,7 +52,9 @@ std::string to_string(const Value& value) {
     std::string operator()(double v) const { return number(v); }
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(const Vector3& v) const {
-      return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
+      std::string text = "(";
+      text += number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
+      return text;
     }
     std::string operator()(const Eigen::MatrixXd& v) const {
       return std::to_string(v.rows()) + " x " + std::to_string(v.cols()) + " numbers";
@@ -107,9 +109,11 @@ std::string Parameter::range() const {
     case ParameterType::Direction:
     case ParameterType::Position:
       return "3 finite numbers";
-    default:
-      return (std::isinf(minimum) ? "(" : "[") + number(minimum) + ", " + number(maximum) +
-             (std::isinf(maximum) ? ")" : "]");
+    default: {
+      std::string text = std::isinf(minimum) ? "(" : "[";
+      text += number(minimum) + ", " + number(maximum) + (std::isinf(maximum) ? ")" : "]");
+      return text;
+    }
   }
 }
 
