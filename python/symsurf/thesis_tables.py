@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import metrics
-from ._core import Mirror, Sphere
+from ._core import Mirror, Sphere, SurfaceMirror
 from .detection import detect
 from .result import Result
 from .synthetic import rotate, rotation_matrix
@@ -58,8 +59,10 @@ def measure(row: Row) -> Outcome:
         truth = truth.moved(rotation_matrix(*made.rotation))
     result = detect(points, row.method)
     if isinstance(result.mirror, Sphere):
-        figures = metrics.sphere_errors(result.mirror, truth.mirror, points)._asdict()
+        sphere = cast(Sphere, truth.mirror)  # spheres are looked for where they are the truth
+        figures = metrics.sphere_errors(result.mirror, sphere, points)._asdict()
     else:
-        figures = metrics.surface_errors(result.surface_points, truth.mirror)._asdict()
-        figures["coverage"] = metrics.coverage(result.surface_points, truth.mirror, points)
+        surface = cast(SurfaceMirror, truth.mirror)
+        figures = metrics.surface_errors(result.surface_points, surface)._asdict()
+        figures["coverage"] = metrics.coverage(result.surface_points, surface, points)
     return Outcome(row, points, truth.mirror, result, figures)
