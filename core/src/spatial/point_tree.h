@@ -24,9 +24,9 @@ struct Neighbour {
   }
 };
 
-/// A k-d tree of a cloud: exact nearest neighbours, ties broken by index. The points
-/// are stored along the Z-order curve, so that queries in that order stay in cache. Points that are
-/// not finite are never found.
+/// A k-d tree of a cloud: exact nearest neighbours, ties broken by index. The points are stored
+/// along the Z-order curve, so that queries in that order stay in cache. Points that are not finite
+/// are never found.
 class PointTree {
  public:
   explicit PointTree(PointsView points, const Context& context = {});
@@ -52,6 +52,17 @@ class PointTree {
       if (found.squared_distance <= limit) visit(found.index, found.squared_distance);
       return limit;
     });
+  }
+
+  /// KdTree::search_boxes(): bound(low, high) of boxes, offer(index) of points.
+  template <typename Bound, typename Offer>
+  void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
+    if (!tree_) return;
+    tree_->search_boxes(
+        [&](const Vector3& low, const Vector3& high) {
+          return bound(Vector3(low + origin_), Vector3(high + origin_));
+        },
+        limit, [&](std::uint32_t position) { return offer(Index{order_[position]}); });
   }
 
  private:

@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "methods/registry.h"
 #include "methods/thesis/midpoint_pairs.h"
-#include "spatial/kd_tree.h"
 
 namespace symsurf {
 
@@ -13,19 +12,15 @@ namespace {
 
 // Steps 2 to 6 of the thesis's Algorithm 3, by index: the other point nearest to the line through x
 // along its unit normal; equal distances: the lowest index.
-std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, const PointTree& points_tree,
+std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, const PointTree& tree,
                                           PointsView normals, const Context& context) {
   const PointsView points = cloud.points;
-  const std::vector<std::int32_t>& order = points_tree.order();
-  std::vector<Vector3> sorted;  // which keeps searches in cache
-  interruptible_for(context, points.size(), [&](Index p) { sorted.push_back(points[order[p]]); });
-  const KdTree<3> tree(std::move(sorted), context);
   std::vector<Neighbour> partners(points.size());
   constexpr Index grain = 1024;
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
     Neighbour best;
     for (Index p = begin; p < end; ++p) {
-      const std::int32_t i = order[p];
+      const std::int32_t i = tree.order()[p];
       const Line line{points[i], normals[i], cloud.diagonal};
       const Vector3 across = normals[i].unitOrthogonal(), other = normals[i].cross(across);
       // No box lies nearer to the line than its projections on two axes.
@@ -40,8 +35,7 @@ std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, const PointTree& p
       // The partner of the one before is a guess.
       if (best.index == i) best = {};
       if (best.index >= 0) best.squared_distance = line.squared_distance(points[best.index]);
-      tree.search_boxes(bound, line.reach(best), [&](std::uint32_t position) {
-        const std::int32_t b = order[position];
+      tree.search_boxes(bound, line.reach(best), [&](Index b) {
         if (b != i) best = std::min(best, Neighbour{b, line.squared_distance(points[b])});
         return line.reach(best);
       });
@@ -70,8 +64,7 @@ MethodImplementation normals_only_method() {
   method.name = "normals_only";
   method.title = "Symmetry by normals (thesis, Algorithm 3)";
   method.summary =
-      "Pairs each point with the point nearest to the line along "
-      "its normal: for two surfaces at a "
+      "Pairs each point with the point nearest to the line along its normal: for two surfaces at a "
       "constant distance.";
   method.parameters = normal_parameters();
   method.preprocessing = Preprocessing::none();

@@ -270,8 +270,7 @@ MethodImplementation separation_method() {
   method.name = "separation";
   method.title = "Symmetry by separation (thesis, Algorithm 1)";
   method.summary =
-      "Divides the cloud by planes through its centroid and maps "
-      "one side onto the other along the "
+      "Divides the cloud by planes through its centroid and maps one side onto the other along the "
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
   method.preprocessing = Preprocessing::none();
@@ -284,8 +283,7 @@ MethodImplementation separation_normals_method() {
   method.name = "separation_normals";
   method.title = "Symmetry by separation and normals (thesis, Algorithm 2)";
   method.summary =
-      "As separation, but scores a plane by how near the partner is to the "
-      "point with the most "
+      "As separation, but scores a plane by how near the partner is to the point with the most "
       "similar normal; the score depends on the unit of the input.";
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());

@@ -207,8 +207,7 @@ MethodImplementation sphere_thesis_method() {
   method.name = "sphere_thesis";
   method.title = "Mirror sphere (thesis, Algorithm 4)";
   method.summary =
-      "Tries spheres of given radii between all pairs of a "
-      "thinned cloud and improves the best by "
+      "Tries spheres of given radii between all pairs of a thinned cloud and improves the best by "
       "Nelder and Mead's simplex.";
   method.parameters = {
       Parameter::real("min_radius_divisor", 5, 0.01, 1000, "",
