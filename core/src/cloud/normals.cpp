@@ -23,8 +23,7 @@ void normalise(Points& patch) {
   patch.rowwise() -= patch.colwise().mean().eval();
 }
 
-Vector3 pca_normal(Points patch) {
-  normalise(patch);
+Vector3 pca_normal(const Points& patch) {
   const Vector3 normal = least_eigen_of(patch.transpose().lazyProduct(patch)).vector;
   Index largest;
   normal.cwiseAbs().maxCoeff(&largest);
@@ -33,10 +32,9 @@ Vector3 pca_normal(Points patch) {
 
 // z = b1 x + b2 y in the least squares sense, of minimum norm: the axes of the projection on xy by
 // one Jacobi rotation, the slope along each.
-Vector3 regression_normal(Points patch) {
+Vector3 regression_normal(const Points& patch) {
   // A projection on xy thinner than this, against its length, is a line.
   constexpr double thinness = 1e-8;
-  normalise(patch);
   Eigen::Matrix<double, Eigen::Dynamic, 2> xy = patch.leftCols<2>();
   Eigen::JacobiRotation<double> turn;
   turn.makeJacobi(xy.col(0).squaredNorm(), xy.col(0).dot(xy.col(1)), xy.col(1).squaredNorm());
@@ -86,6 +84,7 @@ Points estimate_normals(PointsView points, const PointTree& tree, Index neighbou
       tree.nearest(points[i], neighbours, found);
       for (Index n = 0; n < neighbours; ++n)
         patch.row(n) = (points[found[n].index] - points[i]).transpose();
+      normalise(patch);
       normals.row(i) = normal_of(patch).transpose();
     }
   });
