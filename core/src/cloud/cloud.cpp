@@ -90,15 +90,6 @@ void require_normals(PointsView points, PointsView normals, Index first) {
   }
 }
 
-void require_corners(TrianglesView faces, Index points) {
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c)
-      if (faces[f][c] < 0 || faces[f][c] >= points)
-        throw InvalidInput("face " + std::to_string(f) + " names point " +
-                           std::to_string(faces[f][c]) + "; allowed is 0 to " +
-                           std::to_string(points - 1));
-}
-
 void validate(Cloud& cloud, Index minimum_points, const Context& context) {
   const PointsView own = cloud.points;
   const Partition partition = cloud.partition.resized(own.size());

@@ -5,6 +5,7 @@
 #include <symsurf/triangles_view.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "cloud/principal_frame.h"
 #include "distributed/partition.h"
@@ -31,6 +32,13 @@ struct Cloud {
 /// the same. Collective.
 void validate(Cloud& cloud, Index minimum_points, const Context& context);
 
+/// These rows; none where there are none to choose from, as of a cloud without normals.
+template <typename Integer>
+Points chosen_rows(PointsView all, const std::vector<Integer>& rows) {
+  if (all.empty()) return Points(0, 3);
+  return all.matrix()(rows, Eigen::indexing::all);
+}
+
 /// A validated cloud in one process.
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
@@ -50,9 +58,6 @@ void require_count(Index given, Index needed);
 /// Throws InvalidInput unless there are no normals, or one a point, and those of finite points are
 /// finite and not zero. `first`: the number of the first row.
 void require_normals(PointsView points, PointsView normals, Index first = 0);
-
-/// Throws InvalidInput naming the first face with a corner that is none of so many points.
-void require_corners(TrianglesView faces, Index points);
 
 /// Whether one process can number so many points.
 bool is_numerable(Index own);

@@ -27,7 +27,7 @@ double score_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirro
                   const Context& context) {
   const double whole = score_of(cloud, tree, mirror, context);
   if (whole >= 1 || !is_volumetric(cloud, context)) return whole;
-  const Points rows = cloud.points.matrix()(boundary_of(cloud, context), Eigen::indexing::all);
+  const Points rows = chosen_rows(cloud.points, boundary_of(cloud, context));
   const Cloud boundary = checked_cloud(rows, {}, 1, context);
   return std::max(whole, score_of(boundary, PointTree(rows, context), mirror, context));
 }

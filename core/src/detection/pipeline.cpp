@@ -1,6 +1,7 @@
 #include "detection/pipeline.h"
 
 #include "cloud/footprint.h"
+#include "mesh/triangle_mesh.h"
 
 namespace symsurf {
 

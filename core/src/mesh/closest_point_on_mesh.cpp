@@ -120,7 +120,7 @@ struct ClosestPointOnMesh::Search {
     return squared <= distance * distance * (1 + 1e-14);
   }
 
-  void to_frame(std::int32_t at) {
+  void visit(std::int32_t at) {
     const Node& node = mesh.nodes_[at];
     if (node.second < 0) {
       for (std::int32_t t = node.begin; t < node.end; ++t)
@@ -130,8 +130,8 @@ struct ClosestPointOnMesh::Search {
     std::pair near(mesh.nodes_[at + 1].squared_distance(query), at + 1);
     std::pair far(mesh.nodes_[node.second].squared_distance(query), node.second);
     if (far < near) std::swap(near, far);
-    if (may_hold(near.first)) to_frame(near.second);
-    if (may_hold(far.first)) to_frame(far.second);
+    if (may_hold(near.first)) visit(near.second);
+    if (may_hold(far.first)) visit(far.second);
   }
 };
 
@@ -139,7 +139,7 @@ ClosestPoint ClosestPointOnMesh::operator()(const Vector3& query, double limit) 
   if (nodes_.empty() || !query.allFinite()) return {};
   Search search{*this, query - origin_, {}};
   search.best.squared_distance = limit;
-  search.to_frame(0);
+  search.visit(0);
   if (search.best.face < 0) return {};
   search.best.point += origin_;
   return search.best;

@@ -112,6 +112,7 @@ struct TriangleMesh::Connectivity {
 
 TriangleMesh::TriangleMesh(PointsView points, TrianglesView faces, const Context& context)
     : mesh_(std::make_unique<Connectivity>()) {
+  require_corners(faces, points.size());
   OpenTriMesh& mesh = mesh_->mesh;
   mesh.reserve(points.size(), points.size() + faces.size(), faces.size());
   for (Index i = 0; i < points.size(); ++i)
@@ -119,10 +120,6 @@ TriangleMesh::TriangleMesh(PointsView points, TrianglesView faces, const Context
   std::set<Corners> nonmanifold;
   interruptible_for(context, faces.size(), [&](Index f) {
     const Corners face{faces[f][0], faces[f][1], faces[f][2]};
-    for (const Index i : face)
-      if (i < 0 || i >= points.size())
-        throw InvalidInput("face " + std::to_string(f) + " names point " + std::to_string(i) +
-                           "; allowed is 0 to " + std::to_string(points.size() - 1));
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
       ++refused_.degenerate;
       mesh_->keep_aside(f, face, false);
@@ -238,6 +235,15 @@ std::vector<std::vector<Index>> TriangleMesh::boundary_loops() const {
   }
   std::sort(loops.begin(), loops.end());
   return loops;
+}
+
+void require_corners(TrianglesView faces, Index points) {
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 3; ++c)
+      if (faces[f][c] < 0 || faces[f][c] >= points)
+        throw InvalidInput("face " + std::to_string(f) + " names point " +
+                           std::to_string(faces[f][c]) + "; allowed is 0 to " +
+                           std::to_string(points - 1));
 }
 
 double surface_area(PointsView points, TrianglesView faces) {

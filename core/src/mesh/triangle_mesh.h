@@ -9,6 +9,9 @@
 
 namespace symsurf {
 
+/// Throws InvalidInput naming the first face with a corner that is none of so many points.
+void require_corners(TrianglesView faces, Index points);
+
 /// The area of the faces, in square input units.
 double surface_area(PointsView points, TrianglesView faces);
 

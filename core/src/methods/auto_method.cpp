@@ -36,8 +36,8 @@ class ThinnedCloud {
     std::vector<Index> rows;
     for (Index k = 0; k < thinned_size; ++k)
       rows.push_back(tree.order()[k * cloud.points.size() / thinned_size]);
-    points_ = cloud.points.matrix()(rows, Eigen::indexing::all);
-    if (!cloud.normals.empty()) normals_ = cloud.normals.matrix()(rows, Eigen::indexing::all);
+    points_ = chosen_rows(cloud.points, rows);
+    normals_ = chosen_rows(cloud.normals, rows);
     cloud_ = checked_cloud(points_, normals_, 1, context);
     cloud_.seed = cloud.seed;
     is_thinner_ = true;

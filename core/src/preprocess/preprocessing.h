@@ -44,10 +44,7 @@ class Stage {
   template <typename Integer>
   void keep(Cloud& cloud, const std::vector<Integer>& rows) {
     if (cloud.footprint.empty()) cloud.footprint = cloud.points;
-    const auto kept = [&](PointsView all) {
-      return all.empty() ? Points(0, 3) : Points(all.matrix()(rows, Eigen::indexing::all));
-    };
-    replace(cloud, kept(cloud.points), kept(cloud.normals));
+    replace(cloud, chosen_rows(cloud.points, rows), chosen_rows(cloud.normals, rows));
   }
 
  private:
