@@ -4,35 +4,19 @@
 
 #include <string>
 
-#include "score/verdict.h"
-
 // Parameters that several methods share: one description each.
 
 namespace symsurf {
 
 /// Of methods that search on surfels. `kind`: "the plane".
-inline Parameter surfels_searched(Index usual, const std::string& kind) {
-  return Parameter::integer("sample_size", usual, 100, 100000, "points",
-                            "Patches of the cloud that the search for " + kind + " works on.");
-}
+Parameter surfels_searched(Index usual, const std::string& kind);
 
 /// `kinds`: "planes".
-inline Parameter max_candidates(Index usual, Index most, const std::string& kinds) {
-  return Parameter::integer("max_candidates", usual, 0, most, "",
-                            "Other " + kinds + " to report at the most, best first.");
-}
+Parameter max_candidates(Index usual, Index most, const std::string& kinds);
 
-inline Parameter pair_distance(double usual = 0.05) {
-  return Parameter::real(
-      "pair_distance", usual, 0, 1, "diagonal",
-      "A point whose image has no point of the cloud nearer than this has no partner.");
-}
+Parameter pair_distance(double usual = 0.05);
 
 /// Of all methods; the registry adds it.
-inline Parameter minimum_score() {
-  return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
-                         "Below it the verdict is \"none\": what was found is no symmetry of the "
-                         "shape.");
-}
+Parameter minimum_score();
 
 }  // namespace symsurf
