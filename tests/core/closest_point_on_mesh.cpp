@@ -68,6 +68,14 @@ struct Soup {
   Triangles faces;
 };
 
+// With legs of length 4 along x and y.
+Soup right_triangle() {
+  Soup triangle{Points(3, 3), Triangles(1, 3)};
+  triangle.points << 0, 0, 0, 4, 0, 0, 0, 4, 0;
+  triangle.faces << 0, 1, 2;
+  return triangle;
+}
+
 // Triangles of that size and of that width against it; some are points or segments.
 Soup soup(Index count, double size, double width, RandomCloud& random) {
   Soup soup{Points(3 * count, 3), Triangles(count, 3)};
@@ -109,10 +117,7 @@ TEST(ClosestPointOnMesh, IsThatOfAllTriangles) {
 }
 
 TEST(ClosestPointOnMesh, RegionsOfATriangle) {
-  Points points(3, 3);
-  points << 0, 0, 0, 4, 0, 0, 0, 4, 0;
-  Triangles faces(1, 3);
-  faces << 0, 1, 2;
+  const auto [points, faces] = right_triangle();
   const ClosestPointOnMesh closest(points, faces);
   struct Case {
     Vector3 query, point, weights;
@@ -153,10 +158,7 @@ TEST(ClosestPointOnMesh, TiesGoToTheLowestFace) {
 }
 
 TEST(ClosestPointOnMesh, NoneBeyondTheLimit) {
-  Points points(3, 3);
-  points << 0, 0, 0, 4, 0, 0, 0, 4, 0;
-  Triangles faces(1, 3);
-  faces << 0, 1, 2;
+  auto [points, faces] = right_triangle();
   const ClosestPointOnMesh closest(points, faces);
   EXPECT_EQ(closest({1, 1, 2}, 4).face, 0);
   EXPECT_EQ(closest({1, 1, 2}, 3.999).face, -1);

@@ -80,7 +80,9 @@ TEST(PointTree, FindsNothingThatIsNotFinite) {
   for (Index i = 0; i < points.rows(); ++i) {
     const Index nearest = tree.nearest(finite.row(i)).index;
     EXPECT_TRUE(points.row(nearest).allFinite());
-    if (points.row(i).allFinite()) EXPECT_EQ(nearest, i);
+    if (points.row(i).allFinite()) {
+      EXPECT_EQ(nearest, i);
+    }
   }
   tree.nearest(finite.row(0), points.rows(), found);
   EXPECT_EQ(found.size(), 133u);
