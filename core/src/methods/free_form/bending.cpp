@@ -29,12 +29,12 @@ std::vector<UnitPlane> likely_planes(const Cloud& cloud, const Context& context)
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, usual_search, 2 * likely);
   for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
   suppress_non_maxima(candidates, alike, likely);
   for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
   suppress_non_maxima(candidates, alike, likely + 3);
   std::vector<UnitPlane> planes;
-  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
   return planes;
 }
 

@@ -34,21 +34,27 @@ void sort_best_first(std::vector<Candidate<Shape>>& candidates) {
                    [](const auto& a, const auto& b) { return a.merit() > b.merit(); });
 }
 
-/// Share of the surfels whose images agree with the cloud, out of those the mirror moves (at least
-/// 35 % of all, so that a mirror the cloud lies along explains nothing). Surfels without an image
-/// count as moved. `stride` k looks at every k-th surfel.
+/// Share of the surfels whose images agree with the cloud, less `contradiction` times those whose
+/// images come beside it, out of those the mirror moves (at least 35 % of all, so that a mirror the
+/// cloud lies along explains nothing). Surfels without an image count as moved; an image in the
+/// void says nothing: that part may be missing. `stride` k looks at every k-th surfel.
 template <typename Shape>
 double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
-                     double tolerance, Index stride = 1);
+                     double tolerance, Index stride = 1, double contradiction = 0);
 
-/// Moves a mirror onto the surfels' images.
+/// Moves a mirror onto the surfels' images, looking less far with each step.
 template <typename Shape>
 Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
                                     Candidate<Shape> candidate, double widest, double narrowest,
-                                    int steps, Index stride);
+                                    int steps, Index stride, double contradiction = 0);
 
-/// Drops mirrors that send positions of the cloud nearly where a better one does, within `distance`
-/// diagonals, root mean square; best first.
+/// Drops mirrors that send the probes nearly where a better one does, within `distance` diagonals,
+/// root mean square; best first.
+template <typename Shape>
+void suppress_non_maxima(const std::vector<Vector3>& probes,
+                         std::vector<Candidate<Shape>>& candidates, double distance, Index count);
+
+/// The same with positions of the cloud for probes.
 template <typename Shape>
 void suppress_non_maxima(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
                          double distance, Index count);

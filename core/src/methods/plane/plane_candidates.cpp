@@ -6,8 +6,6 @@
 #include <map>
 
 #include "base/math.h"
-#include "methods/parametric/plane_step.h"
-#include "methods/parametric/surfel_icp.h"
 
 namespace symsurf {
 
@@ -17,20 +15,9 @@ constexpr double shortest_chord = 0.04;
 constexpr double facing_cosine = 0.88;                           // 28 degrees
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
 constexpr double search_tolerance = 0.015;
-constexpr double contradiction = 0.9;  // how much an image beside the cloud speaks against a plane
 constexpr double least_explained = 0.1;
 constexpr double many = 1000;  // surfels; see Search
 constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
-
-// Two mirrors act alike where they send points to like positions. Probes at the corners of a
-// tetrahedron as wide as the cloud.
-double difference(const UnitPlane& a, const UnitPlane& b) {
-  static const std::array<Vector3, 4> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
-                                             Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
-  double squared = 0;
-  for (const Vector3& x : probes) squared += (a.reflect(x) - b.reflect(x)).squaredNorm();
-  return std::sqrt(squared / probes.size());
-}
 
 // The mean of similar planes, each weighted by what it explains: Hruda et al. add the vectors
 // (a, b, c, d) of two planes, or subtract them where their normals point apart.
@@ -77,12 +64,6 @@ UnitPlane plane_between(const Vector3& a, const Vector3& b) {
   return {normal, -normal.dot(a + b) / 2};
 }
 
-void sort_best_first(std::vector<PlaneCandidate>& candidates) {
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.support > b.support; });
-}
-
 void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
   if (static_cast<double>(candidates.size()) <= count) return;
   sort_best_first(candidates);
@@ -90,11 +71,6 @@ void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
 }
 
 }  // namespace
-
-double support_share(const Surfels& surfels, const SurfelMap& map, const UnitPlane& plane,
-                     double tolerance, Index stride) {
-  return agreeing_share(surfels, map, plane, tolerance, stride, contradiction);
-}
 
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
                                              const Search& search, Index count) {
@@ -106,7 +82,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
     std::int32_t i, j;
   };
   std::vector<Pair> pairs;
-  double telling = 0;
+  double informative = 0;
   for (Index i = 0; i < surfels.size(); i += step)
     for (Index j = i + step; j < surfels.size(); j += step) {
       const Surfel &a = surfels[i], &b = surfels[j];
@@ -117,25 +93,27 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
       const double cosine =
           a.normal.dot(b.normal) - 2 * chord.dot(a.normal) * chord.dot(b.normal) / squared;
       if (surfaces && std::abs(cosine) < facing_cosine) continue;
-      telling += surfaces ? 1 : blind;
+      informative += surfaces ? 1 : blind;
       pairs.push_back({ticket(i, j), static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
     }
 
   std::vector<PlaneCandidate> found;
   const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
   const double last_ticket =
-      sparser * search.pairs / telling * std::numeric_limits<std::uint32_t>::max();
+      sparser * search.pairs / informative * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
-    const double support = support_share(surfels, map, plane, search_tolerance, glancing);
+    const double support =
+        support_share(surfels, map, plane, search_tolerance, glancing, contradiction);
     if (support > least_explained) found.push_back({plane, support});
   }
   keep_best(found, sparser * search.promising);
 
   std::map<std::int32_t, Average> bins;
-  for (const auto& [plane, glanced] : found) {
-    const double support = support_share(surfels, map, plane, search_tolerance, coarse);
+  for (const auto& [plane, glanced, partnered] : found) {
+    const double support =
+        support_share(surfels, map, plane, search_tolerance, coarse, contradiction);
     if (support > least_explained) bins[bin(plane)].add(plane, support);
   }
   found.clear();
@@ -143,25 +121,17 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   keep_best(found, sparser * search.averages);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
-    candidate.support = support_share(surfels, map, candidate.plane, search_tolerance, fine);
+    candidate.support =
+        support_share(surfels, map, candidate.shape, search_tolerance, fine, contradiction);
   suppress_non_maxima(found, 0.08, count);
   return found;
 }
 
-PlaneCandidate refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
-                                  PlaneCandidate candidate, double widest, double narrowest,
-                                  int steps, Index stride) {
-  candidate.plane = icp_steps(surfels, map, candidate.plane, widest, narrowest, steps, stride);
-  candidate.support = support_share(surfels, map, candidate.plane, narrowest, stride);
-  return candidate;
-}
-
 void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
-  sort_best_first(candidates);
-  suppress_non_maxima(candidates, static_cast<std::size_t>(count),
-                      [&](const PlaneCandidate& candidate, const PlaneCandidate& other) {
-                        return difference(other.plane, candidate.plane) < distance;
-                      });
+  // The corners of a tetrahedron as wide as the cloud.
+  static const std::vector<Vector3> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
+                                           Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
+  suppress_non_maxima(probes, candidates, distance, count);
 }
 
 }  // namespace symsurf

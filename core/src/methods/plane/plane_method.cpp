@@ -48,11 +48,11 @@ constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
 void maximise_measure(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
   const SymmetryMeasure measure(surfels.positions(measured));
   Eigen::Vector4d p;
-  p << candidate.plane.normal, candidate.plane.offset;
+  p << candidate.shape.normal, candidate.shape.offset;
   p = maximise<4>(measure, p, 0.02, 5);
   const double length = p.head<3>().norm();
   const UnitPlane plane{p.head<3>() / length, p[3] / length};
-  const double support = support_share(surfels, map, plane, 0.02, 3);
+  const double support = support_share(surfels, map, plane, 0.02, 3, contradiction);
   if (support > candidate.support) candidate = {plane, support};
 }
 
@@ -70,14 +70,14 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
       candidate_planes(surfels, map, effort.search, effort.started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
   suppress_non_maxima(candidates, alike_planes, effort.started);
   context.report(0.5);
   maximise_measure(surfels, map, candidates.front());
   drop_far_below_best(candidates, effort.far_below_best);
   suppress_non_maxima(candidates, alike_planes, effort.settled_well);
   for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3);
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3, contradiction);
   suppress_non_maxima(candidates, alike_planes, effort.quickly_fitted);
   context.report(1);
   return candidates;
@@ -144,7 +144,7 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
     suppress_non_maxima(candidates, alike_planes, thorough.finalists);
   }
   improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
-    return PlaneCandidate{c.plane, score.glance(*mirror_of(c.plane, cloud)).share};
+    return PlaneCandidate{c.shape, score.glance(*mirror_of(c.shape, cloud)).share};
   });
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
   std::erase_if(candidates, [best = candidates.front().support](const PlaneCandidate& c) {
@@ -154,11 +154,11 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
   improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
-    return PlaneCandidate{refinement.refined(c.plane), c.support};
+    return PlaneCandidate{refinement.refined(c.shape), c.support};
   });
   suppress_non_maxima(candidates, alike_planes, static_cast<Index>(candidates.size()));
   std::vector<UnitPlane> planes;
-  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.plane);
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
   return planes;
 }
 
@@ -171,7 +171,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
       promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
   const Slabs slabs(cloud.points, cloud.partition,
-                    along_mirror(promising.front().plane, cloud.frame), cloud.frame.centroid,
+                    along_mirror(promising.front().shape, cloud.frame), cloud.frame.centroid,
                     cloud.diagonal, context.stage(0.25, 0.3));
   PointTree tree(slabs.points(), context.stage(0.3, 0.4));
   const NearestPoints points(slabs, tree, context);

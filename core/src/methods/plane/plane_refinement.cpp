@@ -108,11 +108,11 @@ Index Refinement::stride_for(Index wanted) const {
 
 PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
   const Index few = stride_for(few_samples);
-  return rated(fitted(start.plane, 0.02, few, 2), few);
+  return rated(fitted(start.shape, 0.02, few, 2), few);
 }
 
 PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  return rated(fitted(start.plane, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
+  return rated(fitted(start.shape, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
@@ -128,7 +128,7 @@ UnitPlane Refinement::refined(const UnitPlane& start) const {
   const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
   const bool close = closely.support > roughly;
   const UnitPlane plane =
-      fitted(close ? closely.plane : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
+      fitted(close ? closely.shape : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
   return fitted_to_exact_pairs(plane);
 }
 
