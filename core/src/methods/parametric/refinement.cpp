@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/surface_spacing.h"
+#include "methods/parametric/exact_pairs.h"
 #include "methods/parametric/shapes.h"
 #include "score/correspondence.h"
 
@@ -112,34 +113,20 @@ Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Ind
   return candidate;
 }
 
-// By chance a tenth of all images comes within a fifth of the spacing at best.
 template <typename Shape>
 Candidate<Shape> ParametricRefinement::fitted_to_exact_pairs(const Candidate<Shape>& start) const {
-  constexpr int steps = 16;
-  constexpr double worth_trying = 0.12, exact = 0.01;  // of the spacing
-  const Index stride = stride_for(1200);
+  constexpr Index wanted = 1200;
+  const std::optional<Shape> exact =
+      symsurf::fitted_to_exact_pairs(start.shape, spacing_, [&](const Shape& shape, int /*step*/) {
+        std::vector<Gap> gaps;
+        for (const Match& match : matches(shape, spacing_, stride_for(wanted)))
+          gaps.push_back({match.sample->position, match.gap});
+        return gaps;
+      });
+  if (!exact) return start;
   Candidate<Shape> candidate = start;
-  double typical = 0;
-  for (int step = 0; step < steps; ++step) {
-    std::vector<Match> found = matches(candidate.shape, spacing_, stride);
-    std::erase_if(found, [&](const Match& match) {
-      return displaced(candidate.shape.distance(match.sample->position), spacing_) < 1;
-    });
-    if (found.size() < 10) return start;
-    std::vector<double> gaps;
-    for (const Match& match : found) gaps.push_back(match.gap.norm());
-    typical = quantile(std::move(gaps), 0.1);
-    if (typical > worth_trying * spacing_) return start;
-    typename Shape::Step sum(candidate.shape);
-    for (const Match& match : found)
-      if (match.gap.norm() <= 3 * typical)
-        sum.add(match.sample->position, match.gap, Matrix3::Identity(), 1);
-    double moved;
-    candidate.shape = sum.taken(&moved);
-    if (moved < 1e-14) break;
-  }
-  if (typical >= exact * spacing_) return start;
-  candidate.support = support(candidate.shape, 1200);
+  candidate.shape = *exact;
+  candidate.support = support(*exact, wanted);
   return candidate;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/math.h"
+#include "methods/parametric/exact_pairs.h"
 #include "methods/parametric/plane_step.h"
 #include "score/correspondence.h"
 
@@ -12,7 +13,7 @@ namespace symsurf {
 
 namespace {
 
-// To fit to; telling planes apart asks for more.
+// To fit to; ranking planes apart asks for more.
 constexpr Index few_samples = 250, many_samples = 1000, ranking_samples = 1300;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
@@ -121,15 +122,15 @@ UnitPlane Refinement::refined(const UnitPlane& start) const {
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
-  const Index many = stride_for(many_samples), telling = stride_for(ranking_samples);
+  const Index many = stride_for(many_samples), ranking = stride_for(ranking_samples);
   const UnitPlane rough = fitted(start, wide, many, steps);
-  const std::vector<Match> around = matches(rough, reach, telling);
-  const double roughly = support(rough, around, telling);
-  const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), telling);
+  const std::vector<Match> around = matches(rough, reach, ranking);
+  const double roughly = support(rough, around, ranking);
+  const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), ranking);
   const bool close = closely.support > roughly;
   const UnitPlane plane =
       fitted(close ? closely.shape : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
-  return fitted_to_exact_pairs(plane);
+  return exact(plane);
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
@@ -182,37 +183,20 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
   return plane;
 }
 
-// Where the same points, or some of them, stand on both sides, their gaps all but vanish at the
-// true plane, while by chance a tenth of all images comes within a fifth of the spacing at best.
-UnitPlane Refinement::fitted_to_exact_pairs(const UnitPlane& start) const {
-  constexpr int steps = 12;
-  constexpr double worth_trying = 0.1, exact = 0.01;  // of the spacing
-  UnitPlane plane = start;
-  double typical = 0;
-  for (int step = 0; step < steps; ++step) {
-    // A first look at few is mostly the last.
-    const Index looked = stride_for(step == 0 ? few_samples : many_samples);
-    std::vector<Match> found = matches(plane, spacing_, looked);
-    std::erase_if(found, [&](const Match& match) {
-      return displaced(plane.distance(samples_[match.sample].point), spacing_) < 1;
-    });
-    if (found.size() < 10) return start;
-    const auto gap = [&](const Match& match) -> Vector3 {
-      return plane.reflect(samples_[match.sample].point) - match.partner;
-    };
-    std::vector<double> lengths;
-    for (const Match& match : found) lengths.push_back(gap(match).norm());
-    typical = quantile(std::move(lengths), 0.1);
-    if (typical > worth_trying * spacing_) return start;
-    PlaneStep sum(plane);
-    for (const Match& match : found)
-      if (gap(match).norm() <= 3 * typical)
-        sum.add(samples_[match.sample].point, gap(match), {1, 0, Vector3::Zero()}, 1);
-    double moved;
-    plane = sum.taken(&moved);
-    if (moved < 1e-15) break;
-  }
-  return typical < exact * spacing_ ? plane : start;
+UnitPlane Refinement::exact(const UnitPlane& start) const {
+  return fitted_to_exact_pairs(start, spacing_,
+                               [&](const UnitPlane& plane, int step) {
+                                 // A first look at few is mostly the last.
+                                 const Index looked =
+                                     stride_for(step == 0 ? few_samples : many_samples);
+                                 std::vector<Gap> gaps;
+                                 for (const Match& match : matches(plane, spacing_, looked)) {
+                                   const Vector3& x = samples_[match.sample].point;
+                                   gaps.push_back({x, plane.reflect(x) - match.partner});
+                                 }
+                                 return gaps;
+                               })
+      .value_or(start);
 }
 
 }  // namespace symsurf

@@ -28,8 +28,8 @@ class Refinement {
   /// The plane fitted to all samples. Where partners are exact, it converges to rounding.
   UnitPlane refined(const UnitPlane& start) const;
 
-  /// The plane of points that have exact partners over it.
-  UnitPlane exact(const UnitPlane& start) const { return fitted_to_exact_pairs(start); }
+  /// The plane of points that have exact partners over it; `start` where there are none.
+  UnitPlane exact(const UnitPlane& start) const;
 
  private:
   struct Match {
@@ -56,7 +56,6 @@ class Refinement {
   // `found`: the plane's partners, where they are known.
   UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                    std::vector<Match> found = {}) const;
-  UnitPlane fitted_to_exact_pairs(const UnitPlane& start) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
