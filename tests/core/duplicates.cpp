@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <symsurf/damage.h>
 #include <symsurf/detect.h>
+#include <symsurf/errors.h>
 #include <symsurf/plane.h>
 
 #include <cmath>
+#include <vector>
 
+#include "expect_error.h"
 #include "methods/registry.h"
 #include "random_cloud.h"
 
@@ -44,9 +47,57 @@ TEST(Duplicates, HaveTheSamePartner) {
   }
 }
 
-TEST(Duplicates, OfFewPointsAreStillPoints) {
+TEST(Duplicates, DoNotCountAsPoints) {
   const Points corners = RandomCloud(0).box(3);
-  EXPECT_NO_THROW(detect(repeated(corners, 4), {.method = "perpendicular"}));
+  expect_error<InvalidInput>(
+      "12 points given, 3 of them distinct; at least 12 distinct points are needed",
+      [&] { detect(repeated(corners, 4), {.method = "perpendicular"}); });
+}
+
+Points lattice(Index side) {
+  Points points(side * side, 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    points.row(i) << static_cast<double>(i % side), static_cast<double>(i / side), 0;
+  return points;
+}
+
+// Any number of copies of a few places, in any order: an answer with a mirror of finite numbers, or
+// a named error.
+TEST(Duplicates, OfFewPlacesHarmNoMethod) {
+  Points cube(8, 3);
+  for (Index i = 0; i < 8; ++i) cube.row(i) << (i & 1 ? 1 : 0), (i & 2 ? 1 : 0), (i & 4 ? 1 : 0);
+  Points lattice_and_one(37, 3);
+  lattice_and_one << lattice(6), Eigen::RowVector3d(1.5, 2.5, 1);
+  std::vector<Points> clouds;
+  for (const Index times : {7, 8, 10, 13, 30}) clouds.push_back(repeated(cube, times));
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    RandomCloud random(seed);
+    for (const Index places : {2, 3, 4, 5, 8, 12, 13, 20, 22, 25}) {
+      const Points few = random.box(places);
+      Points copies(60, 3);
+      for (Index i = 0; i < copies.rows(); ++i) copies.row(i) = few.row(random.below(places));
+      clouds.push_back(copies);
+    }
+    Points copies(39, 3);
+    for (Index i = 0; i < copies.rows(); ++i)
+      copies.row(i) = lattice_and_one.row(i == 0 ? 36 : random.below(24));
+    clouds.push_back(copies);
+  }
+  int answered = 0;
+  for (const Points& cloud : clouds)
+    for (const Method& method : methods()) {
+      try {
+        const Result result = detect(cloud, {.method = method.name});
+        ++answered;
+        if (!result.mirror) continue;
+        EXPECT_TRUE(std::isfinite(result.score)) << method.name;
+        EXPECT_TRUE(result.surface_points.allFinite()) << method.name;
+        const Vector3 image = result.mirror->reflect(cloud.row(0).transpose());
+        EXPECT_TRUE(image.allFinite() || image.array().isNaN().all()) << method.name;
+      } catch (const InvalidInput&) {
+      }
+    }
+  EXPECT_GT(answered, static_cast<int>(clouds.size()));
 }
 
 TEST(Duplicates, HardlyChangeThePlane) {

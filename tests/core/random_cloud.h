@@ -20,6 +20,7 @@ class RandomCloud {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
+  Index below(Index n) { return std::uniform_int_distribution<Index>(0, n - 1)(random_); }
   Vector3 in_box() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
   Vector3 direction() {
     std::normal_distribution<double> normal;

@@ -1,7 +1,10 @@
 #include "preprocess/duplicate_merge.h"
 
+#include <symsurf/errors.h>
+
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "base/parallel.h"
 #include "base/radix_sort.h"
@@ -32,7 +35,10 @@ bool has_many_duplicates(PointsView points, const Context& context) {
 bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
   if (!has_many_duplicates(cloud.points, context)) return false;
   find_distinct(cloud.points, context);
-  if (static_cast<Index>(first_.size()) < minimum_points_) return false;
+  if (static_cast<Index>(first_.size()) < minimum_points_)
+    throw InvalidInput(std::to_string(cloud.points.size()) + " points given, " +
+                       std::to_string(first_.size()) + " of them distinct; at least " +
+                       std::to_string(minimum_points_) + " distinct points are needed");
   keep(cloud, first_);
   return true;
 }

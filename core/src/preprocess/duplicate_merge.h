@@ -8,8 +8,8 @@
 namespace symsurf {
 
 /// Merging of equal points: corners of triangles that nobody merged, a scan appended to itself.
-/// Only where there are many, and at least minimum_points distinct ones stay. Each point gets the
-/// partner of the one that it was merged with.
+/// Only where there are many; fewer than minimum_points distinct ones are InvalidInput. Each point
+/// gets the partner of the one that it was merged with.
 class DuplicateMerge : public Stage {
  public:
   explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}
