@@ -138,7 +138,10 @@ void BentPlane::step(double tolerance, double stiffness, Index stride) {
   agreed_ = total / static_cast<double>(looked);
   if (total == 0) return;
   const Eigen::MatrixXd energy = stiffness * energy_;
-  heights_.step(solved(matrix / total + energy, right / total - energy * heights_.coefficients()));
+  const Eigen::VectorXd change =
+      solved(matrix / total + energy, right / total - energy * heights_.coefficients());
+  // Normals in the plane of coplanar points hold no height at all.
+  if (change.allFinite()) heights_.step(change);
 }
 
 void BentPlane::subdivide() {
