@@ -12,7 +12,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index pairs_tried = 30000, pairs_kept = 2000;
+constexpr Index pairs_tried = 30000, pairs_kept = 4000;
 constexpr int axes = 6;  // directions over the half circle, the first as the normals tell
 
 // To both sides of the pair. In units of the inverse diagonal.

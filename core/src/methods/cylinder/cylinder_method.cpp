@@ -31,10 +31,10 @@ Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& fram
 }
 
 void drop_far_below_best(std::vector<CylinderCandidate>& candidates) {
+  std::erase_if(candidates, [](const CylinderCandidate& c) { return !(c.shape.radius < widest); });
+  if (candidates.empty()) return;
   const double least = far_below_best * candidates.front().support;
-  std::erase_if(candidates, [&](const CylinderCandidate& c) {
-    return c.support < least || !(c.shape.radius < widest);
-  });
+  std::erase_if(candidates, [&](const CylinderCandidate& c) { return c.support < least; });
 }
 
 // The same distance from the cloud's middle, with the axis turned about the line between them.
