@@ -9,13 +9,12 @@ namespace symsurf {
 
 /// Merging of equal points: corners of triangles that nobody merged, a scan appended to itself.
 /// Only where there are many; fewer than minimum_points distinct ones are InvalidInput. Each point
-/// gets the partner of the one that it was merged with.
+/// gets the partner of the one that it was merged with. A distributed cloud keeps its duplicates:
+/// those on other processes are not known.
 class DuplicateMerge : public Stage {
  public:
   explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}
 
-  /// Duplicates on other processes are not known.
-  bool needs_whole(const Cloud&, const Context&) const override { return true; }
   bool apply(Cloud& cloud, const Context& context) override;
   void map_back(Result& result, double pair_distance, const Context& context) const override;
 

@@ -114,6 +114,19 @@ std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
   return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
 }
 
+// Of planes that score alike, as those of a box do, the one across the longer extent comes first,
+// whatever the order of the points.
+void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) {
+  constexpr double same = 1e-9;  // of the greatest variance
+  const auto variance = [&](const UnitPlane& plane) {
+    const double along = frame.variance.dot(plane.normal.cwiseAbs2());
+    return std::round(along / (same * frame.variance.maxCoeff()));
+  };
+  std::stable_sort(planes.begin(), planes.end(), [&](const UnitPlane& a, const UnitPlane& b) {
+    return variance(a) > variance(b);
+  });
+}
+
 // Of a mesh whose vertices these are.
 std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
                                        const Context& context) {
@@ -177,7 +190,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const NearestPoints points(slabs, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
   const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
-  const auto ranked = [&](const std::vector<UnitPlane>& planes) {
+  const auto ranked = [&](std::vector<UnitPlane> planes) {
+    longest_first(planes, cloud.frame);
     std::vector<std::shared_ptr<Mirror>> mirrors;
     for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
     return score.ranked("plane", mirrors);
@@ -218,8 +232,7 @@ MethodImplementation plane_method() {
       pair_distance(),
   };
   method.automatic = true;
-  // Duplicates in different parts of a distributed cloud are not known to be such.
-  method.preprocessing = {.merge_duplicates = false, .distributed = true};
+  method.preprocessing = {.distributed = true};
   method.reports_unpaired_points = true;
   method.reports_mean_residual = true;
   method.run = run_plane;
