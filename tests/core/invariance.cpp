@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+struct TestCloud {
+  std::string name;
+  Points points;
+  std::vector<std::string> methods;
+};
+
+// A bumpy closed surface; with `exact`, each point stands next to its image over x = 0.
+Points bumpy(std::uint64_t seed, Index count, bool exact) {
+  RandomCloud random(seed);
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i) {
+    const Vector3 u = random.direction();
+    const double radius = 1 + 0.25 * std::sin(3 * u.y() + 1) * std::cos(2 * u.z()) +
+                          0.2 * std::sin(4 * u.z()) * u.y();
+    Vector3 x = radius * u.cwiseProduct(Vector3(1, 1.5, 0.7));
+    if (exact) {
+      x.x() = std::abs(x.x());
+      if (i % 2) x = points.row(i - 1).transpose().cwiseProduct(Vector3(-1, 1, 1));
+    }
+    points.row(i) = x.transpose();
+  }
+  return points;
+}
+
+Points lattice(Index columns, Index rows, Index layers) {
+  Points points(columns * rows * layers, 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    points.row(i) << static_cast<double>(i % columns), static_cast<double>(i / columns % rows),
+        static_cast<double>(i / columns / rows);
+  return points;
+}
+
+Points in_box(std::uint64_t seed, Index count, const Vector3& size) {
+  return RandomCloud(seed).box(count) * size.asDiagonal();
+}
+
+// Each point stands next to its image over the sphere of radius 1.5 about (2, 0, 0), or over the
+// cylinder about the line along z through there.
+Points about_round_mirror(std::uint64_t seed, Index count, bool cylinder) {
+  Points points = bumpy(seed, count, false) * 0.4;
+  const Vector3 centre(2, 0, 0);
+  for (Index i = 1; i < count; i += 2) {
+    const Vector3 x = points.row(i - 1).transpose();
+    Vector3 v = x - centre;
+    if (cylinder) v.z() = 0;
+    points.row(i) = (x + 2 * (1.5 / v.norm() - 1) * v).transpose();
+  }
+  return points;
+}
+
+std::vector<TestCloud> clouds() {
+  return {
+      {"exact",
+       bumpy(1, 600, true),
+       {"auto", "plane", "quadric", "fixed_direction", "perpendicular"}},
+      {"random", bumpy(2, 600, false), {"auto", "plane"}},
+      {"lattice", lattice(10, 8, 6), {"auto", "plane"}},
+      {"flat lattice", lattice(24, 20, 1), {"auto", "plane"}},
+      {"coplanar", in_box(3, 400, {1, 0.6, 0}), {"auto", "plane"}},
+      {"near-collinear", in_box(4, 400, {1000, 1, 1}), {"auto", "plane"}},
+      {"exact over a sphere", about_round_mirror(5, 600, false), {"sphere"}},
+      {"exact over a cylinder", about_round_mirror(6, 600, true), {"cylinder"}},
+  };
+}
+
+// x -> scale * rotation * x + shift.
+struct Similarity {
+  Matrix3 rotation = Matrix3::Identity();
+  double scale = 1;
+  Vector3 shift = Vector3::Zero();
+
+  Points of(const Points& points) const {
+    return ((scale * points * rotation.transpose()).rowwise() + shift.transpose()).eval();
+  }
+  Vector3 of(const Vector3& x) const { return scale * (rotation * x) + shift; }
+  Vector3 back(const Vector3& x) const { return rotation.transpose() * ((x - shift) / scale); }
+};
+
+double diagonal(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+// The same mirror, by where it sends points of the cloud, and the same score.
+void expect_same(const TestCloud& cloud, const std::string& method, const Result& expected,
+                 const std::string& change, const Points& changed, const Similarity& by) {
+  const std::string what = method + ", " + cloud.name + ", " + change;
+  const Result result = detect(changed, {.method = method});
+  EXPECT_NEAR(result.score, expected.score, 0.01) << what;
+  ASSERT_EQ(result.mirror != nullptr, expected.mirror != nullptr) << what;
+  if (!expected.mirror) return;
+  double farthest = 0;
+  for (Index i = 0; i < cloud.points.rows(); i += 16) {
+    const Vector3 x = cloud.points.row(i).transpose();
+    const Vector3 image = expected.mirror->reflect(x), other = result.mirror->reflect(by.of(x));
+    if (image.allFinite() && other.allFinite())
+      farthest = std::max(farthest, (by.back(other) - image).norm());
+  }
+  EXPECT_LE(farthest, 1e-6 * diagonal(cloud.points)) << what;
+}
+
+TEST(Invariance, UnderOrderPoseScaleAndCopies) {
+  for (const TestCloud& cloud : clouds()) {
+    const Points& points = cloud.points;
+    RandomCloud random(9);
+    const Matrix3 rotation = random.rotation();
+    Points shuffled = points;
+    for (Index i = points.rows() - 1; i > 0; --i)
+      shuffled.row(i).swap(shuffled.row(random.below(i + 1)));
+    for (const std::string& method : cloud.methods) {
+      const Result result = detect(points, {.method = method});
+      EXPECT_GE(result.score, 0.5) << method << ", " << cloud.name;
+      const auto check = [&](const std::string& change, const Similarity& by) {
+        expect_same(cloud, method, result, change, by.of(points), by);
+      };
+      expect_same(cloud, method, result, "shuffled", shuffled, {});
+      expect_same(cloud, method, result, "twice", points.replicate(2, 1), {});
+      check("rotated", {.rotation = rotation});
+      for (const double scale : {1e-6, 3.7, 1e6})
+        check("scaled by " + std::to_string(scale), {.scale = scale});
+      check("shifted", {.shift = Vector3(1e6, -1e6, 1e6)});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
