@@ -16,6 +16,7 @@
 #include <symsurf/metrics.h>
 #include <symsurf/mirror_through.h>
 #include <symsurf/normals.h>
+#include <symsurf/operation.h>
 #include <symsurf/plane.h>
 #include <symsurf/quadric.h>
 #include <symsurf/read.h>

@@ -30,9 +30,10 @@ void report_pairs(Result& result, const MethodImplementation& method, const Part
 std::optional<Result> run_pipeline(const MethodImplementation& method,
                                    const ParameterValues& values, Cloud cloud,
                                    bool refuse_nonfinite, const Context& context) {
-  const Preprocessing& policy = method.preprocessing;
   const Context unreported = context.stage(0, 0);
   const Partition input = cloud.partition;
+  Preprocessing policy = method.preprocessing;
+  if (input.processes()) policy.merge_duplicates = false;  // those of others are not known
   require_corners(cloud.faces, cloud.points.size());
   if (!policy.sample_faces) cloud.faces = {};
 

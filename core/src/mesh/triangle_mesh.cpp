@@ -183,10 +183,13 @@ Points TriangleMesh::face_normals() const {
   return normals;
 }
 
-Points TriangleMesh::vertex_normals(Weight weight) const {
+Points TriangleMesh::vertex_normals(Weight weight, PointsView positions) const {
+  const auto at = [&](Index vertex) {
+    return positions.empty() ? point(vertex) : positions[vertex];
+  };
   Points normals = Points::Zero(vertices(), 3);
   for_each_face([&](Index, const Corners& corner, bool is_aside) {
-    const std::array<Vector3, 3> x{point(corner[0]), point(corner[1]), point(corner[2])};
+    const std::array<Vector3, 3> x{at(corner[0]), at(corner[1]), at(corner[2])};
     const Vector3 area = (x[1] - x[0]).cross(x[2] - x[0]);
     const int winding = is_aside && mesh_->is_against_neighbours(corner) ? -1 : 1;
     for (int c = 0; c < 3; ++c) {

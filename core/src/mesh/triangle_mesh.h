@@ -53,8 +53,8 @@ class TriangleMesh {
 
   /// Unit normals, one a vertex: the mean over the faces around it (Thürmer and Wüthrich, 1998, for
   /// the weight by angle). Faces kept aside are turned as their neighbours are. Zero where no face
-  /// with an area is.
-  Points vertex_normals(Weight weight = Weight::Angle) const;
+  /// with an area is. `positions`: of the vertices, where they are not those of the points.
+  Points vertex_normals(Weight weight = Weight::Angle, PointsView positions = {}) const;
 
   /// Vertices joined to this one by an edge, in ascending order.
   std::vector<Index> neighbours(Index vertex) const;

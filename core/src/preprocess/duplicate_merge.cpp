@@ -33,7 +33,7 @@ bool has_many_duplicates(PointsView points, const Context& context) {
 }  // namespace
 
 bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
-  if (cloud.partition.processes() || !has_many_duplicates(cloud.points, context)) return false;
+  if (!has_many_duplicates(cloud.points, context)) return false;
   find_distinct(cloud.points, context);
   if (static_cast<Index>(first_.size()) < minimum_points_)
     throw InvalidInput(std::to_string(cloud.points.size()) + " points given, " +

@@ -9,8 +9,7 @@ namespace symsurf {
 
 /// Merging of equal points: corners of triangles that nobody merged, a scan appended to itself.
 /// Only where there are many; fewer than minimum_points distinct ones are InvalidInput. Each point
-/// gets the partner of the one that it was merged with. A distributed cloud keeps its duplicates:
-/// those on other processes are not known.
+/// gets the partner of the one that it was merged with.
 class DuplicateMerge : public Stage {
  public:
   explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}

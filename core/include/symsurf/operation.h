@@ -1,0 +1,65 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/mirror.h>
+#include <symsurf/parameter.h>
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+#include <symsurf/value.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace symsurf {
+
+/// An array that an operation gives each point.
+struct PointArray {
+  std::string name;
+  int components = 1;
+  std::string doc;  ///< one sentence, with the unit
+};
+
+/// The one description of what is done with a mirror. Front ends are made by looping over
+/// operations().
+struct Operation {
+  std::string name;
+  std::string title;    ///< for menus: "Mirror asymmetry"
+  std::string summary;  ///< one sentence
+  std::vector<Parameter> parameters;
+  std::vector<PointArray> arrays;
+  bool moves_points = false;  ///< the result's points are not those of the input
+};
+
+/// All operations, in the order front ends show them.
+const std::vector<Operation>& operations();
+
+/// Throws InvalidParameter, listing the names there are.
+const Operation& operation(std::string_view name);
+
+/// What an operation takes beside the mirror.
+struct OperationInput {
+  PointsView points;          ///< finite
+  TrianglesView faces = {};   ///< none: a bare cloud
+  Eigen::VectorXd mask = {};  ///< optional, one a point, in [0, 1]: how far it may move
+};
+
+struct OperationResult {
+  std::string operation;
+  Points points;    ///< those of the input, in their order, moved or not
+  Triangles faces;  ///< those of the input
+  std::map<std::string, Eigen::MatrixXd> arrays;  ///< Operation::arrays: one row a point
+  Values parameters;                              ///< as used
+  Values statistics;
+};
+
+/// Runs an operation over a mirror of any kind, in the unit and pose of the points.
+/// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where a point is
+/// not finite, a face names no point, the mask is not one value in [0, 1] a point, or the mirror
+/// has images for less than half of the points; Cancelled.
+OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
+                        const Values& parameters = {}, const Context& context = {});
+
+}  // namespace symsurf

@@ -1,0 +1,152 @@
+#include <symsurf/errors.h>
+#include <symsurf/plane.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "base/math.h"
+#include "base/symmetric_eigen.h"
+#include "operations/counterparts.h"
+#include "operations/operation_registry.h"
+
+namespace symsurf {
+
+namespace {
+
+// Right-handed coordinates in which people want their objects: where left and right, up and front
+// lie.
+struct Frame {
+  const char* name;
+  Vector3 lateral, up, front;
+};
+
+const std::array<Frame, 4> frames{{
+    {"ras", Vector3::UnitX(), Vector3::UnitZ(), Vector3::UnitY()},   // NIfTI, 3D Slicer
+    {"lps", Vector3::UnitX(), Vector3::UnitZ(), -Vector3::UnitY()},  // DICOM, ITK
+    {"blender", Vector3::UnitX(), Vector3::UnitZ(), -Vector3::UnitY()},
+    {"cfd", Vector3::UnitY(), Vector3::UnitZ(), -Vector3::UnitX()},  // the flow runs along x
+}};
+
+// Normal and a point on it, of a mirror that bends the plane nearest to the points' feet.
+struct MidPlane {
+  Vector3 normal, point;
+};
+
+MidPlane mid_plane(PointsView points, const Mirror& mirror, const Context& context) {
+  const Vector3 centroid = points.matrix().colwise().mean().transpose();
+  if (const auto* plane = dynamic_cast<const Plane*>(&mirror))
+    return {plane->normal(), plane->foot(centroid)};
+  const Points feet = finite_rows(mirror.project(points, context));
+  if (feet.rows() < 3) throw InvalidInput("the mirror has feet of less than three points");
+  const Vector3 middle = feet.colwise().mean().transpose();
+  const Vector3 normal = eigen_of_scatter(feet.rowwise() - middle.transpose()).vectors.col(0);
+  return {normal, centroid - normal.dot(centroid - middle) * normal};
+}
+
+// The rotation with R lateral = its axis and R up = its own; both given orthogonal, of length 1.
+Matrix3 rotation_of(const Vector3& lateral, const Vector3& up, const Vector3& lateral_axis,
+                    const Vector3& up_axis) {
+  Matrix3 from, to;
+  from << lateral, up, lateral.cross(up);
+  to << lateral_axis, up_axis, lateral_axis.cross(up_axis);
+  return to * from.transpose();
+}
+
+// Of two ways to lay an object, the lesser turn: the greater trace.
+Matrix3 lesser_turn(const Matrix3& a, const Matrix3& b) { return a.trace() >= b.trace() ? a : b; }
+
+Vector3 in_plane(const Vector3& direction, const Vector3& normal, const char* name) {
+  const Vector3 along = direction - direction.dot(normal) * normal;
+  if (along.norm() <= 1e-6 * direction.norm())
+    throw InvalidParameter(std::string(name) + " is " + to_string(Value(direction)) +
+                           ", across the mirror; allowed is a direction along it");
+  return along.normalized();
+}
+
+// The direction along the mirror that the points extend most in.
+Vector3 longest_along(PointsView points, const MidPlane& plane) {
+  Points flat(points.size(), 3);
+  const Vector3 middle = points.matrix().colwise().mean().transpose();
+  for (Index i = 0; i < points.size(); ++i) {
+    const Vector3 x = points[i] - middle;
+    flat.row(i) = (x - x.dot(plane.normal) * plane.normal).transpose();
+  }
+  return in_plane(eigen_of_scatter(flat).vectors.col(2), plane.normal, "the longest direction");
+}
+
+Matrix3 turned(PointsView points, const MidPlane& plane, const ParameterValues& values) {
+  Frame target{"", Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  const std::string& axis = values.choice("axis");
+  const int lateral = axis[0] - 'x';
+  target.lateral = Vector3::Unit(lateral);
+  target.up = Vector3::Unit(lateral == 2 ? 1 : 2);
+  target.front = -Vector3::Unit(lateral == 0 ? 1 : 0);
+  const std::string& name = values.choice("frame");
+  for (const Frame& frame : frames)
+    if (name == frame.name) target = frame;
+
+  const Vector3 &n = plane.normal, up = values.vector("up"), front = values.vector("front");
+  const auto both_ways = [&](const Vector3& along, const Vector3& axis) {
+    return lesser_turn(rotation_of(n, along, target.lateral, axis),
+                       rotation_of(-n, along, target.lateral, axis));
+  };
+  if (!up.isZero(0) && !front.isZero(0)) {
+    const Vector3 upwards = in_plane(up, n, "up");
+    const Vector3 forwards = front - front.dot(upwards) * upwards;
+    const Matrix3 one = rotation_of(n, upwards, target.lateral, target.up);
+    const Matrix3 other = rotation_of(-n, upwards, target.lateral, target.up);
+    return (one * forwards).dot(target.front) >= (other * forwards).dot(target.front) ? one : other;
+  }
+  if (!up.isZero(0)) return both_ways(in_plane(up, n, "up"), target.up);
+  if (!front.isZero(0)) return both_ways(in_plane(front, n, "front"), target.front);
+  if (name == "principal") {
+    const Vector3 along = longest_along(points, plane);
+    return lesser_turn(both_ways(along, target.up), both_ways(-along, target.up));
+  }
+  const Vector3 nearer = n.dot(target.lateral) < 0 ? Vector3(-n) : n;
+  return Eigen::Quaterniond::FromTwoVectors(nearer, target.lateral).toRotationMatrix();
+}
+
+void run_align(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
+               const Context& context, OperationResult& result) {
+  const MidPlane plane = mid_plane(input.points, mirror, context);
+  const Matrix3 rotation = turned(input.points, plane, values);
+  Eigen::MatrixXd matrix = Matrix4::Identity();
+  matrix.topLeftCorner<3, 3>() = rotation;
+  matrix.topRightCorner<3, 1>() = -rotation * plane.point;
+  for (Index i = 0; i < input.points.size(); ++i)
+    result.points.row(i) = (rotation * (input.points[i] - plane.point)).transpose();
+  result.statistics["matrix"] = matrix;
+}
+
+}  // namespace
+
+OperationImplementation align_operation() {
+  OperationImplementation operation;
+  operation.name = "align";
+  operation.title = "Mirror alignment";
+  operation.summary =
+      "Turns and shifts the shape, without reflecting it, so that its mirror plane, or the plane "
+      "nearest to a mirror that bends, is a coordinate plane through the origin.";
+  operation.parameters = {
+      Parameter::choice("axis", "x", {"x", "y", "z"},
+                        "The axis that the mirror will lie across; the frames of others have their "
+                        "own."),
+      Parameter::choice("frame", "least", {"least", "principal", "ras", "lps", "blender", "cfd"},
+                        "How to turn about that axis: least turns as little as need be, principal "
+                        "lays the longest extent upright, the others are the coordinates of NIfTI, "
+                        "of DICOM, of Blender and of flow along x, with up and front."),
+      Parameter::direction("up",
+                           "The direction of the input that will point up, along z; of axis "
+                           "z along y."),
+      Parameter::direction("front", "The direction of the input that will point to the front."),
+  };
+  operation.moves_points = true;
+  operation.run = run_align;
+  return operation;
+}
+
+}  // namespace symsurf

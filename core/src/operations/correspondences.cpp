@@ -1,0 +1,77 @@
+#include <cmath>
+
+#include "operations/counterparts.h"
+#include "operations/operation_registry.h"
+
+namespace symsurf {
+
+namespace {
+
+// 1 where the image is a point of the input, 1/2 where it lies as far from the closest one as that
+// point's neighbours do.
+double confidence_of(double gap, double apart, double agreement) {
+  if (gap == 0) return agreement;
+  return agreement / (1 + gap * gap / (apart * apart));
+}
+
+void run_correspondences(const OperationInput& input, const Mirror& mirror,
+                         const ParameterValues& values, const Context& context,
+                         OperationResult& result) {
+  const PointsView points = input.points;
+  const Index count = points.size();
+  const Counterparts counterparts(input, mirror, limits_of(values, points), context);
+  // The spacing, to compare gaps with: the edge of a square for each point.
+  const double apart = counterparts.spacing();
+  Eigen::VectorXd index(count), confidence(count), face(count);
+  Points weights(count, 3);
+  for (Index i = 0; i < count; ++i) {
+    const Counterpart& c = counterparts[i];
+    index[i] = c.matched ? static_cast<double>(c.nearest) : -1;
+    face[i] = c.matched ? static_cast<double>(c.face) : -1;
+    weights.row(i) = c.weights.transpose();
+    const double gap = c.matched ? (mirror.reflect(points[i]) - points[c.nearest]).norm() : 0;
+    confidence[i] = c.matched ? confidence_of(gap, apart, c.agreement) : 0;
+  }
+  if (values.boolean("one_to_one")) {
+    const Eigen::VectorXd all = index;
+    for (Index i = 0; i < count; ++i)
+      if (all[i] >= 0 && all[static_cast<Index>(all[i])] != static_cast<double>(i)) {
+        index[i] = face[i] = -1;
+        confidence[i] = 0;
+      }
+  }
+  result.statistics["paired_share"] =
+      static_cast<double>((index.array() >= 0).count()) / static_cast<double>(count);
+  result.arrays = {{"index", index}, {"confidence", confidence}};
+  if (!input.faces.empty()) {
+    result.arrays["face"] = face;
+    result.arrays["weights"] = weights;
+  }
+}
+
+}  // namespace
+
+OperationImplementation correspondences_operation() {
+  OperationImplementation operation;
+  operation.name = "correspondences";
+  operation.title = "Mirror correspondences";
+  operation.summary = "Gives for each point the point of the input that mirrors it.";
+  operation.parameters = {
+      Parameter::boolean("one_to_one", false,
+                         "Only pairs of points that are each other's mirror points."),
+      max_distance(), max_angle()};
+  operation.arrays = {
+      {"index", 1,
+       "The mirror point, the point itself on the mirror, -1 for none. Of a mesh the closest "
+       "corner "
+       "of the face that the image comes closest to."},
+      {"confidence", 1,
+       "0 to 1: the cosine between the normals, halved where the image lies a spacing away."},
+      {"face", 1, "Of a mesh, the face that the image comes closest to; -1 for none."},
+      {"weights", 3, "Of a mesh, the barycentric coordinates on that face."},
+  };
+  operation.run = run_correspondences;
+  return operation;
+}
+
+}  // namespace symsurf

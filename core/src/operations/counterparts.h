@@ -1,0 +1,75 @@
+#pragma once
+
+#include <symsurf/operation.h>
+
+#include <optional>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace symsurf {
+
+/// Where the other side of a shape says that one of its points should be: the mirror image of the
+/// point of the surface that is closest to the point's own image.
+struct Counterpart {
+  Vector3 place;       ///< NaN where nothing mirrors the point
+  Vector3 on_surface;  ///< the closest point of the surface to the image
+  Index nearest = -1;  ///< a point of the input: of a cloud the closest to the image, of a mesh the
+                       ///< closest corner of the face
+  Index face = -1;     ///< of a mesh, that the closest point lies on
+  Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
+  double gap = 0;                     ///< from the image to the surface, input units
+  double agreement = 0;               ///< cosine between the normals there, 0 to 1
+  bool matched = false;
+};
+
+/// Of all points of a shape. A point has none where its image lies past a rim of the surface or
+/// farther from it than allowed, or where the normals disagree.
+class Counterparts {
+ public:
+  struct Limits {
+    double distance;  ///< from the image to the surface, input units
+    double cosine;    ///< between the normals
+  };
+
+  /// Throws InvalidInput where the mirror has images for less than half of the points.
+  Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
+               const Context& context);
+
+  const Counterpart& operator[](Index i) const { return all_[i]; }
+  Index matched() const { return matched_; }
+
+  /// Unit normals, one a point: of a closed mesh outwards, of an open one by its winding, of a
+  /// cloud away from its centroid.
+  const Points& normals() const { return normals_; }
+
+  /// Between neighbouring points, in input units: of a mesh the side of a square as large as a
+  /// point's share of the area.
+  double spacing() const { return spacing_; }
+
+  /// Of a mesh that is closed and without faces that a manifold has no room for.
+  bool is_watertight() const { return is_watertight_; }
+
+ private:
+  void match_mesh(const OperationInput& input, const Mirror& mirror, const Limits& limits,
+                  const Context& context);
+  void match_cloud(const OperationInput& input, const Mirror& mirror, const Limits& limits,
+                   const Context& context);
+  void settle(Index i, const Mirror& mirror, const Limits& limits, double cosine, bool past_rim);
+
+  std::vector<Counterpart> all_;
+  Points images_, normals_;
+  double spacing_ = 0;
+  Index matched_ = 0;
+  bool is_watertight_ = false;
+};
+
+/// Parameters that operations share, and the limits that they set.
+Parameter max_distance();
+Parameter max_angle();
+Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
+
+/// Of the bounding box, in input units.
+double diagonal_of(PointsView points);
+
+}  // namespace symsurf

@@ -1,0 +1,68 @@
+#include "operations/operation_registry.h"
+
+#include <symsurf/errors.h>
+
+#include <algorithm>
+
+#include "cloud/cloud.h"
+#include "mesh/triangle_mesh.h"
+
+namespace symsurf {
+
+namespace {
+
+const std::vector<OperationImplementation>& operation_implementations() {
+  static const std::vector<OperationImplementation> all{
+      asymmetry_operation(), correspondences_operation(), align_operation(), symmetrize_operation(),
+      straighten_operation()};
+  return all;
+}
+
+const OperationImplementation& operation_implementation(std::string_view name) {
+  std::string names;
+  for (const OperationImplementation& operation : operation_implementations()) {
+    if (operation.name == name) return operation;
+    names += (names.empty() ? "" : ", ") + operation.name;
+  }
+  throw InvalidParameter("unknown operation '" + std::string(name) + "'; allowed: " + names);
+}
+
+void require_mask(const Eigen::VectorXd& mask, Index points) {
+  if (mask.size() == 0) return;
+  if (mask.size() != points)
+    throw InvalidInput(std::to_string(mask.size()) + " mask values given for " +
+                       std::to_string(points) + " points; one a point is needed");
+  for (Index i = 0; i < mask.size(); ++i)
+    if (!(mask[i] >= 0 && mask[i] <= 1))
+      throw InvalidInput("mask value " + std::to_string(i) + " is " + to_string(Value(mask[i])) +
+                         "; allowed is 0 to 1");
+}
+
+}  // namespace
+
+const std::vector<Operation>& operations() {
+  static const std::vector<Operation> all(operation_implementations().begin(),
+                                          operation_implementations().end());
+  return all;
+}
+
+const Operation& operation(std::string_view name) { return operation_implementation(name); }
+
+OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
+                        const Values& parameters, const Context& context) {
+  const OperationImplementation& operation = operation_implementation(name);
+  const ParameterValues values(operation.name, operation.parameters, parameters);
+  require_points(input.points);
+  require_corners(input.faces, input.points.size());
+  require_mask(input.mask, input.points.size());
+  OperationResult result;
+  result.operation = operation.name;
+  result.points = input.points.matrix();
+  result.faces = Eigen::Map<const Triangles>(input.faces.data(), input.faces.size(), 3);
+  result.parameters = values.all();
+  operation.run(input, mirror, values, context, result);
+  context.report(1);
+  return result;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <symsurf/operation.h>
+
+namespace symsurf {
+
+/// An operation and how it runs.
+struct OperationImplementation : Operation {
+  /// Fills in points, arrays and statistics; the points are there already, as they were given.
+  void (*run)(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
+              const Context& context, OperationResult& result) = nullptr;
+};
+
+OperationImplementation asymmetry_operation();
+OperationImplementation correspondences_operation();
+OperationImplementation align_operation();
+OperationImplementation symmetrize_operation();
+OperationImplementation straighten_operation();
+
+}  // namespace symsurf

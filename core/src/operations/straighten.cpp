@@ -1,0 +1,39 @@
+#include <symsurf/bend.h>
+
+#include "operations/operation_registry.h"
+
+namespace symsurf {
+
+namespace {
+
+void run_straighten(const OperationInput& input, const Mirror& mirror,
+                    const ParameterValues& values, const Context& context,
+                    OperationResult& result) {
+  context.check();
+  const bool back = values.boolean("back");
+  result.points = bend(input.points, mirror, back ? Bend::Restore : Bend::Straighten);
+  const Plane plane = straight_mirror(mirror, input.points);
+  result.statistics["normal"] = plane.normal();
+  result.statistics["offset"] = plane.offset();
+  result.statistics["unplaced_points"] =
+      Index{(!result.points.rowwise().sum().array().isFinite()).count()};
+}
+
+}  // namespace
+
+OperationImplementation straighten_operation() {
+  OperationImplementation operation;
+  operation.name = "straighten";
+  operation.title = "Mirror straightening";
+  operation.summary =
+      "Carries the shape along while its curved mirror is laid flat, and back: each point keeps "
+      "its "
+      "distance from the mirror and the place of its foot.";
+  operation.parameters = {Parameter::boolean(
+      "back", false, "The way back: bends what was straightened over the same mirror.")};
+  operation.moves_points = true;
+  operation.run = run_straighten;
+  return operation;
+}
+
+}  // namespace symsurf

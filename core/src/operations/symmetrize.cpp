@@ -1,0 +1,133 @@
+#include <cmath>
+
+#include "operations/counterparts.h"
+#include "operations/operation_registry.h"
+
+namespace symsurf {
+
+namespace {
+
+// Points nearer to the mirror than this lie on it, in diagonals: single precision.
+constexpr double on_mirror = 1e-6;
+
+// Of so many matched points, the vertices mirror each other and are kept together; fewer meet by
+// chance, and pairs of them would slide over the surface.
+constexpr double vertices_mirror = 0.9;
+
+class Symmetrization {
+ public:
+  Symmetrization(const OperationInput& input, const Mirror& mirror,
+                 const Counterparts::Limits& limits)
+      : input_(input),
+        mirror_(mirror),
+        limits_(limits),
+        on_mirror_(on_mirror * diagonal_of(input.points)) {}
+
+  // Each point halfway to its place.
+  Points average(const Context& context) {
+    return moved(input_.points, context,
+                 [](const Vector3& x, const Vector3& place) -> Vector3 { return (x + place) / 2; });
+  }
+
+  // The points of the other side carried to the image of this one.
+  Points carried(const Points& from, bool positive, const Context& context) {
+    return moved(from, context, [&](const Vector3& x, const Vector3& place) {
+      return (mirror_.signed_distance(x) > 0) == positive ? x : place;
+    });
+  }
+
+  /// 1 where a point had a counterpart, else 0.
+  const Eigen::VectorXd& paired() const { return paired_; }
+
+ private:
+  static bool is_mutual(const Counterparts& found, Index i) {
+    const Counterpart& partner = found[found[i].nearest];
+    return partner.matched && partner.nearest == i;
+  }
+
+  // What has a counterpart comes to to(x, place); what lies on the mirror, to its foot.
+  template <typename To>
+  Points moved(PointsView from, const Context& context, const To& to) {
+    OperationInput input = input_;
+    input.points = from;
+    const Counterparts found(input, mirror_, limits_, context);
+    Eigen::VectorXd paired = Eigen::VectorXd::Zero(from.size());
+    Index mutual = 0;
+    for (Index i = 0; i < from.size(); ++i) {
+      if (!found[i].matched) continue;
+      paired[i] = 1;
+      mutual += is_mutual(found, i);
+    }
+    if (paired_.size() == 0) paired_ = paired;
+    const bool keep_pairs =
+        static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(found.matched());
+    Points points = from.matrix();
+    for (Index i = 0; i < from.size(); ++i) {
+      const Counterpart& c = found[i];
+      if (!c.matched) continue;
+      const Vector3 x = from[i];
+      const bool lies_on_mirror =
+          std::abs(mirror_.signed_distance(x)) <= on_mirror_ || c.nearest == i;
+      const bool is_pair = keep_pairs && is_mutual(found, i);
+      points.row(i) = (lies_on_mirror ? mirror_.foot(x)
+                                      : to(x, is_pair ? mirror_.reflect(from[c.nearest]) : c.place))
+                          .transpose();
+    }
+    return points;
+  }
+
+  const OperationInput& input_;
+  const Mirror& mirror_;
+  const Counterparts::Limits limits_;
+  double on_mirror_;
+  Eigen::VectorXd paired_;
+};
+
+void run_symmetrize(const OperationInput& input, const Mirror& mirror,
+                    const ParameterValues& values, const Context& context,
+                    OperationResult& result) {
+  Symmetrization symmetrization(input, mirror, limits_of(values, input.points));
+  const std::string& side = values.choice("side");
+  Points target;
+  if (side == "average") {
+    // What lies between the points of the other side comes to lie on their average's image.
+    target = symmetrization.average(context.stage(0, 0.5));
+    target = symmetrization.carried(target, true, context.stage(0.5, 1));
+  } else {
+    target = symmetrization.carried(result.points, side == "positive", context);
+  }
+  const double strength = values.real("strength");
+  for (Index i = 0; i < target.rows(); ++i) {
+    const double share = strength * (input.mask.size() > 0 ? input.mask[i] : 1);
+    if (share == 1)
+      result.points.row(i) = target.row(i);
+    else if (share > 0)
+      result.points.row(i) += share * (target.row(i) - result.points.row(i));
+  }
+  result.arrays = {{"paired", symmetrization.paired()}};
+  result.statistics["paired_share"] = symmetrization.paired().mean();
+}
+
+}  // namespace
+
+OperationImplementation symmetrize_operation() {
+  OperationImplementation operation;
+  operation.name = "symmetrize";
+  operation.title = "Mirror symmetrization";
+  operation.summary =
+      "Moves the points so that the mirror maps the shape onto itself: halfway between the sides, "
+      "or one side onto the image of the other.";
+  operation.parameters = {
+      Parameter::choice("side", "average", {"average", "positive", "negative"},
+                        "What both sides will be: their average, or the side where signed "
+                        "distances from the mirror are positive or negative."),
+      Parameter::real("strength", 1, 0, 1, "",
+                      "How far the points move: 0 not at all, 1 all the way."),
+      max_distance(), max_angle()};
+  operation.arrays = {{"paired", 1, "1 where the point has a counterpart, else 0: it stays."}};
+  operation.moves_points = true;
+  operation.run = run_symmetrize;
+  return operation;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,367 @@
+#include <gtest/gtest.h>
+#include <symsurf/cylinder.h>
+#include <symsurf/errors.h>
+#include <symsurf/operation.h>
+#include <symsurf/plane.h>
+#include <symsurf/sphere.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "expect_error.h"
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+constexpr int meridians = 48, parallels = 31;
+
+struct Ball {
+  Points points;
+  Triangles faces;
+  std::vector<Index> partner;  // of each vertex, over x = 0
+};
+
+// A closed bumpy ball whose vertices mirror each other over x = 0 to the last bit; which diagonals
+// divide its quadrangles is drawn, on both sides apart.
+Ball ball(std::uint64_t seed) {
+  RandomCloud random(seed);
+  Ball b{Points(meridians * parallels + 2, 3), {}, std::vector<Index>(meridians * parallels + 2)};
+  const auto at = [](int ring, int k) { return Index{ring} * meridians + k % meridians; };
+  for (int ring = 0; ring < parallels; ++ring)
+    for (int k = 0; k < meridians; ++k) {
+      const int other = (meridians / 2 - 1 - k + meridians) % meridians;
+      b.partner[at(ring, k)] = at(ring, other);
+      if (at(ring, other) < at(ring, k)) {
+        b.points.row(at(ring, k)) = b.points.row(at(ring, other)) * Vector3(-1, 1, 1).asDiagonal();
+        continue;
+      }
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / meridians;
+      const double height = std::numbers::pi * (ring + 1) / (parallels + 1);
+      const Vector3 u(std::sin(height) * std::cos(angle), std::sin(height) * std::sin(angle),
+                      std::cos(height));
+      b.points.row(at(ring, k)) =
+          ((1 + 0.1 * std::sin(3 * u.y() + 1) + 0.1 * u.z() * u.x() * u.x()) * u).transpose();
+    }
+  const Index north = meridians * parallels, south = north + 1;
+  b.points.row(north) << 0, 0, 1;
+  b.points.row(south) << 0, 0, -1;
+  b.partner[north] = north;
+  b.partner[south] = south;
+  std::vector<std::array<Index, 3>> faces;
+  for (int k = 0; k < meridians; ++k) {
+    faces.push_back({north, at(0, k), at(0, k + 1)});
+    faces.push_back({south, at(parallels - 1, k + 1), at(parallels - 1, k)});
+    for (int ring = 0; ring + 1 < parallels; ++ring) {
+      const Index a = at(ring, k), c = at(ring + 1, k), d = at(ring + 1, k + 1),
+                  e = at(ring, k + 1);
+      if (random.below(2)) {
+        faces.push_back({a, c, d});
+        faces.push_back({a, d, e});
+      } else {
+        faces.push_back({a, c, e});
+        faces.push_back({c, d, e});
+      }
+    }
+  }
+  b.faces.resize(static_cast<Index>(faces.size()), 3);
+  for (Index f = 0; f < b.faces.rows(); ++f)
+    b.faces.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  return b;
+}
+
+const Plane middle(Vector3::UnitX(), 0);
+const Cylinder round_mirror(Vector3(-3, 0, 0), Vector3::UnitY(), 3);
+
+// Wraps x = 0 around round_mirror, as straighten unwraps it.
+Points wrapped(const Points& points) {
+  Points bent = points;
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double r = 3 + points(i, 0), angle = points(i, 2) / 3;
+    bent.row(i) << r * std::cos(angle) - 3, points(i, 1), r * std::sin(angle);
+  }
+  return bent;
+}
+
+double diagonal(const Points& points) {
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+double figure(const OperationResult& result, const std::string& name) {
+  return std::get<double>(result.statistics.at(name));
+}
+
+TEST(Operations, AreDescribed) {
+  for (const Operation& each : operations()) {
+    EXPECT_FALSE(each.title.empty() || each.summary.empty()) << each.name;
+    const Ball b = ball(0);
+    const OperationResult result = operate(each.name, {b.points, b.faces}, middle);
+    ASSERT_EQ(result.arrays.size(), each.arrays.size()) << each.name;
+    for (const PointArray& array : each.arrays) {
+      EXPECT_EQ(result.arrays.at(array.name).rows(), b.points.rows()) << array.name;
+      EXPECT_EQ(result.arrays.at(array.name).cols(), array.components) << array.name;
+    }
+    EXPECT_EQ(result.faces, b.faces);
+    if (!each.moves_points) {
+      EXPECT_EQ(result.points, b.points);
+    }
+  }
+}
+
+TEST(Asymmetry, IsZeroWhateverTheTriangulation) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Ball b = ball(seed);
+    const OperationResult flat = operate("asymmetry", {b.points, b.faces}, middle);
+    EXPECT_EQ(figure(flat, "matched_share"), 1);
+    EXPECT_LE(figure(flat, "maximum_of_diagonal"), 1e-12) << seed;
+    EXPECT_NEAR(figure(flat, "area_index"), 0, 0.01);
+    EXPECT_NEAR(figure(flat, "volume_index"), 0, 0.01);
+    const OperationResult bent = operate("asymmetry", {wrapped(b.points), b.faces}, round_mirror);
+    EXPECT_EQ(figure(bent, "matched_share"), 1);
+    EXPECT_LE(figure(bent, "maximum_of_diagonal"), 1e-12) << seed;
+  }
+}
+
+// A bump on the positive side, as high as `height` where it is highest.
+Points bumped(const Points& points, double height, Eigen::VectorXd& raised) {
+  const Vector3 top = Vector3(1, 0.5, 0.3).normalized();
+  Points out = points;
+  raised = Eigen::VectorXd::Zero(points.rows());
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vector3 x = points.row(i).transpose(), u = x.normalized();
+    const double off = (u - top).squaredNorm() / 0.3;
+    if (off >= 1) continue;
+    raised[i] = height * (1 - off) * (1 - off);
+    out.row(i) += raised[i] * u.transpose();
+  }
+  return out;
+}
+
+TEST(Asymmetry, IsAsHighAsABumpAndNothingElsewhere) {
+  const Ball b = ball(1);
+  Eigen::VectorXd raised;
+  const Points with_bump = bumped(b.points, 0.05, raised);
+  Index highest;
+  ASSERT_GT(raised.maxCoeff(&highest), 0.04);
+  for (const bool bent : {false, true}) {
+    const Mirror& mirror = bent ? static_cast<const Mirror&>(round_mirror) : middle;
+    const Points points = bent ? wrapped(with_bump) : with_bump;
+    const OperationResult result = operate("asymmetry", {points, b.faces}, mirror);
+    const Eigen::MatrixXd &distance = result.arrays.at("distance"),
+                          &outward = result.arrays.at("signed");
+    const Points flat = bent ? wrapped(b.points) : b.points;
+    const double height = (points.row(highest) - flat.row(highest)).norm();
+    EXPECT_NEAR(outward(highest, 0), -height, 0.05 * height) << bent;
+    EXPECT_NEAR(distance(highest, 0), height, 0.05 * height) << bent;
+    for (Index i = 0; i < points.rows(); ++i) {
+      if (raised[i] == 0 && raised[b.partner[i]] == 0) {
+        EXPECT_LE(distance(i, 0), 1e-3 * diagonal(points)) << bent << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(Asymmetry, OfACloudIsThatOfItsSurface) {
+  const Ball b = ball(2);
+  Eigen::VectorXd raised;
+  const Points points = bumped(b.points, 0.05, raised);
+  const OperationResult result = operate("asymmetry", {points}, middle);
+  EXPECT_GT(figure(result, "matched_share"), 0.95);
+  EXPECT_NEAR(result.arrays.at("distance")
+                  .array()
+                  .isFinite()
+                  .select(result.arrays.at("distance").array(), 0)
+                  .maxCoeff(),
+              raised.maxCoeff(), 0.1 * raised.maxCoeff());
+}
+
+TEST(Asymmetry, HasNoneWhereTheOtherSideIsMissing) {
+  const Ball b = ball(3);
+  std::vector<Index> kept;
+  for (Index f = 0; f < b.faces.rows(); ++f) {
+    const Vector3 x = b.points.row(b.faces(f, 0)).transpose();
+    if ((x - Vector3(1, 0, 0)).norm() > 0.5) kept.push_back(f);
+  }
+  Triangles faces(static_cast<Index>(kept.size()), 3);
+  for (Index f = 0; f < faces.rows(); ++f) faces.row(f) = b.faces.row(kept[f]);
+  const OperationResult result = operate("asymmetry", {b.points, faces}, middle);
+  const Eigen::MatrixXd& matched = result.arrays.at("matched");
+  for (Index i = 0; i < b.points.rows(); ++i) {
+    const Vector3 image = b.points.row(i).transpose().cwiseProduct(Vector3(-1, 1, 1));
+    const double to_hole = (image - Vector3(1, 0, 0)).norm();
+    if (to_hole < 0.35 || to_hole > 0.75) {
+      EXPECT_EQ(matched(i, 0), to_hole > 0.75) << i;
+    }
+    EXPECT_EQ(std::isfinite(result.arrays.at("distance")(i, 0)), matched(i, 0) == 1);
+  }
+  EXPECT_EQ(result.statistics.count("positive_volume"), 0u);
+}
+
+// The part of a ball of radius r beyond a plane at a distance d: pi h^2 (3 r - h) / 3 and 2 pi r h,
+// h = r - d.
+TEST(Asymmetry, MeasuresBothSides) {
+  Ball b = ball(4);
+  for (Index i = 0; i < b.points.rows(); ++i) b.points.row(i).normalize();
+  const double d = 0.3, h = 1 - d;
+  const OperationResult result =
+      operate("asymmetry", {b.points, b.faces}, Plane(Vector3::UnitX(), -d));
+  EXPECT_NEAR(figure(result, "positive_area"), 2 * std::numbers::pi * h, 0.05);
+  EXPECT_NEAR(figure(result, "negative_area"), 2 * std::numbers::pi * (2 - h), 0.08);
+  EXPECT_NEAR(figure(result, "positive_volume"), std::numbers::pi * h * h * (3 - h) / 3, 0.03);
+  EXPECT_NEAR(figure(result, "negative_volume"),
+              4 * std::numbers::pi / 3 - std::numbers::pi * h * h * (3 - h) / 3, 0.05);
+  // Of the ball and another of radius R = 3 with its centre at d = 3 the part that both have:
+  // pi (R + 1 - d)^2 (d^2 + 2 d - 3 + 2 d R + 6 R - 3 R^2) / (12 d).
+  const OperationResult cut =
+      operate("asymmetry", {b.points, b.faces}, Sphere(Vector3(3, 0, 0), 3));
+  EXPECT_NEAR(figure(cut, "negative_volume"), std::numbers::pi * 21 / 36, 0.05);
+}
+
+TEST(Correspondences, AreExactWhereVerticesMirror) {
+  const Ball b = ball(5);
+  for (const bool bent : {false, true})
+    for (const bool has_faces : {true, false}) {
+      const Points points = bent ? wrapped(b.points) : b.points;
+      const Mirror& mirror = bent ? static_cast<const Mirror&>(round_mirror) : middle;
+      const OperationResult result =
+          operate("correspondences", {points, has_faces ? b.faces : TrianglesView()}, mirror,
+                  {{"one_to_one", true}});
+      EXPECT_EQ(figure(result, "paired_share"), 1);
+      for (Index i = 0; i < points.rows(); ++i) {
+        EXPECT_EQ(result.arrays.at("index")(i, 0), static_cast<double>(b.partner[i]));
+        EXPECT_GT(result.arrays.at("confidence")(i, 0), 0.9);
+      }
+    }
+}
+
+Plane moved_plane(const OperationResult& result, const Plane& plane) {
+  const Eigen::MatrixXd& m = std::get<Eigen::MatrixXd>(result.statistics.at("matrix"));
+  const auto moved = plane.transformed(1, m.topLeftCorner<3, 3>(), m.topRightCorner<3, 1>());
+  return dynamic_cast<const Plane&>(*moved);
+}
+
+TEST(Align, LaysThePlaneAcrossTheAxis) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Matrix3 rotation = random.rotation();
+    const Vector3 shift = 5 * random.in_box();
+    const Points points = (ball(seed).points * rotation.transpose()).rowwise() + shift.transpose();
+    const auto plane = middle.transformed(1, rotation, shift);
+    for (const char* axis : {"x", "y", "z"})
+      for (const char* frame : {"least", "principal"}) {
+        const OperationResult result =
+            operate("align", {points}, *plane, {{"axis", axis}, {"frame", frame}});
+        const Eigen::MatrixXd& m = std::get<Eigen::MatrixXd>(result.statistics.at("matrix"));
+        const Matrix3 turn = m.topLeftCorner<3, 3>();
+        EXPECT_NEAR(turn.determinant(), 1, 1e-12);
+        EXPECT_LE((turn * turn.transpose() - Matrix3::Identity()).norm(), 1e-12);
+        const Plane moved = moved_plane(result, dynamic_cast<const Plane&>(*plane));
+        EXPECT_NEAR(std::abs(moved.normal()[axis[0] - 'x']), 1, 1e-12);
+        EXPECT_NEAR(moved.offset(), 0, 1e-10);
+      }
+    const Vector3 up = rotation * Vector3(0, 0.6, 0.8), front = rotation * Vector3(0, 0.8, -0.6);
+    const OperationResult result =
+        operate("align", {points}, *plane, {{"frame", "ras"}, {"up", up}, {"front", front}});
+    const Matrix3 turn =
+        std::get<Eigen::MatrixXd>(result.statistics.at("matrix")).topLeftCorner<3, 3>();
+    EXPECT_LE((turn * up - Vector3::UnitZ()).norm(), 1e-9);
+    EXPECT_LE((turn * front - Vector3::UnitY()).norm(), 1e-9);
+  }
+}
+
+TEST(Align, LeavesAloneWhatLiesRight) {
+  const OperationResult result = operate("align", {ball(0).points}, middle);
+  const Eigen::MatrixXd& m = std::get<Eigen::MatrixXd>(result.statistics.at("matrix"));
+  EXPECT_LE((m.topLeftCorner<3, 3>() - Matrix3::Identity()).norm(), 1e-12);
+}
+
+TEST(Align, RefusesAnUpAcrossTheMirror) {
+  const Points points = ball(0).points;
+  expect_error<InvalidParameter>("up is (1, 0, 0)", [&] {
+    operate("align", {points}, middle, {{"up", Vector3(1, 0, 0)}});
+  });
+}
+
+TEST(Symmetrize, LeavesNoAsymmetry) {
+  const Ball b = ball(6);
+  Eigen::VectorXd raised;
+  const Points with_bump = bumped(b.points, 0.05, raised);
+  for (const bool bent : {false, true})
+    for (const char* side : {"average", "positive", "negative"}) {
+      const Points points = bent ? wrapped(with_bump) : with_bump;
+      const Mirror& mirror = bent ? static_cast<const Mirror&>(round_mirror) : middle;
+      const OperationResult even =
+          operate("symmetrize", {points, b.faces}, mirror, {{"side", side}});
+      EXPECT_EQ(figure(even, "paired_share"), 1);
+      const OperationResult left = operate("asymmetry", {even.points, b.faces}, mirror);
+      EXPECT_LE(figure(left, "maximum_of_diagonal"), 1e-12) << bent << ' ' << side;
+      const OperationResult none =
+          operate("symmetrize", {points, b.faces}, mirror, {{"side", side}, {"strength", 0.0}});
+      EXPECT_EQ(none.points, points);
+    }
+}
+
+// An ellipsoid with a bump, whose vertices are no mirror images of one another.
+TEST(Symmetrize, NeedsNoVerticesThatMirror) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Ball b = ball(seed);
+    Points points = b.points.rowwise().normalized() * RandomCloud(seed).rotation();
+    Eigen::VectorXd raised;
+    points = (bumped(points, 0.05, raised) * Vector3(1, 1.5, 0.8).asDiagonal()).eval();
+    for (const char* side : {"average", "positive", "negative"}) {
+      const OperationResult even =
+          operate("symmetrize", {points, b.faces}, middle, {{"side", side}});
+      EXPECT_EQ(figure(even, "paired_share"), 1);
+      const OperationResult left = operate("asymmetry", {even.points, b.faces}, middle);
+      // The sagitta of an edge, 1.5 (2 pi / 48)^2 / 8, is 9e-4 of the diagonal.
+      EXPECT_LE(figure(left, "p95_of_diagonal"), 2e-3) << seed << ' ' << side;
+    }
+  }
+}
+
+TEST(Symmetrize, MovesNothingOutsideOfTheMask) {
+  const Ball b = ball(7);
+  Eigen::VectorXd raised;
+  const Points points = bumped(b.points, 0.05, raised);
+  const Eigen::VectorXd mask = (points.col(0).array() > 0).cast<double>();
+  const OperationResult result = operate("symmetrize", {points, b.faces, mask}, middle);
+  for (Index i = 0; i < points.rows(); ++i)
+    if (mask[i] == 0) {
+      EXPECT_EQ(result.points.row(i), points.row(i));
+    }
+  EXPECT_GT((result.points - points).norm(), 0.01);
+}
+
+TEST(Straighten, LaysTheMirrorFlatAndBendsBack) {
+  const Ball b = ball(8);
+  const Points bent = wrapped(b.points);
+  const OperationResult straight = operate("straighten", {bent, b.faces}, round_mirror);
+  const Plane plane(std::get<Vector3>(straight.statistics.at("normal")),
+                    figure(straight, "offset"));
+  const OperationResult left = operate("asymmetry", {straight.points, b.faces}, plane);
+  EXPECT_LE(figure(left, "maximum_of_diagonal"), 1e-9);
+}
+
+TEST(Operations, NameWhatIsWrong) {
+  const Ball b = ball(0);
+  const OperationInput input{b.points, b.faces};
+  expect_error<InvalidParameter>("unknown operation 'melt'; allowed: asymmetry, ",
+                                 [&] { operate("melt", input, middle); });
+  expect_error<InvalidParameter>("strength", [&] {
+    operate("symmetrize", input, middle, {{"strength", 1.5}});
+  });
+  expect_error<InvalidInput>("2 mask values given for", [&] {
+    operate("symmetrize", {b.points, b.faces, Eigen::VectorXd::Ones(2)}, middle);
+  });
+  expect_error<InvalidInput>("points have an image over this sphere",
+                             [&] { operate("asymmetry", input, Sphere(Vector3::Zero(), 0.01)); });
+  Points broken = b.points;
+  broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  expect_error<InvalidInput>("point 3", [&] { operate("asymmetry", {broken, b.faces}, middle); });
+}
+
+}  // namespace
+}  // namespace symsurf
