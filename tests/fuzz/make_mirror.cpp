@@ -8,7 +8,8 @@ namespace {
 void fuzz(Source& source) {
   const std::shared_ptr<Mirror> mirror = drawn_mirror(source);
   expect_finite(*mirror);
-  make_mirror(mirror->kind(), mirror->numbers());
+  expect(runs([&] { make_mirror(mirror->kind(), mirror->numbers()); }),
+         "a mirror's numbers make it again");
   const Points points = cloud(source);
   show_rows("points", points);
   expect(mirror->reflect(points).rows() == points.rows(), "an image a point");
