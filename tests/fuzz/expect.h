@@ -25,6 +25,8 @@ bool runs(const Call& call) {
     return false;
   } catch (const InvalidParameter&) {
     return false;
+  } catch (const Cancelled&) {
+    return false;
   }
 }
 
