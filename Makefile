@@ -1,6 +1,7 @@
-# make setup | demo | paraview | meshlab | meshlab-gui | test | lint | tidy | bench | accuracy: each
-# sets up what it needs first, and only what is missing.
-.PHONY: setup demo paraview meshlab meshlab-gui test lint tidy bench bench-meshlab accuracy
+# make setup | demo | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz | bench |
+# accuracy: each sets up what it needs first, and only what is missing.
+.PHONY: setup demo paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench bench-meshlab \
+  accuracy
 
 setup:
 	@.ci/setup python tests
@@ -28,6 +29,18 @@ lint:
 tidy:
 	@.ci/setup tidy
 	@run-clang-tidy-16 -quiet -p build/tidy
+
+# The core's tests under AddressSanitizer and UndefinedBehaviorSanitizer, those with threads under
+# ThreadSanitizer.
+sanitize:
+	@.ci/setup sanitize
+	@.ci/sanitize
+
+# Every fuzz target for so many seconds: make fuzz SECONDS=600.
+fuzz: SECONDS = 60
+fuzz:
+	@.ci/setup fuzz
+	@.ci/fuzz $(SECONDS)
 
 bench:
 	@.ci/setup benchmarks paraview

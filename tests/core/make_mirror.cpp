@@ -3,6 +3,8 @@
 #include <symsurf/make_mirror.h>
 
 #include <Eigen/Core>
+#include <cmath>
+#include <limits>
 
 #include "expect_error.h"
 
@@ -61,6 +63,31 @@ TEST(MakeMirror, SaysWhatIsWrong) {
           with(patch(), "centres", Table(Table::Zero(1, 2))));
   expect_error<InvalidParameter>(
       "f9", [] { make_mirror("surface", with(surface(), "surface", std::string("f9"))); });
+}
+
+// Finite numbers whose sums, squares or quotients a double does not hold.
+TEST(MakeMirror, RefusesWhatDoublesCannotHold) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Vector3 far = Vector3::Constant(largest);
+  const auto refused = [](const char* kind, const Values& numbers) {
+    EXPECT_THROW(make_mirror(kind, numbers), InvalidInput) << kind;
+  };
+  refused("plane", {{"normal", far}, {"offset", 0.0}});
+  refused("plane", {{"normal", Vector3(1e-100, 0, 0)}, {"offset", largest}});
+  refused("cylinder", {{"point", Vector3(0, 0, 0)}, {"axis", far}, {"radius", 1.0}});
+  const Values quadric{{"matrix", Table(Matrix3::Identity())},
+                       {"origin", Vector3(0, 0, 0)},
+                       {"gradient", Vector3(1, 0, 0)},
+                       {"value", 0.0}};
+  refused("quadric", with(quadric, "matrix", Table(Table::Constant(3, 3, largest))));
+  refused("quadric", with(quadric, "origin", far));
+  Table nodes = Table::Zero(2, 3);
+  nodes(0, 0) = 1e160;
+  refused("height field", {{"direction", Vector3(0, 0, 1)}, {"nodes", nodes}});
+  const auto surface_mirror = make_mirror("surface", surface());
+  for (const double scale : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(surface_mirror->transformed(scale, Matrix3::Identity(), Vector3::Zero()),
+                 InvalidInput);
 }
 
 }  // namespace

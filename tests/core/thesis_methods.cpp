@@ -182,5 +182,17 @@ TEST(Separation, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+// Six points of one plane, 1e-28 wide, whose measure is a rounding error above their number.
+TEST(SphereThesis, ScoresAtMostOne) {
+  Points points(6, 3);
+  points << 4.9274023414673167e-29, -1.9, 3.8272984706565296e-29,  //
+      2.8727375112394714e-30, -1.9, -4.249137895496765e-31,        //
+      -2.9562399135342484e-29, -1.9, 9.519862246104513e-29,        //
+      6.14751770584071e-29, -1.9, 6.391096195323864e-29,           //
+      6.585292145985101e-29, -1.9, 2.1487692430558894e-29,         //
+      8.733879390239066e-29, -1.9, 9.908000198135558e-30;
+  EXPECT_LE(run(points, "sphere_thesis").score, 1);
+}
+
 }  // namespace
 }  // namespace symsurf

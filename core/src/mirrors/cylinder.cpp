@@ -14,7 +14,8 @@ namespace symsurf {
 
 Cylinder::Cylinder(const Vector3& point, const Vector3& axis, double radius)
     : point_(point), axis_(axis / length_of(axis)), radius_(radius) {
-  if (!point.allFinite() || !axis.allFinite() || !(axis.norm() > 0) || !(radius > 0) ||
+  const double length = length_of(axis);
+  if (!point.allFinite() || !(length > 0) || !std::isfinite(length) || !(radius > 0) ||
       !std::isfinite(radius))
     throw InvalidInput(
         "a cylinder needs a finite point, an axis of finite length above 0 and a finite radius "

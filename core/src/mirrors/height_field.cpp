@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/math.h"
@@ -35,6 +36,10 @@ HeightField::HeightField(const Vector3& direction, Points nodes) {
   const Points centred = nodes.rowwise() - origin_.transpose();
   framed.leftCols<2>() = centred * across_;
   framed.col(2) = centred * direction_;
+  // The index of the nodes compares squares of lengths.
+  if (!std::isfinite(framed.squaredNorm()))
+    throw InvalidInput("a height field needs nodes nearer to each other than " +
+                       to_string(Value(std::sqrt(std::numeric_limits<double>::max()))));
   nodes_ = std::make_shared<const Points>(std::move(nodes));
   heights_ = std::make_shared<const HeightInterpolant>(framed);
 }

@@ -12,7 +12,7 @@ namespace symsurf {
 
 Plane::Plane(const Vector3& normal, double offset) {
   const double length = length_of(normal);
-  if (!(length > 0) || !std::isfinite(length) || !std::isfinite(offset))
+  if (!(length > 0) || !std::isfinite(length) || !std::isfinite(offset / length))
     throw InvalidInput(
         "a plane needs a normal of finite length above 0 and a finite offset; given " +
         to_string(Value(normal)) + " and " + to_string(Value(offset)));

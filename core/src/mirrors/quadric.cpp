@@ -19,8 +19,10 @@ Quadric::Quadric(const Matrix3& matrix, const Vector3& origin, const Vector3& gr
       matrix_((matrix + matrix.transpose()) / 2),
       linear_(gradient),
       constant_(value) {
-  if (!matrix.allFinite() || !origin.allFinite() || !gradient.allFinite() ||
-      !std::isfinite(value) || (matrix_.isZero(0) && gradient.isZero(0)))
+  // Not only those given, but also those about the coordinates' own origin, which numbers() names.
+  if (!matrix_.allFinite() || !origin.allFinite() || !gradient.allFinite() ||
+      !std::isfinite(value) || !linear().allFinite() || !std::isfinite(constant()) ||
+      (matrix_.isZero(0) && gradient.isZero(0)))
     throw InvalidInput("a quadric needs finite numbers, and not all of A and b zero");
   const SymmetricEigen<3> eigen = eigen_of(matrix_);
   axes_ = eigen.vectors;

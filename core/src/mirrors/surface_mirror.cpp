@@ -80,11 +80,8 @@ Values SurfaceMirror::numbers() const {
 
 std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& rotation,
                                                    const Vector3& translation) const {
-  auto moved = std::make_unique<SurfaceMirror>(*this);
-  moved->scale_ = scale * scale_;
-  moved->rotation_ = rotation * rotation_;
-  moved->translation_ = scale * (rotation * translation_) + translation;
-  return moved;
+  return std::make_unique<SurfaceMirror>(surface_, mapping_, scale * scale_, rotation * rotation_,
+                                         scale * (rotation * translation_) + translation);
 }
 
 Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {

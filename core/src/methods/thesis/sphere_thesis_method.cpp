@@ -187,7 +187,8 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   result.method = "sphere_thesis";
   result.mirror = std::make_shared<Sphere>(sphere.head<3>(), std::abs(sphere[3]));
   const double found = measure(sphere);
-  result.score = found / static_cast<double>(cloud.points.size());
+  // Of images that fall on points, phi is 1 or a rounding error more.
+  result.score = std::min(1.0, found / static_cast<double>(cloud.points.size()));
   add_pairs(result, cloud.points, std::move(tree), *result.mirror,
             values.real("pair_distance") * cloud.diagonal, context.stage(0.95, 1));
   result.statistics = {{"measure", found},

@@ -1,0 +1,66 @@
+#include <ctime>
+#include <string_view>
+
+#include "draw.h"
+#include "result.h"
+
+namespace symsurf {
+namespace {
+
+// Under sanitizers these take 5 to 30 s, and seconds from one report to the next, for a cloud on
+// which the others take milliseconds.
+bool is_slow(const Method& method) {
+  return method.name == "auto" || method.name == "sphere" || method.name == "cylinder";
+}
+
+const Method& drawn_method(Source& source) {
+  const Method& method = one_of(methods(), source);
+  return is_slow(method) && !one_in(source, 256) ? symsurf::method("plane") : method;
+}
+
+// Seconds of the processor: of the others, too, whole searches on some clouds take several.
+double patience(Source& source) { return one_in(source, 8) ? 3 : 0.1; }
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// What a mirror refuses where it is made is no fault of the points.
+bool is_of_a_mirror(const InvalidInput& error) {
+  return std::string_view(error.what()).find(" needs ") != std::string_view::npos;
+}
+
+void fuzz(Source& source) {
+  const Method& method = drawn_method(source);
+  const Points points = cloud(source);
+  const bool has_faces = one_in(source, 4), has_normals = one_in(source, 4);
+  Options options{.method = method.name, .parameters = parameters(source, method)};
+  const Triangles triangles = has_faces ? faces(source, points.rows()) : Triangles(0, 3);
+  const Points directions = has_normals ? normals(source, points.rows()) : Points(0, 3);
+  options.faces = triangles;
+  options.normals = directions;
+  options.seed = source.ConsumeIntegral<std::uint8_t>();
+  options.refuse_nonfinite = one_in(source, 8);
+  show("method", '"' + method.name + '"');
+  show("parameters", options.parameters);
+  show_rows("points", points);
+  show_rows("faces", triangles);
+  show_rows("normals", directions);
+  const double end = processor_seconds() + patience(source);
+  const Context context([&](double) { return processor_seconds() < end; }, 1);
+  runs([&] {
+    try {
+      expect_sound(detect(points, options, context), points.rows());
+    } catch (const InvalidInput& error) {
+      expect(!is_of_a_mirror(error), error.what());
+      throw;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace symsurf
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  symsurf::Source source(data, size);
+  symsurf::fuzz(source);
+  return 0;
+}
