@@ -67,6 +67,12 @@ T quantile(std::vector<T> values, double share) {
   return *position;
 }
 
+/// Tukey's biweight of a residual, in units of that from which on it weighs nothing.
+inline double biweight(double residual) {
+  const double inside = 1 - residual * residual;
+  return residual < 1 ? inside * inside : 0;
+}
+
 /// The middle value; of an even number the upper one.
 template <typename T>
 T median(std::vector<T> values) {

@@ -9,4 +9,7 @@ namespace symsurf {
 /// the distance to the sixth position. 0 where most points coincide.
 double surface_spacing(PointsView points, const PointTree& tree, Index copies = 1);
 
+/// The same about one of the points, from its neighbourhood: itself, then others, nearest first.
+double spacing_at(const std::vector<Neighbour>& neighbourhood);
+
 }  // namespace symsurf

@@ -1,50 +1,32 @@
 #include "cloud/surfel_map.h"
 
-#include <limits>
+#include "base/math.h"
 
 namespace symsurf {
 
-namespace {
-
-constexpr int steps = 2;            // how far a surfel reaches, in cells of the map
-constexpr double refinement = 1.5;  // cells of the map along a cell of the surfels
-
-}  // namespace
-
-SurfelMap::SurfelMap(const Surfels& surfels) : cells_(refinement / surfels.spacing()) {
-  const double cell = 1 / cells_;
-  origin_ = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 high = -origin_;
+SurfelMap::SurfelMap(const Surfels& surfels) {
+  constexpr int steps = 2;            // how far a surfel reaches, in voxels
+  constexpr double refinement = 1.5;  // voxels along a cell of the surfels
+  const double edge = surfels.spacing() / refinement, reach = steps * edge;
+  Vector3 low = Vector3::Constant(infinity), high = -low;
   for (Index i = 0; i < surfels.size(); ++i) {
-    origin_ = origin_.cwiseMin(surfels[i].position);
+    low = low.cwiseMin(surfels[i].position);
     high = high.cwiseMax(surfels[i].position);
   }
-  origin_.array() -= steps * cell;
-  size_ = ((high - origin_) * cells_).cast<int>().array() + steps + 1;
-  end_ = size_.cast<double>();
-  near_.assign(size_.cast<Index>().prod(), -1);
-
-  const double reach = steps * cell;
+  grid_ = VoxelGrid::from_corner(low.array() - reach, high.array() + reach, edge);
+  near_.assign(grid_.size(), -1);
   std::vector<float> distance(near_.size(), static_cast<float>(reach * reach));
   for (Index i = 0; i < surfels.size(); ++i) {
     const Vector3& x = surfels[i].position;
-    const Eigen::Vector3i centre = ((x - origin_) * cells_).cast<int>();
-    const Eigen::Vector3i from = (centre.array() - steps).max(0);
-    const Eigen::Vector3i to = (centre.array() + steps).min(size_.array() - 1);
-    for (int cx = from.x(); cx <= to.x(); ++cx)
-      for (int cy = from.y(); cy <= to.y(); ++cy) {
-        const double dx = origin_.x() + (cx + 0.5) * cell - x.x();
-        const double dy = origin_.y() + (cy + 0.5) * cell - x.y();
-        if (dx * dx + dy * dy >= reach * reach) continue;
-        const Index row = linear({cx, cy, 0});
-        for (int cz = from.z(); cz <= to.z(); ++cz) {
-          const double dz = origin_.z() + (cz + 0.5) * cell - x.z();
-          const float squared = static_cast<float>(dx * dx + dy * dy + dz * dz);
-          if (squared >= distance[row + cz]) continue;
-          distance[row + cz] = squared;
-          near_[row + cz] = static_cast<std::int32_t>(i);
-        }
+    grid_.for_each_row_around(grid_.cell_of(x), steps, [&](Index begin, Index end) {
+      VoxelGrid::Cell cell = grid_.cell(begin);
+      for (Index voxel = begin; voxel < end; ++voxel, ++cell.z()) {
+        const auto squared = static_cast<float>((grid_.middle(cell) - x).squaredNorm());
+        if (squared >= distance[voxel]) continue;
+        distance[voxel] = squared;
+        near_[voxel] = static_cast<std::int32_t>(i);
       }
+    });
   }
 }
 

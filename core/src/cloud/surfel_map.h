@@ -14,20 +14,13 @@ class SurfelMap {
 
   /// The surfel nearest to x, or -1 when none lies within about a cell and a half of it.
   Index nearest(const Vector3& x) const {
-    const Vector3 at = (x - origin_) * cells_;
-    if (!((at.array() >= 0).all() && (at.array() < end_.array()).all())) return -1;
-    return near_[linear(at.cast<int>())];
+    const Index voxel = grid_.index_at(x);
+    return voxel < 0 ? -1 : near_[voxel];
   }
 
  private:
-  Index linear(const Eigen::Vector3i& c) const {
-    return (static_cast<Index>(c.x()) * size_.y() + c.y()) * size_.z() + c.z();
-  }
-
-  Vector3 origin_, end_;
-  double cells_;  // along a unit of length
-  Eigen::Vector3i size_;
-  std::vector<std::int32_t> near_;
+  VoxelGrid grid_;
+  std::vector<std::int32_t> near_;  // by voxel
 };
 
 }  // namespace symsurf

@@ -18,8 +18,9 @@ constexpr Index points_a_task = 1 << 16;
 constexpr double least_width = 1e-8;  // of the squared width against the squared length
 constexpr int finest_cells = 128;     // along the longest side
 // Clutter are cells with so much less than the cell of the median point, if many of those that
-// touch none with more fill space, as surfaces and rods do not. Few points cannot tell.
-constexpr double sparse = 0.05, many = 0.02, telling = 6;
+// touch none with more fill space, as surfaces and rods do not. Fewer than `least_around`
+// points decide nothing.
+constexpr double sparse = 0.05, many = 0.02, least_around = 6;
 constexpr Index mostly = 2;             // filling ones for one that is thin
 constexpr double thin_variance = 0.06;  // of that along the longest direction
 
@@ -94,7 +95,7 @@ Vector3 Surfel::smoothed(const Vector3& x, double width) const {
 
 // What is known of the points of a cell.
 struct Surfels::Patch {
-  CellGrid::Cell cell = CellGrid::Cell::Zero();
+  VoxelGrid::Cell cell = VoxelGrid::Cell::Zero();
   Moments moments;
   Neighbour nearest;  // to the middle of the cell
   Vector3 sampled = Vector3::Zero();
@@ -112,10 +113,10 @@ Surfels::Surfels(const Cloud& cloud, Index count, const Context& context)
 Surfels::Surfels(const Cloud& cloud, const Surfels& coarser, const Context& context)
     : Surfels(cloud, 4 * coarser.count_, coarser.uncluttered_, coarser.spacing() / 2, context) {}
 
-Surfels::Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> uncluttered, double guess,
-                 const Context& context)
+Surfels::Surfels(const Cloud& cloud, Index count, std::optional<OccupiedVoxels> uncluttered,
+                 double guess, const Context& context)
     : count_(count), uncluttered_(std::move(uncluttered)) {
-  // More than one point a cell: alone it tells of no patch.
+  // More than one point a cell: alone it determines no patch.
   const double wanted =
       std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.partition.total()));
   choose_cell(cloud, wanted, guess, context.stage(0, 0.5));
@@ -124,7 +125,7 @@ Surfels::Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> unclut
   constexpr int most = 3;
   for (int k = 0; k < most && drop_clutter(patches); ++k) {
     const double kept = static_cast<double>(patches.size()) / wanted;
-    choose_cell(cloud, wanted, grid_.cells().edge() * std::sqrt(kept), context.stage(1, 1));
+    choose_cell(cloud, wanted, grid_.edge() * std::sqrt(kept), context.stage(1, 1));
     patches = patches_of(cloud, context.stage(1, 1));
   }
   make_surfels(patches);
@@ -146,12 +147,12 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
       std::min<double>(finest_cells, guess > 0 ? longest / guess : 1 + std::sqrt(wanted));
   constexpr int guesses = 4;
   for (int k = 0; k < guesses; ++k) {
-    grid_ = CellGrid(cloud.frame.low, cloud.frame.high, longest / cells);
+    grid_ = OccupiedVoxels(VoxelGrid(cloud.frame.low, cloud.frame.high, longest / cells));
     for (Index i = 0; i < cloud.points.size(); ++i) {
       const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
-      if (!is_clutter(x)) grid_.occupy(grid_.cells().cell_of(x));
+      if (!is_clutter(x)) grid_.occupy(grid_.cell_of(x));
     }
-    for (const OccupiedCells::Words& part : cloud.partition.gather(grid_.words()))
+    for (const OccupiedVoxels::Words& part : cloud.partition.gather(grid_.words()))
       grid_.occupy(part);
     grid_.number_them();
     const double occupied = static_cast<double>(grid_.count());
@@ -167,11 +168,11 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
     if (is_clutter(x)) continue;
-    const CellGrid::Cell c = grid_.cells().cell_of(x);
+    const VoxelGrid::Cell c = grid_.cell_of(x);
     Patch& patch = patches[grid_.number(c)];
     patch.cell = c;
-    patch.moments.add(x - grid_.cells().low());
-    patch.sample({cloud.partition.first() + i, (x - grid_.cells().middle(c)).squaredNorm()}, x);
+    patch.moments.add(x - grid_.low());
+    patch.sample({cloud.partition.first() + i, (x - grid_.middle(c)).squaredNorm()}, x);
     if (i % points_a_task == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
@@ -194,17 +195,17 @@ bool Surfels::drop_clutter(std::vector<Patch>& patches) {
     if (is_dense(patch)) continue;
     bool apart = true;
     Moments around;
-    grid_.for_each_touching(patch.cell, [&](Index other) {
+    grid_.for_each_occupied_touching(patch.cell, [&](Index other) {
       apart = apart && !is_dense(patches[other]);
       around += patches[other].moments;
     });
-    if (apart && around.count() >= telling) ++(is_thin(around.covariance()) ? thin : filling);
+    if (apart && around.count() >= least_around) ++(is_thin(around.covariance()) ? thin : filling);
   }
   if (static_cast<double>(filling) < many * static_cast<double>(patches.size())) return false;
   if (filling < mostly * thin) return false;
 
   std::erase_if(patches, std::not_fn(is_dense));
-  grid_.clear();
+  grid_ = OccupiedVoxels(grid_);
   for (const Patch& patch : patches) grid_.occupy(patch.cell);
   grid_.number_them();
   uncluttered_ = grid_;
@@ -215,16 +216,16 @@ void Surfels::make_surfels(const std::vector<Patch>& patches) {
   surfels_.reserve(patches.size());
   for (const Patch& patch : patches) {
     Moments around;
-    grid_.for_each_touching(patch.cell, [&](Index k) { around += patches[k].moments; });
+    grid_.for_each_occupied_touching(patch.cell, [&](Index k) { around += patches[k].moments; });
     const Matrix3 covariance = around.covariance();
     const Thinnest thinnest = thinnest_direction(covariance);
     surfels_.push_back({{thinnest.direction, thinnest.flatness},
-                        grid_.cells().low() + patch.moments.mean(),
+                        grid_.low() + patch.moments.mean(),
                         thinnest.thickness,
                         thinnest.width,
                         patch.sampled,
                         patch.moments.count(),
-                        grid_.cells().low() + around.mean(),
+                        grid_.low() + around.mean(),
                         covariance});
   }
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "spatial/cell_grid.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 
@@ -16,7 +16,7 @@ struct Facet {
   double flatness;  ///< 1: the patch is a surface, 0: a blob or a line, without a normal
 };
 
-/// A patch of the cloud: the points of one grid cell, as their mean, and with the cells around as
+/// A patch of the cloud: the points of one voxel, as their mean, and with the cells around as
 /// their plane. All in the principal frame.
 struct Surfel : Facet {
   Vector3 position;
@@ -51,7 +51,7 @@ class Surfels {
   Points positions(Index count) const;
 
   /// Edge of a cell, about the distance between surfels.
-  double spacing() const { return grid_.cells().edge(); }
+  double spacing() const { return grid_.edge(); }
 
   /// The same of that many points, all the cloud has: on a surface.
   double spacing_of(Index points) const {
@@ -64,7 +64,7 @@ class Surfels {
  private:
   struct Patch;
 
-  Surfels(const Cloud& cloud, Index count, std::optional<CellGrid> uncluttered, double guess,
+  Surfels(const Cloud& cloud, Index count, std::optional<OccupiedVoxels> uncluttered, double guess,
           const Context& context);
   bool is_clutter(const Vector3& x) const { return uncluttered_ && uncluttered_->number_at(x) < 0; }
   void choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context);
@@ -74,9 +74,9 @@ class Surfels {
   void make_surfels(const std::vector<Patch>& patches);
 
   Index count_;  // that was asked for
-  CellGrid grid_;
-  std::optional<CellGrid> uncluttered_;  // a coarser one, what is outside of which is clutter
-  std::vector<Surfel> surfels_;          // one an occupied cell
+  OccupiedVoxels grid_;
+  std::optional<OccupiedVoxels> uncluttered_;  // a coarser one, what is outside of which is clutter
+  std::vector<Surfel> surfels_;                // one an occupied cell
 };
 
 /// The flattest of the surfels whose cells hold x; of nearly equal ones the first.

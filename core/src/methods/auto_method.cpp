@@ -1,7 +1,7 @@
 #include "cloud/cloud.h"
+#include "cloud/surface_points.h"
 #include "methods/registry.h"
 #include "preprocess/volumetric.h"
-#include "spatial/point_tree.h"
 
 namespace symsurf {
 
@@ -32,10 +32,7 @@ class ThinnedCloud {
  public:
   ThinnedCloud(const Cloud& cloud, const Context& context) : cloud_(cloud) {
     if (cloud.points.size() <= thinned_size) return;
-    const PointTree tree(cloud.points, context);
-    std::vector<Index> rows;
-    for (Index k = 0; k < thinned_size; ++k)
-      rows.push_back(tree.order()[k * cloud.points.size() / thinned_size]);
+    const std::vector<Index> rows = spread_along_curve(cloud.points, thinned_size, context);
     points_ = chosen_rows(cloud.points, rows);
     normals_ = chosen_rows(cloud.normals, rows);
     cloud_ = checked_cloud(points_, normals_, 1, context);

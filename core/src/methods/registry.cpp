@@ -1,7 +1,6 @@
 #include "methods/registry.h"
 
-#include <symsurf/errors.h>
-
+#include "base/find_named.h"
 #include "methods/common_parameters.h"
 
 namespace symsurf {
@@ -26,12 +25,7 @@ const std::vector<Method>& methods() {
 }
 
 const MethodImplementation& implementation(std::string_view name) {
-  std::string names;
-  for (const MethodImplementation& candidate : implementations()) {
-    if (candidate.name == name) return candidate;
-    names += (names.empty() ? "" : ", ") + candidate.name;
-  }
-  throw InvalidParameter("there is no method '" + std::string(name) + "'; there are " + names);
+  return find_named(implementations(), name, "method");
 }
 
 const Method& method(std::string_view name) {

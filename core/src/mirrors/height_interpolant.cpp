@@ -21,7 +21,7 @@ Points flattened(const Points& nodes) {
 }
 
 // Of nodes over each other, to rounding, the first.
-Points one_a_place(const Points& nodes) {
+Points distinct_nodes(const Points& nodes) {
   constexpr double rounding = 1e-9;  // of their extent, which map coordinates may leave
   const Points flat = flattened(nodes);
   const PointTree tree(flat);
@@ -48,7 +48,7 @@ double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d) const 
 }
 
 HeightInterpolant::HeightInterpolant(const Points& nodes)
-    : nodes_(one_a_place(nodes)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
+    : nodes_(distinct_nodes(nodes)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
   std::vector<Neighbour> around;
   for (const std::int32_t i : tree_.order()) {
     tree_.nearest({nodes_(i, 0), nodes_(i, 1), 0}, fitted_nodes + 1, around);

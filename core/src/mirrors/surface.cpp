@@ -1,7 +1,8 @@
-#include <symsurf/errors.h>
 #include <symsurf/surface.h>
 
 #include <cmath>
+
+#include "base/find_named.h"
 
 namespace symsurf {
 
@@ -60,14 +61,7 @@ const std::vector<Surface>& surfaces() {
   return list;
 }
 
-const Surface& surface(std::string_view name) {
-  std::string names;
-  for (const Surface& candidate : surfaces()) {
-    if (candidate.name == name) return candidate;
-    names += (names.empty() ? "" : ", ") + candidate.name;
-  }
-  throw InvalidParameter("there is no surface '" + std::string(name) + "'; there are " + names);
-}
+const Surface& surface(std::string_view name) { return find_named(surfaces(), name, "surface"); }
 
 std::vector<std::string> surface_names() {
   std::vector<std::string> names;

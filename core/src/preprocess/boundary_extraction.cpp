@@ -11,7 +11,7 @@
 #include "cloud/neighbourhood_moments.h"
 #include "preprocess/volumetric.h"
 #include "score/matching.h"
-#include "spatial/cells.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 
@@ -34,25 +34,23 @@ std::vector<Index> outer_positions(const Cloud& cloud, const PointTree& tree,
 
   const PrincipalFrame& frame = cloud.frame;
   const double volume = (frame.high - frame.low).prod() / static_cast<double>(positions.size());
-  const Cells cells(frame.low, frame.high, std::cbrt(in_cell * volume));
-  const auto cell_of = [&](Index i) { return cells.cell_of(frame.to_frame(cloud.points[i])); };
-  std::vector<Index> held(cells.count()), occupied;
-  interruptible_for(context, cloud.points.size(),
-                    [&](Index i) { ++held[cells.number(cell_of(i))]; });
+  const VoxelGrid grid(frame.low, frame.high, std::cbrt(in_cell * volume));
+  const auto voxel_of = [&](Index i) {
+    return grid.index(grid.cell_of(frame.to_frame(cloud.points[i])));
+  };
+  std::vector<Index> held(grid.size()), occupied;
+  interruptible_for(context, cloud.points.size(), [&](Index i) { ++held[voxel_of(i)]; });
   std::copy_if(held.begin(), held.end(), std::back_inserter(occupied),
                [](Index n) { return n > 0; });
   const double least = full * static_cast<double>(median(std::move(occupied)));
-  std::vector<char> deep(cells.count());
-  interruptible_for(context, cells.count(), [&](Index number) {
-    int around = 0;
-    cells.for_each_row_touching(cells.numbered(number), [&](Index begin, Index end) {
-      for (Index k = begin; k < end; ++k) around += static_cast<double>(held[k]) >= least;
-    });
-    deep[number] = around == 27;
+  std::vector<char> deep(grid.size());
+  interruptible_for(context, grid.size(), [&](Index voxel) {
+    int full_around = 0;
+    grid.for_each_touching(voxel,
+                           [&](Index k) { full_around += static_cast<double>(held[k]) >= least; });
+    deep[voxel] = full_around == 27;
   });
-  std::erase_if(positions, [&](Index position) {
-    return deep[cells.number(cell_of(tree.order()[position]))];
-  });
+  std::erase_if(positions, [&](Index position) { return deep[voxel_of(tree.order()[position])]; });
   return positions;
 }
 

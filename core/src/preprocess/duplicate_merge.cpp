@@ -3,13 +3,11 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 #include "base/parallel.h"
-#include "base/radix_sort.h"
 #include "score/matching.h"
-#include "spatial/point_hash.h"
+#include "spatial/triple_index.h"
 
 namespace symsurf {
 
@@ -45,26 +43,12 @@ bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
 
 void DuplicateMerge::find_distinct(PointsView points, const Context& context) {
   distinct_.resize(points.size());
-  std::vector<std::uint64_t> hashes(points.size());
-  interruptible_for(context, points.size(), [&](Index i) { hashes[i] = hash_of(points[i]); });
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  radix_sort(hashes, order, context);
-
-  // The first of each point's duplicates, until distinct points are numbered.
-  std::size_t run = 0;
-  interruptible_for(context, points.size(), [&](Index k) {
-    if (hashes[k] != hashes[run]) run = k;
-    const auto same = std::find_if(order.begin() + run, order.begin() + k, [&](std::int32_t other) {
-      return points[other] == points[order[k]];
-    });
-    distinct_[order[k]] = *same;
-  });
+  TripleIndex positions;
   interruptible_for(context, points.size(), [&](Index i) {
-    const std::int32_t first = distinct_[i];
-    const bool is_first = first == i;
-    distinct_[i] = is_first ? static_cast<std::int32_t>(first_.size()) : distinct_[first];
-    if (is_first) first_.push_back(first);
+    const Index position = positions.add(ordered_bits(points[i]));
+    if (position == static_cast<Index>(first_.size()))
+      first_.push_back(static_cast<std::int32_t>(i));
+    distinct_[i] = static_cast<std::int32_t>(position);
   });
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "mesh/triangle_mesh.h"
-#include "spatial/cells.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 
@@ -21,19 +21,19 @@ class Body {
  public:
   Body(PointsView own, const Partition& partition, const PrincipalFrame& frame,
        const Context& context)
-      : frame_(frame), cells_(frame.low, frame.high, edge) {
+      : frame_(frame), grid_(frame.low, frame.high, edge) {
     Counts counts = counts_of(own, partition, context);
     count_duplicates_once(own, partition, counts);
     total_ = counts.sum();
     holding_.assign(counts.size(), false);
-    Cells::Cell low = cells_.cell_of(frame.high), high = cells_.cell_of(frame.low);
+    VoxelGrid::Cell low = grid_.cell_of(frame.high), high = grid_.cell_of(frame.low);
     for (const Index k : large_parts(counts)) {
-      const Cells::Cell cell = cells_.numbered(k);
+      const VoxelGrid::Cell cell = grid_.cell(k);
       low = low.cwiseMin(cell);
       high = high.cwiseMax(cell);
-      for_each_touching(k, [&](Index other) { holding_[other] = true; });
+      grid_.for_each_touching(k, [&](Index other) { holding_[other] = true; });
     }
-    extent_ = edge * (high - low + Cells::Cell::Ones()).cast<double>().norm();
+    extent_ = edge * (high - low + VoxelGrid::Cell::Ones()).cast<double>().norm();
     for (std::size_t k = 0; k < holding_.size(); ++k)
       if (holding_[k]) held_ += counts[k];
   }
@@ -46,23 +46,21 @@ class Body {
 
   bool has_outliers() const { return held_ < total_ && extent_ < most_extent; }
 
-  bool holds(const Vector3& x) const { return holding_[number_at(x)]; }
+  bool holds(const Vector3& x) const { return holding_[voxel_of(x)]; }
 
  private:
   using Counts = Eigen::ArrayX<Index>;
   static constexpr double edge = 1. / 16;  // diagonals
 
-  Index number_at(const Vector3& x) const {
-    return cells_.number(cells_.cell_of(frame_.to_frame(x)));
-  }
+  Index voxel_of(const Vector3& x) const { return grid_.index(grid_.cell_of(frame_.to_frame(x))); }
 
   Counts counts_of(PointsView own, const Partition& partition, const Context& context) const {
     constexpr Index grain = 1 << 16;
-    const Counts none = Counts::Zero(cells_.count());
+    const Counts none = Counts::Zero(grid_.size());
     return partition.sum(
         parallel_sum(context, own.size(), grain, none, [&](Index begin, Index end) {
           Counts counts = none;
-          for (Index i = begin; i < end; ++i) ++counts[number_at(own[i])];
+          for (Index i = begin; i < end; ++i) ++counts[voxel_of(own[i])];
           return counts;
         }));
   }
@@ -73,26 +71,19 @@ class Body {
     for (Index k = 0; k < counts.size(); ++k) {
       if (static_cast<double>(counts[k]) < many || counts[k] < 2) continue;
       Index around = 0;
-      for_each_touching(k, [&](Index other) { around += counts[other]; });
+      grid_.for_each_touching(k, [&](Index other) { around += counts[other]; });
       if (around == counts[k] && are_equal_in(own, k, partition)) counts[k] = 1;
     }
   }
 
-  bool are_equal_in(PointsView own, Index number, const Partition& partition) const {
+  bool are_equal_in(PointsView own, Index voxel, const Partition& partition) const {
     std::vector<Vector3> distinct;
     for (Index i = 0; i < own.size() && distinct.size() < 2; ++i)
-      if (number_at(own[i]) == number && (distinct.empty() || own[i] != distinct.front()))
+      if (voxel_of(own[i]) == voxel && (distinct.empty() || own[i] != distinct.front()))
         distinct.push_back(own[i]);
     distinct = partition.concatenate(distinct);
     return std::all_of(distinct.begin(), distinct.end(),
                        [&](const Vector3& x) { return x == distinct.front(); });
-  }
-
-  template <typename Visit>
-  void for_each_touching(Index number, const Visit& visit) const {
-    cells_.for_each_row_touching(cells_.numbered(number), [&](Index begin, Index end) {
-      for (Index k = begin; k < end; ++k) visit(k);
-    });
   }
 
   // The cells of all connected parts with more points than outliers have, and than would come
@@ -113,14 +104,14 @@ class Body {
         cells.push_back(k);
       };
       reach(start);
-      for (std::size_t k = first; k < cells.size(); ++k) for_each_touching(cells[k], reach);
+      for (std::size_t k = first; k < cells.size(); ++k) grid_.for_each_touching(cells[k], reach);
       if (static_cast<double>(held) < least_part * total) cells.resize(first);
     }
     return cells;
   }
 
   PrincipalFrame frame_;
-  Cells cells_;
+  VoxelGrid grid_;
   std::vector<bool> holding_;
   Index total_ = 0, held_ = 0;
   double extent_ = 0;

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/neighbourhood_moments.h"
-#include "spatial/point_hash.h"
+#include "spatial/triple_index.h"
 
 namespace symsurf {
 

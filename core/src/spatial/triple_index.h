@@ -13,6 +13,30 @@ namespace symsurf {
 /// Three integers that are looked up together: a grid cell, or the bits of a point.
 using Triple = std::array<std::int64_t, 3>;
 
+/// By the finaliser of MurmurHash3: bits of points differ in the high digits only, cells in the low
+/// ones.
+inline std::uint64_t hash_of(const Triple& triple) {
+  std::uint64_t mixed = 0;
+  for (const std::int64_t v : triple) {
+    mixed = (mixed ^ static_cast<std::uint64_t>(v)) * 0xff51afd7ed558ccdu;
+    mixed = (mixed ^ mixed >> 33) * 0xc4ceb9fe1a85ec53u;
+    mixed ^= mixed >> 33;
+  }
+  return mixed;
+}
+
+/// The same for copies of a point, all but surely another for others.
+inline std::uint64_t hash_of(const Vector3& x) {
+  Triple bits;
+  for (int axis = 0; axis < 3; ++axis) bits[axis] = std::bit_cast<std::int64_t>(x[axis] + 0.0);
+  return hash_of(bits);
+}
+
+/// Chooses that share of points by their hashes: whatever their order, and copies together.
+inline bool is_chosen(std::uint64_t hash, double share) {
+  return hash >> 32 <= static_cast<std::uint64_t>(share * 0xffffffffu);
+}
+
 /// The bits of a point, ordered as its coordinates are; 0 and -0 give the same.
 inline Triple ordered_bits(const Vector3& x) {
   Triple triple;
@@ -43,19 +67,9 @@ class TripleIndex {
   }
 
  private:
-  // Coordinates' bits differ in the high digits only, cells in the low ones: mix both ways.
-  static std::uint64_t hash(const Triple& triple) {
-    std::uint64_t h = 0;
-    for (const std::int64_t v : triple) {
-      h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15;
-      h ^= h >> 32;
-    }
-    return h;
-  }
-
   std::size_t find(const Triple& triple) const {
     const std::size_t last = slots_.size() - 1;
-    std::size_t slot = hash(triple) & last;
+    std::size_t slot = hash_of(triple) & last;
     while (slots_[slot] >= 0 && triples_[slots_[slot]] != triple) slot = (slot + 1) & last;
     return slot;
   }

@@ -1,8 +1,8 @@
 #include <symsurf/damage.h>
-#include <symsurf/errors.h>
 
 #include <numeric>
 
+#include "base/find_named.h"
 #include "base/math.h"
 
 namespace symsurf {
@@ -102,13 +102,8 @@ const std::vector<Damage>& damages() {
 
 Damaged damage(std::string_view name, PointsView points, const Values& parameters,
                std::uint64_t seed) {
-  std::string names;
-  for (const Damage& kind : damages()) {
-    if (kind.name == name)
-      return kind.run(points, ParameterValues(kind.name, kind.parameters, parameters), seed);
-    names += (names.empty() ? "" : ", ") + kind.name;
-  }
-  throw InvalidParameter("there is no damage '" + std::string(name) + "'; there are " + names);
+  const Damage& kind = find_named(damages(), name, "damage");
+  return kind.run(points, ParameterValues(kind.name, kind.parameters, parameters), seed);
 }
 
 }  // namespace symsurf

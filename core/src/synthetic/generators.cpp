@@ -1,6 +1,7 @@
 #include <symsurf/errors.h>
 #include <symsurf/synthetic.h>
 
+#include "base/find_named.h"
 #include "base/math.h"
 
 namespace symsurf {
@@ -129,14 +130,8 @@ const std::vector<Generator>& generators() {
 }
 
 Sample generate(std::string_view name, const Values& parameters, PointsView points) {
-  std::string names;
-  for (const Generator& generator : generators()) {
-    if (generator.name == name)
-      return generator.run(points,
-                           ParameterValues(generator.name, generator.parameters, parameters));
-    names += (names.empty() ? "" : ", ") + generator.name;
-  }
-  throw InvalidParameter("there is no generator '" + std::string(name) + "'; there are " + names);
+  const Generator& generator = find_named(generators(), name, "generator");
+  return generator.run(points, ParameterValues(generator.name, generator.parameters, parameters));
 }
 
 }  // namespace symsurf

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "base/symmetric_eigen.h"
 #include "methods/common_parameters.h"
-#include "methods/cylinder/cylinder_candidates.h"
+#include "methods/parametric/pair_hypotheses.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/unit_cylinder.h"
 #include "methods/registry.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
@@ -15,13 +18,58 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index started = 48;                  // candidates that are settled on the surfels
+using CylinderCandidate = Candidate<UnitCylinder>;
+
+constexpr Index pairs_tried = 30000, pairs_kept = 4000;
+constexpr int axes = 6;  // directions over the half circle, the first as the normals tell
+
+// To both sides of the pair. In units of the inverse diagonal.
+constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6, 6.5, 9.0};
+
+// Of a tube, its own: the normals of its surfaces lie across it.
+Vector3 axis_of_normals(const Surfels& surfels) {
+  Matrix3 normals = Matrix3::Zero();
+  for (Index i = 0; i < surfels.size(); ++i)
+    normals += surfels[i].flatness * surfels[i].normal * surfels[i].normal.transpose();
+  return least_eigen_of(normals).vector;
+}
+
+// As far as it lies across u.
+Vector3 axis_across(const Vector3& u, const Vector3& axis) {
+  const Vector3 across = axis - axis.dot(u) * u;
+  return across.norm() > 1e-6 ? across.normalized() : u.unitOrthogonal();
+}
+
+// Cylinders that mirror a pair of surfels onto each other, normals included. A pair fixes a point
+// and the normal of the cylinder there; curvature and direction of the axis are scanned. The best
+// `count` that differ.
+std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const SurfelMap& map,
+                                                   std::uint64_t seed, Index count,
+                                                   const Context& context) {
+  const Vector3 of_normals = axis_of_normals(surfels);
+  const auto through = [&](const Vector3& middle, const Vector3& u, double most, const auto& add) {
+    const Vector3 first = axis_across(u, of_normals), second = u.cross(first);
+    for (int k = 0; k < axes; ++k) {
+      const double angle = std::numbers::pi * k / axes;
+      const Vector3 axis = std::cos(angle) * first + std::sin(angle) * second;
+      for (const double curvature : curvatures)
+        for (const double side : {-1.0, 1.0})
+          if (curvature <= most)
+            add(UnitCylinder{middle + side / curvature * u, axis, 1 / curvature});
+    }
+  };
+  return best_of_each_size(
+      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
+      [](const UnitCylinder& cylinder) { return cylinder.radius; }, surfels, map, count, context);
+}
+
+constexpr Index started = 48;                  // candidates that are refined on the surfels
 constexpr Index fitted_to_all = 8;             // of these, are fitted to the full cloud
 constexpr std::size_t polished_cylinders = 3;  // and of these, to ever more of it
 constexpr std::size_t rescanned = 4;           // candidates whose axis is looked at more closely
 constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
 constexpr double chance_explains = 0.35;  // what cylinders explain of random solids before that
-constexpr double far_below_best = 0.6;    // of what the best explains: not worth fitting
+constexpr double least_support = 0.6;     // of the best; others are not fitted
 constexpr double alike_cylinders = 0.04;  // cylinders closer than this are one
 constexpr double widest = 6;  // radius, in diagonals: wider ones are hardly told from planes
 
@@ -30,10 +78,10 @@ Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& fram
           frame.size * cylinder.radius};
 }
 
-void drop_far_below_best(std::vector<CylinderCandidate>& candidates) {
+void drop_weakly_supported(std::vector<CylinderCandidate>& candidates) {
   std::erase_if(candidates, [](const CylinderCandidate& c) { return !(c.shape.radius < widest); });
   if (candidates.empty()) return;
-  const double least = far_below_best * candidates.front().support;
+  const double least = least_support * candidates.front().support;
   std::erase_if(candidates, [&](const CylinderCandidate& c) { return c.support < least; });
 }
 
@@ -46,15 +94,15 @@ UnitCylinder turned(const UnitCylinder& cylinder, double angle) {
 }
 
 // On the thinned cloud alone.
-std::vector<CylinderCandidate> promising_cylinders(const Surfels& surfels, std::uint64_t seed,
-                                                   const Context& context) {
+std::vector<CylinderCandidate> refined_cylinders(const Surfels& surfels, std::uint64_t seed,
+                                                 const Context& context) {
   const SurfelMap map(surfels);
   std::vector<CylinderCandidate> candidates =
       candidate_cylinders(surfels, map, seed, started, context);
   for (CylinderCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
   suppress_non_maxima(surfels, candidates, alike_cylinders, started);
-  if (!candidates.empty()) drop_far_below_best(candidates);
+  if (!candidates.empty()) drop_weakly_supported(candidates);
   for (CylinderCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
   suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
@@ -72,7 +120,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   best.method = "cylinder";
   const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
   std::vector<CylinderCandidate> candidates =
-      promising_cylinders(surfels, cloud.seed, context.stage(0.1, 0.4));
+      refined_cylinders(surfels, cloud.seed, context.stage(0.1, 0.4));
   if (candidates.empty()) return best;
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
@@ -86,7 +134,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
     if (i == 0 || candidates[i].support > chance_explains)
       candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
   suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
-  drop_far_below_best(candidates);
+  drop_weakly_supported(candidates);
   context.report(0.7);
   if (candidates.empty()) return best;
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math.h"
 #include "base/semidefinite_solve.h"
 #include "base/symmetric_eigen.h"
 #include "methods/free_form/hermite_fit.h"
+#include "methods/plane/plane_candidates.h"
 
 namespace symsurf::perpendicular {
 
@@ -83,7 +85,7 @@ BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
   return {at, Vector3(at.x(), at.y(), jet.h), upwards / slant, slant};
 }
 
-std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
+std::optional<BentPlane::Equation> BentPlane::equation_of(Index i, double tolerance) {
   constexpr double farthest = 3;  // tolerances
   constexpr double least_cosine = 0.6;
   const Vector3 x = to_frame(cloud_->point(i));
@@ -103,39 +105,39 @@ std::optional<BentPlane::Pull> BentPlane::pull_of(Index i, double tolerance) {
 
   // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
   // 2 d grad q.
-  Pull pull{heights_.weights(foot.at), {}, 0, 0};
+  Equation equation{heights_.weights(foot.at), {}, 0, 0};
   const double u = -foot.normal.x() / foot.normal.z(), v = -foot.normal.y() / foot.normal.z();
   Eigen::Matrix2d metric;
   metric << 1 + u * u, u * v, u * v, 1 + v * v;
   const At slopes =
       metric.inverse() * At(partner.x() + u * partner.z(), partner.y() + v * partner.z());
-  pull.row = 2 / foot.slant *
-             (partner.dot(foot.normal) * pull.at.h +
-              distance * (slopes.x() * pull.at.u + slopes.y() * pull.at.v));
-  pull.miss = partner.dot(to_frame(cloud_->point(near.index)) - image);
+  equation.row = 2 / foot.slant *
+                 (partner.dot(foot.normal) * equation.at.h +
+                  distance * (slopes.x() * equation.at.u + slopes.y() * equation.at.v));
+  equation.miss = partner.dot(to_frame(cloud_->point(near.index)) - image);
   const double far = near.squared_distance / (tolerance * tolerance);
-  pull.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
-  return pull;
+  equation.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
+  return equation;
 }
 
 void BentPlane::step(double tolerance, double stiffness, Index stride) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(heights_.size(), heights_.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(heights_.size());
   double total = 0;
-  Index looked = 0;
-  for (Index p = 0; p < cloud_->size(); p += stride, ++looked) {
-    const auto pull = pull_of(cloud_->tree.order()[p], tolerance);
-    if (!pull) continue;
-    total += pull->weight;
+  Index sampled = 0;
+  for (Index p = 0; p < cloud_->size(); p += stride, ++sampled) {
+    const auto equation = equation_of(cloud_->tree.order()[p], tolerance);
+    if (!equation) continue;
+    total += equation->weight;
     const Eigen::Matrix<double, Weights::count, Weights::count> products =
-        pull->weight * pull->row.transpose() * pull->row;
-    const auto& index = pull->at.index;
+        equation->weight * equation->row.transpose() * equation->row;
+    const auto& index = equation->at.index;
     for (int a = 0; a < Weights::count; ++a) {
-      right[index[a]] += pull->weight * pull->miss * pull->row[a];
+      right[index[a]] += equation->weight * equation->miss * equation->row[a];
       for (int b = 0; b < Weights::count; ++b) matrix(index[a], index[b]) += products(a, b);
     }
   }
-  agreed_ = total / static_cast<double>(looked);
+  support_ = total / static_cast<double>(sampled);
   if (total == 0) return;
   const Eigen::MatrixXd energy = stiffness * energy_;
   const Eigen::VectorXd change =
@@ -190,6 +192,95 @@ std::shared_ptr<const FreeForm> BentPlane::free_form() const {
       patches.push_back(patch);
     }
   return std::make_shared<FreeForm>(std::move(patches));
+}
+
+namespace {
+
+constexpr Index patches = 1000, best_planes = 6;  // of the cloud; candidates
+constexpr double alike = 0.05;                    // mirrors closer than this are one
+constexpr Index few = 600, many = 2000;           // points that planes are bent by
+constexpr std::size_t most_bent = 3;              // to the end
+constexpr double unbent = 0.997;                  // flatness of what is a plane still
+constexpr double bent_foot_precision = 1e-6;
+
+// From a stiff plane that looks far to one that bends and looks near.
+constexpr int stages = 16, first_stages = 6, steps_a_stage = 2;
+constexpr double widest = 0.06, narrowest = 0.01, closest = 0.8;  // diagonals; spacings
+constexpr double stiffest = 3e-2, softest = 2e-6;
+constexpr bool is_finer(int stage) { return stage == 4 || stage == 8 || stage == 13; }
+
+std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& context) {
+  const Surfels surfels(cloud, patches, context);
+  const SurfelMap map(surfels);
+  std::vector<PlaneCandidate> candidates =
+      candidate_planes(surfels, map, usual_search, 2 * best_planes);
+  for (PlaneCandidate& candidate : candidates)
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
+  suppress_non_maxima(candidates, alike, best_planes);
+  for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
+  suppress_non_maxima(candidates, alike, best_planes + 3);
+  std::vector<UnitPlane> planes;
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
+  return planes;
+}
+
+BentPlane laid_on(const SearchCloud& search, const Plane& plane) {
+  const Vector3 point = plane.foot(search.centroid) - search.centroid;
+  return {search, point / search.diagonal, plane.normal()};
+}
+
+void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& plane) {
+  const Index stride = std::max<Index>(1, search.size() / points);
+  for (int stage = from; stage < to; ++stage) {
+    search.context.check();
+    if (is_finer(stage)) plane.subdivide();
+    const double part = stage / (stages - 1.0);
+    const double tolerance =
+        std::max(widest * std::pow(narrowest / widest, part), closest * search.spacing);
+    for (int k = 0; k < steps_a_stage; ++k)
+      plane.step(tolerance, stiffest * std::pow(softest / stiffest, part), stride);
+  }
+}
+
+// Whether they send points to like positions.
+bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b) {
+  constexpr Index probes = 40;
+  const Index stride = std::max<Index>(1, search.size() / probes);
+  double squared = 0;
+  Index count = 0;
+  for (Index p = 0; p < search.size(); p += stride, ++count) {
+    const Vector3 x = search.point(search.tree.order()[p]);
+    squared += (a.image(x) - b.image(x)).squaredNorm();
+  }
+  return squared < alike * alike * static_cast<double>(count);
+}
+
+}  // namespace
+
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
+                 const Context& context) {
+  std::vector<BentPlane> bent;
+  for (const UnitPlane& plane : candidate_mirrors(cloud, context.stage(0, 0.1))) {
+    bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
+    bend(search, 0, first_stages, few, bent.back());
+  }
+  std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
+    return a.support() > b.support();
+  });
+  suppress_non_maxima(bent, most_bent, [&](const BentPlane& a, const BentPlane& b) {
+    return act_alike(search, a, b);
+  });
+  for (std::size_t k = 0; k < bent.size(); ++k) {
+    context.stage(0.4, 1).report(static_cast<double>(k) / most_bent);
+    bend(search, first_stages, stages, many, bent[k]);
+    GrownSurface surface;
+    surface.mirror = bent[k].free_form();
+    match(search, bent_foot_precision, surface);
+    if (surface.carried.size() < 6 || flatness(surface) > unbent) continue;
+    surface.support = support(search, surface);
+    surface.bent = true;
+    surfaces.push_back(std::move(surface));
+  }
 }
 
 }  // namespace symsurf::perpendicular

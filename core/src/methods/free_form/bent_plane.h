@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "methods/free_form/free_form_refinement.h"
 #include "methods/free_form/height_spline.h"
 #include "methods/free_form/search_cloud.h"
 
@@ -20,13 +21,13 @@ class BentPlane {
 
   /// One Gauss-Newton step on the points of every `stride`-th position of the tree's order: images
   /// are drawn to the tangent planes of their partners, against the bending energy times
-  /// `stiffness`. Partners farther than `tolerance` have little say.
+  /// `stiffness`. Partners farther than `tolerance` weigh little.
   void step(double tolerance, double stiffness, Index stride);
 
   void subdivide();
 
-  /// The share of those points whose images agreed with the cloud, as it was before the last step.
-  double agreed() const { return agreed_; }
+  /// The share of those points whose images fell on the cloud, as it was before the last step.
+  double support() const { return support_; }
 
   Vector3 image(const Vector3& x) const;
 
@@ -41,9 +42,9 @@ class BentPlane {
     double slant;  // one over the cosine between the mirror's normal and the plane's
   };
 
-  // How far a point's image is off its partner's tangent plane, and what each coefficient that has
-  // a say at the foot does about it.
-  struct Pull {
+  // Of least squares: how far a point's image is off its partner's tangent plane, and by how much
+  // each coefficient that reaches the foot moves it.
+  struct Equation {
     HeightSpline::Weights at;
     HeightSpline::Weights::Row row;
     double miss, weight;
@@ -51,7 +52,7 @@ class BentPlane {
 
   Vector3 to_frame(const Vector3& x) const { return axes_ * (x - origin_); }
   Foot foot(const Vector3& x, HeightSpline::At from) const;
-  std::optional<Pull> pull_of(Index i, double tolerance);
+  std::optional<Equation> equation_of(Index i, double tolerance);
 
   const SearchCloud* cloud_;
   Vector3 origin_;
@@ -59,7 +60,14 @@ class BentPlane {
   HeightSpline heights_;
   Eigen::MatrixXd energy_;              // theirs
   std::vector<HeightSpline::At> feet_;  // of the points, as they were last
-  double agreed_ = 0;
+  double support_ = 0;
 };
+
+/// Adds the surfaces that the best mirror planes and the principal planes of the cloud become when
+/// they are bent until they mirror it. Unlike surfaces that grow they need no partners that stand
+/// close to the images, and take hold of what both sides have in common by and by; but they have to
+/// be within reach of a plane.
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
+                 const Context& context);
 
 }  // namespace symsurf::perpendicular

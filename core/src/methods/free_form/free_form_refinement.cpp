@@ -7,13 +7,11 @@
 #include "base/math.h"
 
 namespace symsurf::perpendicular {
-
 namespace {
-
 constexpr double exact_miss = 0.25;  // spacings, in the median
 constexpr double flat_enough = 0.995;
 constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
-constexpr double least_island = 0.15;                      // of the largest
+constexpr double least_component = 0.15;                   // of the largest
 constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
 
 struct Smoothing {
@@ -42,36 +40,36 @@ Points feet_of(const std::vector<Carried>& carried) {
   return feet;
 }
 
-// Pieces that hang together. Beside a true surface, small ones are what chance has to offer.
-void drop_islands(const SearchCloud& cloud, std::vector<Carried>& carried) {
+// Small connected components beside a large one are pairs by chance.
+void drop_small_components(const SearchCloud& cloud, std::vector<Carried>& carried) {
   if (carried.empty()) return;
   const Points feet = feet_of(carried);
   const PointTree tree(feet);
-  std::vector<std::int32_t> island(carried.size(), -1);
+  std::vector<std::int32_t> component(carried.size(), -1);
   std::vector<Index> sizes, open;
   for (Index first = 0; first < feet.rows(); ++first) {
-    if (island[first] >= 0) continue;
-    const auto name = static_cast<std::int32_t>(sizes.size());
+    if (component[first] >= 0) continue;
+    const auto label = static_cast<std::int32_t>(sizes.size());
     sizes.push_back(0);
-    island[first] = name;
+    component[first] = label;
     open.push_back(first);
     while (!open.empty()) {
       const Index i = open.back();
       open.pop_back();
-      ++sizes[name];
+      ++sizes[label];
       tree.within(feet.row(i), together * cloud.spacing, [&](Index other, double) {
-        if (island[other] >= 0) return;
+        if (component[other] >= 0) return;
         if (std::abs(carried[other].normal.dot(carried[i].normal)) < together_normals) return;
-        island[other] = name;
+        component[other] = label;
         open.push_back(other);
       });
     }
   }
   const auto least =
-      least_island * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+      least_component * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
   std::size_t k = 0;
   std::erase_if(carried,
-                [&](const Carried&) { return static_cast<double>(sizes[island[k++]]) < least; });
+                [&](const Carried&) { return static_cast<double>(sizes[component[k++]]) < least; });
 }
 
 // Patches about one spacing apart, each fitted to the data around it.
@@ -122,7 +120,7 @@ std::shared_ptr<const FreeForm> fitted(const SearchCloud& cloud,
 }
 
 double local_spacing(const SearchCloud& cloud, Index i) {
-  return std::max(cloud.spacing, cloud.local_spacing[i]);
+  return std::max(cloud.spacing, cloud.spacings[i]);
 }
 
 }  // namespace
@@ -187,7 +185,7 @@ void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
         surface.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
                       : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !surface.mirror;
-    if (!surface.exact) drop_islands(cloud, surface.carried);
+    if (!surface.exact) drop_small_components(cloud, surface.carried);
     surface.mirror = fitted(cloud, surface.carried,
                             fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!surface.mirror) return;
@@ -207,10 +205,10 @@ double support(const SearchCloud& cloud, const GrownSurface& surface) {
   for (std::size_t k = 0; k < surface.carried.size(); ++k) {
     const Carried& c = surface.carried[k];
     const double tau = local_spacing(cloud, surface.points[k]);
-    // Exact partners can be told from their neighbours however near the mirror they are.
+    // Exact partners differ from their neighbours however near the mirror they are.
     const double least = surface.exact ? 0.3 * tau : tau;
     const double moved = std::clamp(2 * std::abs(c.distance) / least - 1, 0.0, 1.0);
-    sum += moved * landing(c, tau);
+    sum += moved * closeness(c, tau);
   }
   return sum / static_cast<double>(cloud.size());
 }

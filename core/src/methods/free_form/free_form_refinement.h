@@ -13,7 +13,7 @@ namespace symsurf::perpendicular {
 /// A surface fitted to all points that mirror over it.
 struct GrownSurface {
   std::shared_ptr<const FreeForm>
-      mirror;                    ///< in the search's frame; null when the surface dissolved
+      mirror;                    ///< in the search's frame; null where no patches could be fitted
   std::vector<Carried> carried;  ///< one a point that found a partner
   std::vector<std::int32_t> points, partners;
   double typical_miss = 0;  ///< median distance from an image to its partner, in spacings
@@ -23,7 +23,7 @@ struct GrownSurface {
 };
 
 /// Mirror, match, refit: starts from the surface's mirror or, without one, from what it has
-/// carried. The surface has no mirror afterwards when it dissolved.
+/// carried. The surface has no mirror afterwards where too few points match.
 void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface);
 
 /// Carries all points over a mirror: gives its foot for x and its normal there, or false.

@@ -47,7 +47,7 @@ bool Growth::carry(std::int32_t i, const Patch& guide, Carried& c, std::int32_t&
   if (!patch_foot(guide, x, c.foot, c.normal)) return false;
   c.distance = c.normal.dot(x - c.foot);
   const Vector3 image = x - 2 * c.distance * c.normal;
-  const double reach = tolerance * std::max(cloud_->spacing, cloud_->local_spacing[i]);
+  const double reach = tolerance * std::max(cloud_->spacing, cloud_->spacings[i]);
   const Neighbour near = cloud_->tree.nearest(image, reach * reach);
   if (near.index < 0 || near.index == i) return false;
   const Vector3 y = cloud_->point(near.index), chord = x - y;
@@ -78,7 +78,7 @@ bool Growth::accept(std::int32_t i, const Patch& guide) {
   return true;
 }
 
-void Growth::settle() {
+void Growth::refine() {
   for (const std::int32_t i : accepted_) {
     Carried c;
     std::int32_t partner;
@@ -111,7 +111,7 @@ void Growth::refit(std::int32_t i) {
       data.push_back(carried(j));
     }
   };
-  // Where partners are exact few data say more than many; elsewhere reach farther.
+  // Where partners are exact, few data determine a patch; elsewhere noise averages out over more.
   const int stride = exact_ ? SearchCloud::ring : 5;
   for (const std::int32_t end : {i, partner_[i]}) {
     meet(end);
@@ -171,7 +171,8 @@ void Growth::grow(Index most) {
 
 double Growth::closeness() const {
   double sum = 0;
-  for (const std::int32_t i : accepted_) sum += landing(carried(i), cloud_->spacing);
+  for (const std::int32_t i : accepted_)
+    sum += perpendicular::closeness(carried(i), cloud_->spacing);
   return accepted_.empty() ? 0 : sum / static_cast<double>(accepted_.size());
 }
 

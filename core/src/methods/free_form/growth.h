@@ -17,7 +17,7 @@ class Growth {
   void grow(Index most);
 
   /// Carries every accepted point over its own patch and fits the patches again.
-  void settle();
+  void refine();
 
   /// Points that have found a partner, in the order found.
   const std::vector<std::int32_t>& accepted() const { return accepted_; }
@@ -25,9 +25,9 @@ class Growth {
   const Patch& patch(Index i) const { return patches_[patch_of_[i]]; }
   const Carried& carried(Index i) const { return carried_[patch_of_[i]]; }
 
-  /// How well the accepted points land, 0 to 1.
+  /// Of the accepted points, in the mean.
   double closeness() const;
-  /// Whether the partners are the images themselves: told by settling.
+  /// Whether the partners are the images themselves, as of the last refine().
   bool exact() const { return exact_; }
   double mean_half_chord() const;
 
@@ -41,7 +41,7 @@ class Growth {
   const SearchCloud* cloud_;
   std::vector<std::int32_t> accepted_, frontier_;
   std::vector<std::int32_t> partner_, guide_, patch_of_;
-  std::vector<std::int32_t> slot_of_;  // in the data of the latest patch they had a say in
+  std::vector<std::int32_t> slot_of_;  // in the data of the latest patch fitted to them
   std::vector<char> tries_;
   std::vector<Patch> patches_;
   std::vector<Carried> carried_;

@@ -7,7 +7,7 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr int spline_support = 4;  // coefficients that have a say along a side
+constexpr int spline_support = 4;  // coefficients that are not 0 along a side
 
 // The cubic B-splines that overlap a cell, and their derivatives, at t of its length, 0 to 1.
 struct Cubics {

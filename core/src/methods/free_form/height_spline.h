@@ -17,8 +17,8 @@ class HeightSpline {
     double h, u, v, uu, uv, vv;
   };
 
-  /// What the coefficients that have a say at a position weigh there: in the height, in its slopes
-  /// and in its second derivatives.
+  /// What the coefficients of the splines that reach a position weigh there: in the height, in its
+  /// slopes and in its second derivatives.
   struct Weights {
     static constexpr int count = 16;
     using Row = Eigen::Matrix<double, 1, count>;

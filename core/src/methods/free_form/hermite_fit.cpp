@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/semidefinite_solve.h"
 #include "base/vectorised.h"
 
@@ -42,25 +43,15 @@ SYMSURF_VECTORISED void add_weighted(const double* products, const double* weigh
     for (std::size_t k = 0; k < 28; ++k) sum[k] += weights[e] * products[28 * e + k];
 }
 
-double tukey(double residual, double scale) {
-  const double u = residual / (4.7 * scale);
-  return u >= 1 ? 0 : (1 - u * u) * (1 - u * u);
-}
-
 }  // namespace
 
 Matrix3 frame_of(const Vector3& normal) {
   Matrix3 frame;
-  int least;
-  normal.cwiseAbs().minCoeff(&least);
-  const Vector3 first = normal.cross(Vector3::Unit(least)).normalized();
-  frame.row(0) = first.transpose();
-  frame.row(1) = normal.cross(first).transpose();
-  frame.row(2) = normal.transpose();
+  frame << orthogonal_to(normal).transpose(), normal.transpose();
   return frame;
 }
 
-double landing(const Carried& c, double spacing) {
+double closeness(const Carried& c, double spacing) {
   constexpr double across_scale = 0.3, angle_scale = 0.3, exact_scale = 0.2, exact_share = 0.3;
   const double across = c.miss.dot(c.partner_normal) / (across_scale * spacing);
   const double angle = c.turned / angle_scale;
@@ -142,7 +133,7 @@ bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<C
     }
     trusted.resize(equations.size());
     for (std::size_t e = 0; e < equations.size(); ++e)
-      trusted[e] = equations[e].weight * (pass > 0 ? tukey(misses[e], scale) : 1);
+      trusted[e] = equations[e].weight * (pass > 0 ? biweight(misses[e] / (4.7 * scale)) : 1);
     Products sum{};
     add_weighted(products.front().data(), trusted.data(), products.size(), sum.data());
     Normal matrix;

@@ -17,21 +17,21 @@ struct Carried {
   double weight = 1;
 };
 
-/// How well an image lands, 0 to 1: across the partner's surface, along it (which tells exact
-/// partners from mere neighbours), and by the angle between the normals.
-double landing(const Carried& carried, double spacing);
+/// How well an image fits its partner, 0 to 1: across the partner's surface, along it (where exact
+/// partners differ from mere neighbours), and by the angle between the normals.
+double closeness(const Carried& carried, double spacing);
 
 /// How a quadratic patch weighs what it is fitted to.
 struct FitWeights {
-  double radius;        ///< data farther than this from the centre have no say
+  double radius;        ///< data farther than this from the centre weigh nothing
   double along = 0.08;  ///< weight of a miss along the partner's surface, against one across it
   double robust_scale;  ///< at the least; a miss above 4.7 of these is an outlier (Tukey 1960)
   int passes = 2;
 };
 
 /// The quadratic patch that mends the misses best (Hermite moving least squares: a shift of the
-/// mirror by q moves the image by 2 q n + 2 d grad q, so each miss tells of height and of slope).
-/// False where the data do not determine one.
+/// mirror by q moves the image by 2 q n + 2 d grad q, so each miss is an equation for height and
+/// slope). False where the data do not determine one.
 bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<Carried>& data,
                const FitWeights& weights, Patch& patch);
 

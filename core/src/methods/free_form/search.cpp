@@ -1,19 +1,205 @@
 #include "methods/free_form/search.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
-#include "methods/free_form/assembly.h"
-#include "methods/free_form/bending.h"
-#include "methods/free_form/exploration.h"
+#include "methods/free_form/bent_plane.h"
+#include "methods/free_form/growth.h"
 #include "methods/free_form/seeds.h"
 
 namespace symsurf::perpendicular {
 
 namespace {
 
+constexpr std::size_t most_trials = 20, most_surfaces = 4;  // of either kind of seed
+constexpr Index trial_points = 60;
+constexpr int trial_refinements = 2, first_rounds = 2;
+constexpr std::array<double, 3> seed_distances{12, 6,
+                                               3};  // spacings between seeds, while there are any
+constexpr double least_support = 0.3;
+constexpr double same_direction = 0.9;
+constexpr double least_expected = 0.4;  // of the best support
+constexpr double enough_support = 0.85;
+
+// Seeds to try: the best supported first, but far from each other before they crowd.
+std::vector<Seed> spread_out(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+                             std::size_t most) {
+  struct Position {
+    Vector3 middle, direction;
+  };
+  std::vector<Position> positions;
+  std::vector<Seed> chosen;
+  for (const double spacings : seed_distances) {
+    const double apart = spacings * cloud.spacing;
+    for (const Seed& seed : seeds) {
+      if (chosen.size() == most || seed.support < least_support) break;
+      const Vector3 x = cloud.point(seed.first), y = cloud.point(seed.second);
+      const Position here{(x + y) / 2, (x - y).normalized()};
+      const bool seen = std::any_of(positions.begin(), positions.end(), [&](const Position& other) {
+        return (other.middle - here.middle).squaredNorm() < apart * apart &&
+               std::abs(other.direction.dot(here.direction)) > same_direction;
+      });
+      if (seen) continue;
+      positions.push_back(here);
+      chosen.push_back(seed);
+    }
+  }
+  return chosen;
+}
+
+// Whether a surface already mirrors most of what the trial has found.
+bool known(const SearchCloud& cloud, const Growth& growth, const GrownSurface& surface) {
+  std::size_t agree = 0;
+  const double near = 1.5 * cloud.spacing;
+  for (const std::int32_t i : growth.accepted()) {
+    const Vector3 image = surface.mirror->reflect(cloud.point(i));
+    if ((image - cloud.point(growth.partner(i))).squaredNorm() < near * near) ++agree;
+  }
+  return 2 * agree > growth.accepted().size();
+}
+
+// The first steps of at most so many growths from the best seeds, the closest fit first.
+std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+                           std::size_t most) {
+  std::vector<Growth> growths;
+  for (const Seed& seed : spread_out(cloud, seeds, most)) {
+    Growth growth(cloud, seed);
+    growth.grow(trial_points);
+    if (static_cast<Index>(growth.accepted().size()) < trial_points / 2) continue;
+    for (int k = 0; k < trial_refinements; ++k) growth.refine();
+    growths.push_back(std::move(growth));
+  }
+  std::stable_sort(growths.begin(), growths.end(),
+                   [](const Growth& a, const Growth& b) { return a.closeness() > b.closeness(); });
+  return growths;
+}
+
+// Adds the surfaces grown from trials, each from one that no surface before explains, and refines
+// those that may come near the best support so far. In the order found.
+void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds,
+             std::vector<GrownSurface>& surfaces, const Context& context) {
+  double best = 0;
+  for (const GrownSurface& surface : surfaces) best = std::max(best, surface.support);
+  std::size_t grown = 0;
+  for (Growth& growth : trials(cloud, seeds, most_trials)) {
+    context.report(static_cast<double>(grown) / most_surfaces);
+    if (std::any_of(surfaces.begin(), surfaces.end(),
+                    [&](const GrownSurface& surface) { return known(cloud, growth, surface); }))
+      continue;
+    growth.grow(cloud.size());
+    // Refining a surface that mirrors far fewer points than the best does not change the result.
+    const double expected = growth.closeness() * static_cast<double>(growth.accepted().size()) /
+                            static_cast<double>(cloud.size());
+    if (++grown > most_surfaces) break;
+    if (expected < least_expected * best) continue;
+    GrownSurface surface;
+    for (const std::int32_t i : growth.accepted()) surface.carried.push_back(growth.carried(i));
+    refine(cloud, first_rounds, surface);
+    if (!surface.mirror) continue;
+    best = std::max(best, surface.support);
+    const bool enough = surface.support > enough_support && !is_flat(surface);
+    surfaces.push_back(std::move(surface));
+    if (enough) break;
+  }
+}
+
+constexpr int last_rounds = 8;
+constexpr std::size_t most_refined = 3;
+constexpr double least_rank = 0.7;  // of the best; others are not refined
+
+// Of mirrors with about the same support the curved one comes first: planes have their own method.
+double rank(const GrownSurface& surface) { return (is_flat(surface) ? 0.85 : 1) * surface.support; }
+bool ranks_higher(const GrownSurface& a, const GrownSurface& b) { return rank(a) > rank(b); }
+
+// How well the points that a surface carries land.
+double precision(const SearchCloud& cloud, const GrownSurface& surface) {
+  return surface.support * static_cast<double>(cloud.size()) /
+         static_cast<double>(surface.carried.size());
+}
+
+// The side of the surface a point is on: 1, -1 or 0 for a point that the surface does not carry.
+std::vector<signed char> sides(const SearchCloud& cloud, const GrownSurface& surface) {
+  std::vector<signed char> side(cloud.size(), 0);
+  for (std::size_t k = 0; k < surface.points.size(); ++k)
+    side[surface.points[k]] = surface.carried[k].distance > 0 ? 1 : -1;
+  return side;
+}
+
+// The sum of agreeing less disagreeing sides between neighbours, one in each surface.
+int correspondence(const SearchCloud& cloud, const std::vector<signed char>& a,
+                   const std::vector<signed char>& b) {
+  int votes = 0;
+  for (Index i = 0; i < cloud.size(); ++i) {
+    if (a[i] == 0) continue;
+    for (int k = 0; k < SearchCloud::ring; ++k) votes += a[i] * b[cloud.neighbours(i, k)];
+  }
+  return votes;
+}
+
+// Adds what `piece` carries and `whole` does not; false when that is too little.
+bool add(const SearchCloud& cloud, const GrownSurface& piece, GrownSurface& whole) {
+  const std::vector<signed char> mine = sides(cloud, whole), other = sides(cloud, piece);
+  std::vector<std::size_t> gained;
+  for (std::size_t k = 0; k < piece.points.size(); ++k)
+    if (mine[piece.points[k]] == 0) gained.push_back(k);
+  if (static_cast<double>(gained.size()) < 0.03 * static_cast<double>(cloud.size()) ||
+      2 * gained.size() < piece.points.size())
+    return false;
+  const double turn = correspondence(cloud, mine, other) < 0 ? -1 : 1;
+  for (const std::size_t k : gained) {
+    Carried c = piece.carried[k];
+    c.normal *= turn;
+    c.distance *= turn;
+    whole.carried.push_back(c);
+    whole.points.push_back(piece.points[k]);
+    whole.partners.push_back(piece.partners[k]);
+  }
+  return true;
+}
+
+GrownSurface whole_from(const SearchCloud& cloud, const std::vector<GrownSurface>& surfaces,
+                        std::size_t first) {
+  GrownSurface whole = surfaces[first];
+  bool grown = false;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (k == first || surfaces[k].exact != whole.exact) continue;
+    if (precision(cloud, surfaces[k]) < 0.8 * precision(cloud, surfaces[first])) continue;
+    grown = add(cloud, surfaces[k], whole) || grown;
+  }
+  if (grown) whole.mirror = nullptr;
+  return whole;
+}
+
+// Joins surfaces that are pieces of one mirror, parted by a crease, a hole or a gap: each mirrors
+// points that the others do not. Gives whole mirrors, the one of the most support first (planes
+// behind curved mirrors of about as much).
+std::vector<GrownSurface> assemble(const SearchCloud& cloud, std::vector<GrownSurface> surfaces,
+                                   const Context& context) {
+  std::stable_sort(surfaces.begin(), surfaces.end(), ranks_higher);
+  std::vector<GrownSurface> wholes;
+  for (std::size_t k = 0; k < std::min(surfaces.size(), most_refined); ++k) {
+    context.report(static_cast<double>(k) / most_refined);
+    if (rank(surfaces[k]) < least_rank * rank(surfaces[0])) break;
+    if (surfaces[k].bent && !surfaces[k].exact) {
+      wholes.push_back(surfaces[k]);
+      continue;
+    }
+    GrownSurface whole = whole_from(cloud, surfaces, k);
+    refine(cloud, last_rounds, whole);
+    wholes.push_back(whole.mirror && whole.support > surfaces[k].support ? std::move(whole)
+                                                                         : surfaces[k]);
+  }
+  for (std::size_t k = wholes.size(); k < surfaces.size(); ++k)
+    wholes.push_back(std::move(surfaces[k]));
+  std::stable_sort(wholes.begin(), wholes.end(), ranks_higher);
+  return wholes;
+}
+
 constexpr std::size_t few_trials = 6;
-constexpr double settled = 0.85, settled_exactly = 0.3;  // shares of the points
+// Support from which on no planes are bent.
+constexpr double enough_inexact = 0.85, enough_exact = 0.3;
 
 // Whether points have exact partners: smoothing would spoil them.
 bool has_exact_partners(const SearchCloud& cloud, const Seeds& seeds) {
@@ -36,7 +222,7 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   explore(search.cloud, seeds.across, search.surfaces, context.stage(0.7, 0.75));
   const bool found =
       std::any_of(search.surfaces.begin(), search.surfaces.end(), [](const GrownSurface& surface) {
-        return surface.support > (surface.exact ? settled_exactly : settled);
+        return surface.support > (surface.exact ? enough_exact : enough_inexact);
       });
   if (!found) bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.75, 0.85));
   search.surfaces = assemble(search.cloud, std::move(search.surfaces), context.stage(0.85, 1));

@@ -19,19 +19,19 @@ constexpr double shortest_chord = 1.2;      // spacings
 double support_of(const SearchCloud& cloud, std::int32_t i, std::int32_t j) {
   const Vector3 middle = (cloud.point(i) + cloud.point(j)) / 2;
   const Vector3 u = (cloud.point(i) - cloud.point(j)).normalized();
-  constexpr int asked = 8;
+  constexpr int sampled = 8;
   double sum = 0;
   for (const std::int32_t end : {i, j}) {
-    for (int k = 0; k < asked; ++k) {
+    for (int k = 0; k < sampled; ++k) {
       const Vector3 x = cloud.point(cloud.neighbours(end, k));
       const Vector3 image = x - 2 * u.dot(x - middle) * u;
       const double tau = 0.6 * cloud.spacing;
       const Neighbour near = cloud.tree.nearest(image, 9 * tau * tau);
       if (near.index >= 0) sum += std::exp(-near.squared_distance / (2 * tau * tau));
     }
-    if (end == i && sum < 0.25 * asked) return 0;
+    if (end == i && sum < 0.25 * sampled) return 0;
   }
-  return sum / (2 * asked);
+  return sum / (2 * sampled);
 }
 
 // A fair sample of as many seeds as wanted (Vitter 1985: reservoir sampling).

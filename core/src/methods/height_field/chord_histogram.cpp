@@ -71,7 +71,7 @@ class CubeMap {
   std::vector<double> sums_;
 };
 
-CubeMap histogram(const WorkingCloud& cloud) {
+CubeMap histogram(const SurfacePoints& cloud) {
   CubeMap map;
   const Index n = cloud.size();
   const Index anchors = std::clamp<Index>(chord_budget / n, 1, n);
@@ -98,7 +98,7 @@ CubeMap histogram(const WorkingCloud& cloud) {
 
 }  // namespace
 
-std::vector<ChordPeak> chord_peaks(const WorkingCloud& cloud, Index count) {
+std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count) {
   const CubeMap map = histogram(cloud);
   std::vector<ChordPeak> peaks;
   for (const int half : half_widths) {
@@ -133,7 +133,7 @@ std::vector<ChordPeak> chord_peaks(const WorkingCloud& cloud, Index count) {
   return peaks;
 }
 
-SharpDirection sharpened(const WorkingCloud& cloud, const Vector3& start, double angle) {
+SharpDirection sharpened(const SurfacePoints& cloud, const Vector3& start, double angle) {
   const Index n = cloud.size();
   const Index anchors = std::min(n, sharpening_anchors);
   const double cosine = std::cos(angle);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "methods/height_field/working_cloud.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 
@@ -17,9 +17,9 @@ struct ChordPeak {
 /// Peaks of the directions of the chords between points, best first.
 ///
 /// The directions fall into the bins of a cube map; a chord counts as it crosses the surfaces at
-/// its ends, cos x cos, since chords within a surface say nothing. Box sums at several scales are
-/// held against the ring around them.
-std::vector<ChordPeak> chord_peaks(const WorkingCloud& cloud, Index count);
+/// its ends, cos x cos, since chords within a surface show no direction of mapping. Box sums at
+/// several scales are held against the ring around them.
+std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count);
 
 /// The direction about `start` on which most chords agree, found by halving a cone as long as
 /// its core keeps more than its share of the chords.
@@ -29,6 +29,6 @@ struct SharpDirection {
   Index chords = 0;     ///< in it
   double expected = 0;  ///< chords in it, were they spread evenly over the first cone
 };
-SharpDirection sharpened(const WorkingCloud& cloud, const Vector3& start, double angle);
+SharpDirection sharpened(const SurfacePoints& cloud, const Vector3& start, double angle);
 
 }  // namespace symsurf

@@ -48,8 +48,7 @@ void maximise_measure(MidSurface& surface, DirectionCandidate& candidate, const 
   }
 }
 
-}  // namespace
-
+// The i-th of `count` directions spread evenly over the half sphere: a Fibonacci spiral.
 Vector3 spread_direction(Index i, Index count) {
   const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
   const double angle = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
@@ -57,16 +56,18 @@ Vector3 spread_direction(Index i, Index count) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
-                                                      const std::vector<ChordPeak>& hints,
-                                                      Index count, const Context& context) {
-  const WorkingCloud coarse(cloud.points, screened_size);
+}  // namespace
+
+std::vector<DirectionCandidate> supported_directions(const SurfacePoints& cloud,
+                                                     const std::vector<ChordPeak>& hints,
+                                                     Index count, const Context& context) {
+  const SurfacePoints coarse(cloud.points, screened_size, context.stage(0, 0));
   std::vector<DirectionCandidate> candidates;
   for (Index i = 0; i < tried; ++i) candidates.push_back({spread_direction(i, tried)});
   for (const ChordPeak& hint : hints) candidates.push_back({hint.direction});
   for (DirectionCandidate& c : candidates) {
     context.check();
-    c.support = MidSurface::most_explained(coarse, c.direction);
+    c.support = MidSurface::support_bound(coarse, c.direction);
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
 

@@ -11,15 +11,12 @@ struct DirectionCandidate {
   double support = 0;  ///< MidSurface::support
 };
 
-/// Directions under which a surface half-way between the surfaces explains most of the cloud, best
+/// Directions under which a surface half-way between the surfaces has most support, best
 /// first, some degrees apart: the half sphere and the given hints are tried, as far as
-/// MidSurface::most_explained leaves hope, on fewer points, then the best of them are moved uphill
+/// MidSurface::support_bound allows, on fewer points, then the best of them are moved uphill
 /// on all.
-std::vector<DirectionCandidate> explaining_directions(const WorkingCloud& cloud,
-                                                      const std::vector<ChordPeak>& hints,
-                                                      Index count, const Context& context);
-
-/// The i-th of `count` directions spread evenly over the half sphere: a Fibonacci spiral.
-Vector3 spread_direction(Index i, Index count);
+std::vector<DirectionCandidate> supported_directions(const SurfacePoints& cloud,
+                                                     const std::vector<ChordPeak>& hints,
+                                                     Index count, const Context& context);
 
 }  // namespace symsurf

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "methods/height_field/chord_histogram.h"
-#include "methods/height_field/field_estimate.h"
+#include "methods/height_field/field_search.h"
 
 namespace symsurf {
 
@@ -11,7 +11,7 @@ namespace symsurf {
 /// estimate without nodes where they have none. Of several directions that many pairs share, as in
 /// clouds on a grid, the one that meets the surfaces most squarely. `cone`: how far off, in
 /// radians, the peaks may be; chords by chance hide the partners in too wide a one.
-FieldEstimate exact_partners(const WorkingCloud& cloud, const std::vector<ChordPeak>& peaks,
+FieldEstimate exact_partners(const SurfacePoints& cloud, const std::vector<ChordPeak>& peaks,
                              double cone, const Context& context);
 
 }  // namespace symsurf

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/math.h"
 #include "methods/height_field/direction_search.h"
 #include "methods/height_field/exact_partners.h"
 #include "methods/height_field/partner_evidence.h"
@@ -13,31 +12,31 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index peaks_a_scale = 6, explaining = 3;
+constexpr Index peaks_a_scale = 6, best_directions = 3;
 constexpr std::size_t most_examined = 6;  // directions, for partners
 constexpr Index searched_size = 2000;
 constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
 constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
 constexpr double evidence_reach = 1.7;                     // spacings
-constexpr double suspected = 3;
+constexpr double suspicion = 3;           // from here on the evidence is measured again
 constexpr double no_evidence = 5;         // standard deviations that chance reaches
 constexpr double known_scatter = 7;       // from here on the scatter is believed
 constexpr double strong_evidence = 9;     // no need to look further
 constexpr double evidence_weight = 0.15;  // share of supported points a deviation is worth
 constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
-constexpr double as_much = 0.03;          // support
-constexpr double rough_surfaces = 0.1;    // spacings off a plane: noise, or sharp bends
+constexpr double support_margin = 0.03;   // of directions with about as much
+constexpr double rough_surfaces = 0.115;  // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
-// Ranks directions by what their surface explains and by the partners found along them.
+// Ranks directions by the support of their surface and by the partners found along them.
 class Ranking {
  public:
-  Ranking(const WorkingCloud& cloud, const Context& context)
+  Ranking(const SurfacePoints& cloud, const Context& context)
       : cloud_(cloud), context_(context), surface_(cloud, context, evidence_reach) {}
 
-  // Partners are looked for along those that explain most; once there is no doubt, only along
-  // those that explain about as much: neighbours of one another, that show them more or less.
+  // Partners are searched for along those of most support; once they are certain, only along those
+  // of about as much, neighbours of one another.
   void consider(const std::vector<Vector3>& directions) {
     std::vector<std::pair<double, std::size_t>> support;
     for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -47,11 +46,11 @@ class Ranking {
     std::sort(support.begin(), support.end());
     support.resize(std::min(support.size(), most_examined));
     for (const auto& [negative, k] : support) {
-      if (convinced() && support.front().first < negative - as_much) break;
+      if (is_certain() && support.front().first < negative - support_margin) break;
       examine(directions[k]);
     }
   }
-  bool convinced() const {
+  bool is_certain() const {
     return best_.significance > strong_evidence && best_.share > common_share;
   }
   const PartnerEvidence& best() const { return best_; }
@@ -61,7 +60,7 @@ class Ranking {
     const double support = surface_.support(direction);
     context_.check();
     PartnerEvidence evidence = partner_evidence(surface_, cloud_, direction, context_);
-    if (evidence.significance > suspected) {
+    if (evidence.significance > suspicion) {
       // Partners that are there vote for better heights than chance does, and stand out more.
       surface_.support(evidence.direction, evidence.scatter);
       context_.check();
@@ -80,7 +79,7 @@ class Ranking {
       best_.scatter = std::numeric_limits<double>::infinity();
   }
 
-  const WorkingCloud& cloud_;
+  const SurfacePoints& cloud_;
   const Context& context_;
   MidSurface surface_;
   PartnerEvidence best_;
@@ -94,18 +93,18 @@ std::vector<Vector3> directions(const std::vector<Directed>& of) {
   return all;
 }
 
-std::vector<Vector3> explaining_directions(const WorkingCloud& cloud,
-                                           const std::vector<ChordPeak>& peaks,
-                                           const Context& context) {
+std::vector<Vector3> supported_directions(const SurfacePoints& cloud,
+                                          const std::vector<ChordPeak>& peaks,
+                                          const Context& context) {
   if (cloud.size() <= searched_size)
-    return directions(explaining_directions(cloud, peaks, explaining, context));
-  const WorkingCloud fewer(cloud.points, searched_size);
-  return directions(explaining_directions(fewer, peaks, explaining, context));
+    return directions(supported_directions(cloud, peaks, best_directions, context));
+  const SurfacePoints fewer(cloud.points, searched_size, context.stage(0, 0));
+  return directions(supported_directions(fewer, peaks, best_directions, context));
 }
 
 }  // namespace
 
-FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_direction,
+FieldEstimate find_height_field(const SurfacePoints& cloud, const Vector3& given_direction,
                                 Values& statistics, const Context& context) {
   std::vector<ChordPeak> peaks;
   const bool given = !given_direction.isZero(0);
@@ -124,7 +123,7 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
   ranking.consider(directions(peaks));
   context.report(0.4);
   if (!given && ranking.best().significance < strong_evidence)
-    ranking.consider(explaining_directions(cloud, peaks, context.stage(0.4, 0.7)));
+    ranking.consider(supported_directions(cloud, peaks, context.stage(0.4, 0.7)));
   context.report(0.7);
 
   const PartnerEvidence& start = ranking.best();
@@ -135,10 +134,8 @@ FieldEstimate find_height_field(const WorkingCloud& cloud, const Vector3& given_
     if (again.support > exact_share) return again;
   }
   statistics["partners"] = std::string("sheets");
-  const double roughness =
-      median(std::vector(cloud.flatness.begin(), cloud.flatness.end())) / cloud.spacing;
-  const SurfacePatches patches(cloud, roughness > rough_surfaces ? rough_patch : smooth_patch,
-                               context);
+  const bool rough = cloud.noise > rough_surfaces * cloud.spacing;
+  const SurfacePatches patches(cloud, rough ? rough_patch : smooth_patch, context);
   context.report(0.75);
   return SurfaceRefinement(cloud, patches, context)(start.direction, start.scatter, rounds);
 }

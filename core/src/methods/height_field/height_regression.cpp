@@ -6,8 +6,7 @@
 #include <limits>
 
 #include "base/math.h"
-#include "base/semidefinite_solve.h"
-#include "methods/height_field/working_cloud.h"
+#include "base/quadratic_fit.h"
 
 namespace symsurf {
 
@@ -15,7 +14,7 @@ namespace {
 
 constexpr Index most_left_out = 300;  // observations that cross-validation predicts
 // Partners share patches, so that neighbours err together: prediction flatters few of them.
-constexpr double as_good = 1.25;
+constexpr double tolerated_error = 1.25;  // of the least
 constexpr double curvature_ridge = 1e-4;
 
 }  // namespace
@@ -30,7 +29,7 @@ Points HeightRegression::positions() const {
   return positions;
 }
 
-Points HeightRegression::places_apart(double distance) const {
+Points HeightRegression::thinned_positions(double distance) const {
   const Points all = positions();
   std::vector<char> covered(all.rows(), 0);
   std::vector<Index> kept;
@@ -44,12 +43,10 @@ Points HeightRegression::places_apart(double distance) const {
 
 double HeightRegression::height(const Eigen::Vector2d& position, std::span<const Neighbour> near,
                                 Index left_out) const {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
   const double radius = std::sqrt(near.back().squared_distance) * 1.0001;
   if (!(radius > 0)) return observations_[near.front().index].height;
 
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Vector6 right = Vector6::Zero();
+  QuadraticFit fit;
   const double level = observations_[near.front().index].height;
   for (const Neighbour& n : near) {
     if (n.index == left_out) continue;
@@ -57,16 +54,12 @@ double HeightRegression::height(const Eigen::Vector2d& position, std::span<const
     const double d = std::sqrt(n.squared_distance) / radius;
     const double cubic = 1 - d * d * d;
     const double weight = o.weight * cubic * cubic * cubic;
-    const double u = (o.position.x() - position.x()) / radius,
-                 v = (o.position.y() - position.y()) / radius;
-    const Vector6 row{1, u, v, u * u, u * v, v * v};
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-    right += weight * (o.height - level) * row;
+    const Eigen::Vector2d at = (o.position - position) / radius;
+    fit.add(at.x(), at.y(), o.height - level, weight);
   }
-  if (!(normal(0, 0) > 0)) return std::numeric_limits<double>::quiet_NaN();
-  const double ridge = normal(0, 0) * curvature_ridge;
-  normal.diagonal() += ridge * Vector6{1e-9, 1e-2, 1e-2, 1, 1, 1};
-  return level + solved(normal, right)[0];
+  if (!(fit.weight() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const double ridge = fit.weight() * curvature_ridge;
+  return level + fit.coefficients(ridge, 1e-2 * ridge, 1e-9 * ridge)[0];
 }
 
 void HeightRegression::nearest(const Eigen::Vector2d& position, Index neighbours,
@@ -99,10 +92,7 @@ void HeightRegression::reject_outliers(Index neighbours) {
     if (!std::isfinite(r)) r = 0;
   const double limit = 6 * median(residuals);
   if (!(limit > 0)) return;
-  for (Index i = 0; i < n; ++i) {
-    const double ratio = std::min(1.0, residuals[i] / limit);
-    observations_[i].weight *= (1 - ratio * ratio) * (1 - ratio * ratio);
-  }
+  for (Index i = 0; i < n; ++i) observations_[i].weight *= biweight(residuals[i] / limit);
 }
 
 Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const {
@@ -130,7 +120,8 @@ Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const
     if (e.weights > 0) least = std::min(least, e.sum / e.weights);
   std::size_t best = 0;
   for (std::size_t k = 0; k < offered.size(); ++k)
-    if (errors[k].weights > 0 && errors[k].sum / errors[k].weights <= as_good * least) best = k;
+    if (errors[k].weights > 0 && errors[k].sum / errors[k].weights <= tolerated_error * least)
+      best = k;
   return offered[best];
 }
 

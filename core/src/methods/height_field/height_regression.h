@@ -35,7 +35,7 @@ class HeightRegression {
 
   /// Positions of observations, as rows for fitted(), no two within `distance`: heights fitted side
   /// by side differ a little, and a surface through them all would be steep between them.
-  Points places_apart(double distance) const;
+  Points thinned_positions(double distance) const;
 
  private:
   Points positions() const;

@@ -45,7 +45,7 @@ SYMSURF_VECTORISED void squared_offsets(const double* u, const double* v, Index 
 
 }  // namespace
 
-MidSurface::MidSurface(const WorkingCloud& cloud, const Context& context, double reach)
+MidSurface::MidSurface(const SurfacePoints& cloud, const Context& context, double reach)
     : cloud_(cloud),
       context_(context),
       reach_(reach * cloud.spacing),
@@ -63,7 +63,7 @@ double MidSurface::support(const Vector3& direction, double scatter) {
   sort_into_cells();
   collect_votes(scatter);
   count_votes();
-  explained_.assign(cloud_.size(), 0);
+  supported_.assign(cloud_.size(), 0);
   smooth_.assign(voted_.size(), 0);
   for (std::size_t cell = 0; cell < voted_.size(); ++cell) {
     if (!voted_[cell]) continue;
@@ -74,18 +74,18 @@ double MidSurface::support(const Vector3& direction, double scatter) {
   for (const Vote& vote : votes_) {
     if (!voted_[vote.cell] || std::abs(vote.height - height_[vote.cell]) > agree) continue;
     const float e = smooth_[vote.cell];
-    explained_[vote.first] = std::max(explained_[vote.first], e);
-    explained_[vote.second] = std::max(explained_[vote.second], e);
+    supported_[vote.first] = std::max(supported_[vote.first], e);
+    supported_[vote.second] = std::max(supported_[vote.second], e);
   }
   double sum = 0, weights = 0;
   for (Index i = 0; i < cloud_.size(); ++i) {
-    sum += surface_(i, 2) * explained_[i];
+    sum += surface_(i, 2) * supported_[i];
     weights += surface_(i, 2);
   }
   return sum / weights * std::sqrt(weights / static_cast<double>(cloud_.size()));
 }
 
-double MidSurface::most_explained(const WorkingCloud& cloud, const Vector3& direction) {
+double MidSurface::support_bound(const SurfacePoints& cloud, const Vector3& direction) {
   return std::sqrt((cloud.normals * direction).cwiseAbs().mean());
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "methods/height_field/working_cloud.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 
@@ -16,9 +16,9 @@ class MidSurface {
  public:
   /// Kept between directions, so that trying many of them allocates nothing.
   /// Points no farther apart in projection than `reach` spacings vote.
-  MidSurface(const WorkingCloud& cloud, const Context& context, double reach = 1.3);
+  MidSurface(const SurfacePoints& cloud, const Context& context, double reach = 1.3);
 
-  /// How well the surface for this direction explains the cloud, 0 to 1: the share of points that
+  /// The support of the surface for this direction, 0 to 1: the share of points that
   /// it carries onto another surface, where it is smooth, each weighed by how squarely its surface
   /// meets the direction.
   /// Where partners are known to scatter across the direction by only so much, the closer they
@@ -27,7 +27,7 @@ class MidSurface {
                  double scatter = std::numeric_limits<double>::infinity());
 
   /// What support() cannot exceed, however well the surface fits: cheap.
-  static double most_explained(const WorkingCloud& cloud, const Vector3& direction);
+  static double support_bound(const SurfacePoints& cloud, const Vector3& direction);
 
   /// Two points that the last direction's surface carries onto each other's surface.
   struct Chord {
@@ -60,7 +60,7 @@ class MidSurface {
   void count_votes();
   double roughness(Index cell) const;
 
-  const WorkingCloud& cloud_;
+  const SurfacePoints& cloud_;
   const Context context_;
   Eigen::Matrix<double, 3, 2> across_;
   double reach_;
@@ -76,9 +76,9 @@ class MidSurface {
   std::vector<Vote> votes_;
   std::vector<std::int32_t> vote_start_, next_;
   std::vector<std::uint64_t> by_cell_;  // height and weight in order, packed
-  std::vector<float> height_, smooth_;  // voted, a cell; what its bend lets it explain
+  std::vector<float> height_, smooth_;  // voted, a cell; how much its bend lets it support
   std::vector<char> voted_;
-  std::vector<float> explained_;
+  std::vector<float> supported_;
 };
 
 }  // namespace symsurf

@@ -64,7 +64,7 @@ class Offsets {
 
 }  // namespace
 
-PartnerEvidence partner_evidence(const MidSurface& surface, const WorkingCloud& cloud,
+PartnerEvidence partner_evidence(const MidSurface& surface, const SurfacePoints& cloud,
                                  const Vector3& direction, const Context& context) {
   const std::vector<MidSurface::Chord> chords = surface.chords();
   PartnerEvidence best{direction, 0, 0, 0};

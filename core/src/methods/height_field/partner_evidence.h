@@ -14,7 +14,7 @@ struct PartnerEvidence {
 
 /// Tries scatters from a fraction of the spacing up to the surface's reach; at each, a mean shift
 /// of the direction, freed of the pull of the evenly spread chance partners.
-PartnerEvidence partner_evidence(const MidSurface& surface, const WorkingCloud& cloud,
+PartnerEvidence partner_evidence(const MidSurface& surface, const SurfacePoints& cloud,
                                  const Vector3& direction, const Context& context);
 
 }  // namespace symsurf

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/math.h"
-#include "base/semidefinite_solve.h"
+#include "base/quadratic_fit.h"
 
 namespace symsurf {
 
@@ -16,9 +16,8 @@ constexpr int crossings = 3;  // Newton steps of a line onto a patch
 
 }  // namespace
 
-SurfacePatches::SurfacePatches(const WorkingCloud& cloud, Index neighbours, const Context& context)
+SurfacePatches::SurfacePatches(const SurfacePoints& cloud, Index neighbours, const Context& context)
     : patches_(cloud.size()) {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
   std::vector<Neighbour> near;
   for (Index i = 0; i < cloud.size(); ++i) {
     context.check();
@@ -30,18 +29,13 @@ SurfacePatches::SurfacePatches(const WorkingCloud& cloud, Index neighbours, cons
     patch.centre = cloud.point(i);
     cloud.tree.nearest(patch.centre, neighbours, near);
     patch.reach = std::sqrt(near.back().squared_distance);
-    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-    Vector6 right = Vector6::Zero();
+    QuadraticFit fit;
     for (const Neighbour& n : near) {
       const Vector3 d = (cloud.point(n.index) - patch.centre) / patch.reach;
-      const double a = patch.first.dot(d), b = patch.second.dot(d);
-      const Vector6 row{1, a, b, a * a, a * b, b * b};
-      const double weight = 1 - 0.8 * d.squaredNorm();
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-      right += weight * patch.normal.dot(d) * row;
+      fit.add(patch.first.dot(d), patch.second.dot(d), patch.normal.dot(d),
+              1 - 0.8 * d.squaredNorm());
     }
-    normal.diagonal() += 1e-3 * normal(0, 0) * Vector6{0, 0, 0, 1, 1, 1};
-    const Vector6 h = solved(normal, right);
+    const auto h = fit.coefficients(1e-3 * fit.weight());
     const double r = patch.reach;
     patch.height << h[0] * r, h[1], h[2], h[3] / r, h[4] / r, h[5] / r;
   }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "methods/height_field/working_cloud.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 
@@ -10,7 +10,7 @@ namespace symsurf {
 /// plane, fitted to its neighbours.
 class SurfacePatches {
  public:
-  SurfacePatches(const WorkingCloud& cloud, Index neighbours, const Context& context);
+  SurfacePatches(const SurfacePoints& cloud, Index neighbours, const Context& context);
 
   /// How far x must move along the unit direction to lie on the patch about point j; NaN where the
   /// patch and the direction are nearly parallel.

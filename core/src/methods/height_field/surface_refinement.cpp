@@ -44,7 +44,7 @@ struct Frame {
 
 }  // namespace
 
-SurfaceRefinement::SurfaceRefinement(const WorkingCloud& cloud, const SurfacePatches& patches,
+SurfaceRefinement::SurfaceRefinement(const SurfacePoints& cloud, const SurfacePatches& patches,
                                      const Context& context)
     : cloud_(cloud), patches_(patches), context_(context), votes_(cloud, context, 1.5) {}
 
@@ -100,8 +100,7 @@ SurfaceRefinement::Matches SurfaceRefinement::matches(const FieldEstimate& estim
   if (rims_) rims.emplace(*rims_, frame.across);
   for (const Match& m : found) {
     const double limit = std::max(typical, least_limit * cloud_.spacings[m.partner]);
-    const double ratio = std::min(1.0, std::abs(m.gap) / limit);
-    const double robust = (1 - ratio * ratio) * (1 - ratio * ratio);
+    const double robust = biweight(std::abs(m.gap) / limit);
     if (!(robust > 0)) continue;
     result.support += robust / moved;
     // Heights are as uncertain as the surfaces are steep, and surfaces as their points are sparse.
@@ -156,7 +155,7 @@ FieldEstimate SurfaceRefinement::operator()(const Vector3& direction, double sca
     regression.reject_outliers(round_neighbours);
     const Index neighbours = regression.best_neighbours(offered_neighbours);
     estimate.nodes = frame.from_frame(
-        regression.fitted(regression.places_apart(node_spacing * cloud_.spacing), neighbours));
+        regression.fitted(regression.thinned_positions(node_spacing * cloud_.spacing), neighbours));
   }
   return estimate;
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "methods/height_field/field_estimate.h"
+#include "methods/height_field/field_search.h"
 #include "methods/height_field/height_regression.h"
 #include "methods/height_field/mid_surface.h"
 #include "methods/height_field/surface_patches.h"
@@ -12,10 +12,10 @@ namespace symsurf {
 
 /// Mirror, match, fit again: images over the estimate meet the surfaces on the other side, half
 /// their distance along the direction is what the surface is wrong by there. Where partners are
-/// known, what remains across tells where the direction should turn; where not, the rims do.
+/// known, what remains across determines how the direction turns; where not, the rims do.
 class SurfaceRefinement {
  public:
-  SurfaceRefinement(const WorkingCloud& cloud, const SurfacePatches& patches,
+  SurfaceRefinement(const SurfacePoints& cloud, const SurfacePatches& patches,
                     const Context& context);
 
   /// Starts from the surface that MidSurface votes for, where `scatter` (infinity: unknown) is that
@@ -32,10 +32,10 @@ class SurfaceRefinement {
   void refit(FieldEstimate& estimate, Matches found) const;
   FieldEstimate voted(const Vector3& direction, double scatter);
 
-  const WorkingCloud& cloud_;
+  const SurfacePoints& cloud_;
   const SurfacePatches& patches_;
   const Context context_;
-  std::optional<SurfaceRims> rims_;  // where no partners tell the direction
+  std::optional<SurfaceRims> rims_;  // where no partners determine the direction
   Vector3 start_ = Vector3::Zero();
   MidSurface votes_;
 };

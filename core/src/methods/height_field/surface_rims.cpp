@@ -26,7 +26,7 @@ constexpr double prior_difference = 0.02;  // diagonals
 
 }  // namespace
 
-SurfaceRims::SurfaceRims(const WorkingCloud& cloud)
+SurfaceRims::SurfaceRims(const SurfacePoints& cloud)
     : cloud_(cloud), lean_(Points::Zero(cloud.size(), 3)), reach_(cloud.size()) {
   std::vector<Neighbour> near;
   for (Index i = 0; i < cloud.size(); ++i) {

@@ -1,18 +1,18 @@
 #pragma once
 
-#include "methods/height_field/working_cloud.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 
 /// Where the surfaces of a cloud end. A mirror maps rims onto rims, and where no point has an exact
-/// partner that is what tells its direction: half-way between two surfaces there is a surface along
-/// any direction.
+/// partner that is what determines its direction: half-way between two surfaces there is a surface
+/// along any direction.
 ///
 /// A point near a rim has its neighbours on one side of it: their mean offset, as a share of their
 /// reach, grows from 0 inside to 4/(3 pi) on a straight rim.
 class SurfaceRims {
  public:
-  explicit SurfaceRims(const WorkingCloud& cloud);
+  explicit SurfaceRims(const SurfacePoints& cloud);
 
   /// A piece of rim as it looks along a direction.
   struct Rim {
@@ -24,13 +24,13 @@ class SurfaceRims {
   bool seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, Rim& rim) const;
 
  private:
-  const WorkingCloud& cloud_;
+  const SurfacePoints& cloud_;
   Points lean_;  // mean offset of the neighbours within the surface, as a share of their reach
   Eigen::VectorXd reach_;  // of the neighbours
 };
 
 /// Least squares for the turn of a direction that carries rims onto rims. Surfaces of different
-/// density end, as far as their points tell, differently far inside their rims: one common
+/// density end, as far as their points show, differently far inside their rims: one common
 /// difference is an unknown too. A prior keeps the direction near where the search began, for
 /// surfaces so close that turning moves no rim.
 class RimAlignment {

@@ -26,8 +26,6 @@ constexpr double worth_refining = 0.03;
 constexpr double flatter = 0.2;  // a sphere may become, or bend more; curvature times diagonal
 constexpr double clearly_nearer = 0.08;
 
-double tukey(double u) { return u < 1 ? (1 - u * u) * (1 - u * u) : 0; }
-
 double beyond_chance(double share) { return (share - by_chance) / (1 - by_chance); }
 
 }  // namespace
@@ -147,7 +145,7 @@ double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
   double sum = 0;
   const double reach = near * spacing_;
   for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked))
-    sum += tukey(meeting.gap.norm() / reach);
+    sum += biweight(meeting.gap.norm() / reach);
   return sum / static_cast<double>(at_least_a_quarter(asked, wanted));
 }
 
@@ -158,8 +156,8 @@ double PartnerFit::closeness(const UnitSphere& sphere) const {
   const double reach = near * spacing_, exact_reach = 10 * exact * spacing_;
   for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked)) {
     const double gap = meeting.gap.norm();
-    roughly += tukey(gap / reach);
-    exactly += tukey(gap / exact_reach);
+    roughly += biweight(gap / reach);
+    exactly += biweight(gap / exact_reach);
   }
   const auto of_all = static_cast<double>(at_least_a_quarter(asked, wanted));
   return (roughly / of_all + exactly / of_all) / 2;
@@ -208,7 +206,7 @@ UnitSphere PartnerFit::refined(UnitSphere sphere, Index most, int steps) const {
     for (const Meeting& meeting : meetings(sphere, most, reach)) {
       const double gap = meeting.gap.norm();
       gaps.push_back(gap);
-      sum.add(meeting.position, meeting.gap, Matrix3::Identity(), tukey(gap / reach));
+      sum.add(meeting.position, meeting.gap, Matrix3::Identity(), biweight(gap / reach));
     }
     if (gaps.size() < 10) break;
     double moved;

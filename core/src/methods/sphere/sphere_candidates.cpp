@@ -17,10 +17,10 @@ constexpr Index pairs_tried = 40000, pairs_kept = 4000;
 // Of both signs: to which side of the pair the centre lies. Diagonals.
 constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
 
-constexpr Index started = 48;           // candidates that are settled on the surfels
-constexpr std::size_t maximised = 3;    // of these, have their measure maximised
-constexpr Index measured = 500;         // surfels that the measure is taken over
-constexpr double far_below_best = 0.6;  // of what the best explains: not worth fitting
+constexpr Index started = 48;          // candidates that are refined on the surfels
+constexpr std::size_t maximised = 3;   // of these, have their measure maximised
+constexpr Index measured = 500;        // surfels that the measure is taken over
+constexpr double least_support = 0.6;  // of the best; others are not fitted
 
 // Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point and
 // the normal of the sphere there; the curvature is scanned. The best `count` that differ.
@@ -38,8 +38,8 @@ std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const Sur
       [](const UnitSphere& sphere) { return sphere.radius(); }, surfels, map, count, context);
 }
 
-void drop_far_below_best(std::vector<SphereCandidate>& candidates) {
-  const double least = far_below_best * candidates.front().support;
+void drop_weakly_supported(std::vector<SphereCandidate>& candidates) {
+  const double least = least_support * candidates.front().support;
   std::erase_if(candidates, [&](const SphereCandidate& c) { return c.support < least; });
 }
 
@@ -69,7 +69,7 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
   if (!candidates.empty()) {
     suppress_non_maxima(surfels, candidates, alike_spheres, started);
     maximise_measure(surfels, map, candidates);
-    drop_far_below_best(candidates);
+    drop_weakly_supported(candidates);
   }
   for (SphereCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/semidefinite_solve.h"
+#include "base/quadratic_fit.h"
 #include "base/symmetric_eigen.h"
 
 namespace symsurf {
@@ -26,16 +26,10 @@ constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
 // Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
 // along an axis where it has no maximum, on the side that it rises to.
 Eigen::Vector2d highest(const Eigen::Matrix2Xd& positions, const Eigen::VectorXd& values) {
-  using Powers = Eigen::Vector<double, 6>;
-  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-  Powers products = Powers::Zero();
-  for (Index k = 0; k < positions.cols(); ++k) {
-    const double x = positions(0, k), y = positions(1, k);
-    const Powers powers{{1, x, y, x * x, x * y, y * y}};
-    squares += powers * powers.transpose();
-    products += values[k] * powers;
-  }
-  const Powers fit = solved(squares, products);
+  QuadraticFit quadratic;
+  for (Index k = 0; k < positions.cols(); ++k)
+    quadratic.add(positions(0, k), positions(1, k), values[k]);
+  const auto fit = quadratic.coefficients();
   Eigen::Matrix2d bend;
   bend << 2 * fit[3], fit[4], fit[4], 2 * fit[5];
   const SymmetricEigen<2> axes = eigen_of(bend);

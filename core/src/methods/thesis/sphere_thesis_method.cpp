@@ -11,6 +11,7 @@
 #include "methods/registry.h"
 #include "score/matching.h"
 #include "score/symmetry_measure.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 
@@ -37,42 +38,32 @@ double phi(double squared, double support) {
   return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
 }
 
-// A grid over a few hundred points: each cell lists those within reach of some position in it, so
+// A grid over a few hundred points: each voxel lists those within reach of some position in it, so
 // that a look tells which may be the closest.
 class NearbyPoints {
  public:
   NearbyPoints(PointsView points, double reach) {
     const Vector3 low = points.matrix().colwise().minCoeff();
-    const Vector3 extent = Vector3(points.matrix().colwise().maxCoeff()) - low;
-    constexpr double most_cells = 1 << 20;  // where an outlier spreads the grid, its cells grow
-    cell_ = std::max(reach, std::cbrt((extent.array() + reach).prod() / most_cells));
-    low_ = low.array() - 2 * cell_;
-    size_ = (extent / cell_).array().ceil() + 4;
-    cells_.resize(static_cast<std::size_t>(size_.prod()));
-    for (Index i = 0; i < points.size(); ++i) {
-      const Eigen::Array3d from = cell(points[i].array() - reach),
-                           to = cell(points[i].array() + reach);
-      for (double x = from.x(); x <= to.x(); ++x)
-        for (double y = from.y(); y <= to.y(); ++y)
-          for (double z = from.z(); z <= to.z(); ++z) cells_[at({x, y, z})].push_back(points[i]);
-    }
+    const Vector3 high = points.matrix().colwise().maxCoeff();
+    constexpr double most_voxels = 1 << 20;  // where an outlier spreads the grid, they grow
+    const double volume = ((high - low).array() + reach).prod();
+    grid_ = VoxelGrid(low.array() - reach, high.array() + reach,
+                      std::max(reach, std::cbrt(volume / most_voxels)));
+    lists_.resize(grid_.size());
+    for (Index i = 0; i < points.size(); ++i)
+      grid_.for_each_touching(grid_.index(grid_.cell_of(points[i])),
+                              [&](Index voxel) { lists_[voxel].push_back(points[i]); });
   }
 
-  const std::vector<Vector3>& operator()(const Vector3& x) const { return cells_[at(cell(x))]; }
+  /// Null where there are none.
+  const std::vector<Vector3>* operator()(const Vector3& x) const {
+    const Index voxel = grid_.index_at(x);
+    return voxel < 0 || lists_[voxel].empty() ? nullptr : &lists_[voxel];
+  }
 
  private:
-  // The outermost cells, where all that is farther off belongs, list nothing.
-  Eigen::Array3d cell(const Eigen::Array3d& x) const {
-    const Eigen::Array3d c = ((x - low_) / cell_).max(0).min(size_ - 1);
-    return c.cast<int>().cast<double>();
-  }
-  std::size_t at(const Eigen::Array3d& c) const {
-    return static_cast<std::size_t>((c.x() * size_.y() + c.y()) * size_.z() + c.z());
-  }
-
-  double cell_;
-  Eigen::Array3d low_, size_;
-  std::vector<std::vector<Vector3>> cells_;
+  VoxelGrid grid_;
+  std::vector<std::vector<Vector3>> lists_;  // by voxel
 };
 
 struct Candidate {
@@ -96,8 +87,8 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
     for (Index i = 0; i < points.size(); ++i) {
       Image image;
       if (!mirrored(points[i], sphere.centre, sphere.radius, image.position)) continue;
-      image.nearby = &nearby(image.position);
-      if (!image.nearby->empty()) images.push_back(image);
+      image.nearby = nearby(image.position);
+      if (image.nearby) images.push_back(image);
     }
     double sum = 0, rest = static_cast<double>(images.size());
     for (const Image& image : images) {

@@ -1,0 +1,81 @@
+#include "methods/free_form/search_result.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/math.h"
+#include "methods/common_parameters.h"
+#include "score/matching.h"
+#include "score/mirror_score.h"
+
+namespace symsurf::perpendicular {
+
+namespace {
+
+// Where partners are exact they agree about each other, and a point as near to its own image as
+// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the surface may
+// end before it reaches the middle between two.
+void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
+  constexpr double as_near = 2, rounding = 1e-9;
+  if (result.pairs.rows() == 0) return;
+  const std::vector<double> residuals(result.residuals.begin(), result.residuals.end());
+  const double on_mirror =
+      exact ? std::max(rounding * cloud.diagonal, as_near * median(residuals)) : -1;
+  std::vector<Index> partner(cloud.points.size(), -1);
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    partner[result.pairs(row, 0)] = result.pairs(row, 1);
+  std::vector<Index> kept;
+  for (Index row = 0; row < result.pairs.rows(); ++row) {
+    const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
+    if ((j == i && result.residuals[row] > on_mirror) || (exact && partner[j] != i)) continue;
+    if (result.surface_points.row(row).allFinite()) kept.push_back(row);
+  }
+  keep_pairs(result, kept);
+}
+
+void pair_points(Result& result, const Cloud& cloud, PointTree tree, const SearchCloud& searched,
+                 const GrownSurface& surface, double pair_distance, const Context& context) {
+  // Farther off there are only mere neighbours.
+  const double limit = std::min(pair_distance, reach(surface) * searched.spacing);
+  add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
+            context.stage(0, 0.6));
+  if (!surface.exact)
+    result.surface_points = result.mirror->project(result.surface_points, context.stage(0.6, 1));
+  drop_false_pairs(result, cloud, surface.exact);
+}
+
+}  // namespace
+
+std::shared_ptr<Mirror> in_input_units(const Mirror& mirror, const SearchCloud& searched) {
+  return mirror.transformed(searched.diagonal, Matrix3::Identity(), searched.centroid);
+}
+
+void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
+          const std::vector<Found>& found, const ParameterValues& values, const Context& context) {
+  if (found.empty()) return;
+  PointTree tree(cloud.points, context.stage(0, 0.2));
+  const NearestPoints points(cloud.points, tree, context);
+  const MirrorScore score(cloud, points, context.stage(0.2, 0.4));
+  const auto most = 1 + static_cast<std::size_t>(values.integer("max_candidates"));
+  std::vector<std::shared_ptr<Mirror>> mirrors;
+  for (std::size_t k = 0; k < std::min(most, found.size()); ++k) mirrors.push_back(found[k].mirror);
+  Values statistics = std::move(result.statistics);
+  result = score.ranked(result.method, mirrors);
+  const GrownSurface& surface =
+      found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
+  statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
+  result.statistics.merge(statistics);
+  pair_points(result, cloud, std::move(tree), searched, surface, values.real("pair_distance"),
+              context.stage(0.4, 1));
+}
+
+std::vector<Parameter> search_parameters() {
+  return {
+      Parameter::integer("sample_size", 12000, 200, 100000, "points",
+                         "Points that the search works on; larger clouds are thinned to it."),
+      max_candidates(10, 1000, "mirrors"),
+      pair_distance(0.02),
+  };
+}
+
+}  // namespace symsurf::perpendicular
