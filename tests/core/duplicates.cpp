@@ -100,6 +100,18 @@ TEST(Duplicates, OfFewPlacesHarmNoMethod) {
   EXPECT_GT(answered, static_cast<int>(clouds.size()));
 }
 
+// Apart by less than the square root of the least double: their distances are 0. Found by fuzzing.
+TEST(Duplicates, MayDifferByLessThanADistance) {
+  const Points corners = RandomCloud(1).box(12);
+  Points copies(288, 3);
+  for (Index i = 0; i < copies.rows(); ++i) {
+    copies.row(i) = corners.row(i % 12);
+    copies(i, 1) = 1e-200 * static_cast<double>(i % 36 / 12);
+  }
+  for (const char* method : {"fixed_direction", "perpendicular"})
+    EXPECT_NO_THROW(detect(copies, {.method = method})) << method;
+}
+
 TEST(Duplicates, HardlyChangeThePlane) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Points half = surfaces(seed, 2000), points(4000, 3);

@@ -20,6 +20,9 @@ using Weights = HeightSpline::Weights;
 
 constexpr double first_cell = 0.5, margin = 0.03;  // diagonals
 
+// (I + g g')^-1 x: Sherman and Morrison's formula, which steep slopes g cannot make singular.
+At along_surface(const At& g, const At& x) { return x - g.dot(x) / (1 + g.squaredNorm()) * g; }
+
 // The box of the cloud along the plane.
 HeightSpline flat_over(const SearchCloud& cloud, const Vector3& origin, const Matrix3& axes) {
   At low = At::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -66,13 +69,12 @@ BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
   for (int k = 0; k < most_steps; ++k) {
     const HeightSpline::Jet jet = heights_.jet(at);
     const double above = jet.h - x.z();
-    const At gradient = at - x.head<2>() + above * At(jet.u, jet.v);
-    Eigen::Matrix2d metric, curved;
-    metric << 1 + jet.u * jet.u, jet.u * jet.v, jet.u * jet.v, 1 + jet.v * jet.v;
+    const At slope(jet.u, jet.v), gradient = at - x.head<2>() + above * slope;
+    Eigen::Matrix2d curved;
     curved << jet.uu, jet.uv, jet.uv, jet.vv;
-    curved = metric + above * curved;
+    curved = Eigen::Matrix2d::Identity() + slope * slope.transpose() + above * curved;
     const bool convex = curved.determinant() > least_determinant && curved.trace() > 0;
-    At step = (convex ? curved : metric).inverse() * gradient;
+    At step = convex ? At(curved.inverse() * gradient) : along_surface(slope, gradient);
     if (step.norm() > longest_step) step *= longest_step / step.norm();
     const At next = heights_.clamped(at - step);
     const bool found = (next - at).norm() < precision;
@@ -106,11 +108,8 @@ std::optional<BentPlane::Equation> BentPlane::equation_of(Index i, double tolera
   // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
   // 2 d grad q.
   Equation equation{heights_.weights(foot.at), {}, 0, 0};
-  const double u = -foot.normal.x() / foot.normal.z(), v = -foot.normal.y() / foot.normal.z();
-  Eigen::Matrix2d metric;
-  metric << 1 + u * u, u * v, u * v, 1 + v * v;
-  const At slopes =
-      metric.inverse() * At(partner.x() + u * partner.z(), partner.y() + v * partner.z());
+  const At slope = -foot.normal.head<2>() / foot.normal.z();
+  const At slopes = along_surface(slope, partner.head<2>() + partner.z() * slope);
   equation.row = 2 / foot.slant *
                  (partner.dot(foot.normal) * equation.at.h +
                   distance * (slopes.x() * equation.at.u + slopes.y() * equation.at.v));

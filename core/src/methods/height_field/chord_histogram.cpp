@@ -145,7 +145,9 @@ SharpDirection sharpened(const SurfacePoints& cloud, const Vector3& start, doubl
       const Vector3 d = cloud.point(j) - p;
       const double along = d.dot(start);
       const double squared = d.squaredNorm();
-      if (along * along < cosine * cosine * squared || squared < shortest * shortest) continue;
+      // Of points so close that their spacing is 0, only copies have no chord.
+      if (squared == 0 || squared < shortest * shortest) continue;
+      if (along * along < cosine * cosine * squared) continue;
       chords.push_back(d / std::copysign(std::sqrt(squared), along));
     }
   }
