@@ -12,7 +12,7 @@
 
 namespace symsurf {
 
-LocalPlane plane_through(const Points& points, const std::vector<Neighbour>& neighbourhood) {
+LocalPlane plane_through(const Points& points, std::span<const Neighbour> neighbourhood) {
   Vector3 mean = Vector3::Zero();
   for (const Neighbour& n : neighbourhood) mean += points.row(n.index).transpose();
   mean /= static_cast<double>(neighbourhood.size());
@@ -28,7 +28,7 @@ LocalPlane plane_through(const Points& points, const std::vector<Neighbour>& nei
   return {eigen.eigenvectors(), std::sqrt(std::max(0.0, eigen.eigenvalues()[0]) / free)};
 }
 
-SurfacePoints::SurfacePoints(Points positions, const Context& context)
+SurfacePoints::SurfacePoints(Points positions, const Context& context, Index neighbourhood)
     : points(std::move(positions)),
       tree(points, context.stage(0, 0.4)),
       neighbours(size(), ring),
@@ -42,7 +42,8 @@ SurfacePoints::SurfacePoints(Points positions, const Context& context)
       const std::int32_t i = tree.order()[p];
       tree.nearest(point(i), ring + 1, around);
       spacings[i] = spacing_at(around);
-      const LocalPlane plane = plane_through(points, around);
+      const std::size_t planar = std::min<std::size_t>(neighbourhood, around.size());
+      const LocalPlane plane = plane_through(points, std::span(around).first(planar));
       normals.row(i) = plane.axes.col(0).transpose();
       deviations[i] = plane.deviation;
       int column = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "spatial/point_tree.h"
@@ -11,13 +12,14 @@ struct LocalPlane {
   Matrix3 axes;          ///< columns, the normal first
   double deviation = 0;  ///< standard, of the points from it
 };
-LocalPlane plane_through(const Points& points, const std::vector<Neighbour>& neighbourhood);
+LocalPlane plane_through(const Points& points, std::span<const Neighbour> neighbourhood);
 
 /// Points on surfaces with their nearest neighbours, the planes through these and the spacing.
 struct SurfacePoints {
   static constexpr int ring = 12;  ///< neighbours of a point
 
-  SurfacePoints(Points positions, const Context& context);
+  /// The planes are those through `neighbourhood` points, each point itself among them.
+  SurfacePoints(Points positions, const Context& context, Index neighbourhood = ring);
   /// Of `count` of the points, those of spread_along_curve().
   SurfacePoints(const Points& all, Index count, const Context& context);
 

@@ -205,7 +205,7 @@ bool Surfels::drop_clutter(std::vector<Patch>& patches) {
   if (filling < mostly * thin) return false;
 
   std::erase_if(patches, std::not_fn(is_dense));
-  grid_ = OccupiedVoxels(grid_);
+  grid_ = OccupiedVoxels(VoxelGrid(grid_));  // none of them occupied
   for (const Patch& patch : patches) grid_.occupy(patch.cell);
   grid_.number_them();
   uncluttered_ = grid_;

@@ -1,12 +1,235 @@
 #include <symsurf/bend.h>
+#include <symsurf/cylinder.h>
+#include <symsurf/errors.h>
+#include <symsurf/mirror.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
-#include "mirrors/chart.h"
+#include "base/symmetric_eigen.h"
 
 namespace symsurf {
 
 namespace {
+
+// Coordinates along a mirror, and the tangent plane they are laid out in.
+class Chart {
+ public:
+  virtual ~Chart() = default;
+
+  const Vector3& origin() const { return origin_; }
+  // Columns: the two directions of the coordinates and the normal.
+  const Matrix3& axes() const { return axes_; }
+
+  // From a point of the mirror to its coordinates.
+  virtual Eigen::Vector2d flatten(const Vector3& foot) const = 0;
+  // The point of the mirror at the coordinates, and the normal there; false beyond the mirror.
+  virtual bool lift(const Eigen::Vector2d& at, Vector3& foot, Vector3& normal) const = 0;
+
+ protected:
+  Vector3 origin_;
+  Matrix3 axes_;
+};
+
+// The feet of the footprint and the normals there.
+struct Layout {
+  std::vector<Vector3> feet, normals;
+  Vector3 middle = Vector3::Zero(), normal = Vector3::Zero();
+};
+
+// The mirror's normal at the foot of x, towards where signed_distance is positive; false without.
+bool foot_and_normal(const Mirror& mirror, const Vector3& x, Vector3& foot, Vector3& normal) {
+  constexpr double least = 1e-7, off = 1e-5;
+  foot = mirror.foot(x);
+  double distance = mirror.signed_distance(x);
+  if (!foot.allFinite()) return false;
+  // On the mirror itself the normal shows only from a little way off.
+  if (std::abs(distance) > least) {
+    normal = (x - foot) / distance;
+    return true;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 beside = x + off * Vector3::Unit(axis);
+    distance = mirror.signed_distance(beside);
+    if (!(std::abs(distance) > 0.5 * off)) continue;
+    normal = (beside - mirror.foot(beside)) / distance;
+    // That is the normal a little aside; straight above x it is x's own.
+    const Vector3 above = x + off * normal;
+    normal = (above - mirror.foot(above)) / mirror.signed_distance(above);
+    return normal.allFinite();
+  }
+  return false;
+}
+
+Layout layout(const Mirror& mirror, PointsView object) {
+  Layout l;
+  for (Index i = 0; i < object.size(); ++i) {
+    Vector3 foot, normal;
+    if (!foot_and_normal(mirror, object[i], foot, normal)) continue;
+    l.feet.push_back(foot);
+    l.normals.push_back(normal);
+    l.middle += foot;
+    l.normal += normal;
+  }
+  if (l.feet.empty() || l.normal.isZero(1e-6 * static_cast<double>(l.feet.size())))
+    throw InvalidInput("a mirror can be straightened only over points that have feet on it");
+  l.middle /= static_cast<double>(l.feet.size());
+  return l;
+}
+
+// Unrolls the cylinder: arc length around it, height along it.
+class Unrolled final : public Chart {
+ public:
+  Unrolled(const Cylinder& cylinder, const Layout& layout)
+      : radius_(cylinder.radius()), centre_(cylinder.point()) {
+    const Vector3 axis = cylinder.axis();
+    Vector3 outwards = Vector3::Zero();
+    for (const Vector3& n : layout.normals) outwards += n - n.dot(axis) * axis;
+    axes_.col(2) = outwards.normalized();
+    axes_.col(1) = axis;
+    axes_.col(0) = axis.cross(outwards).normalized();
+    centre_ += (layout.middle - centre_).dot(axis) * axis;
+    origin_ = centre_ + radius_ * axes_.col(2);
+  }
+
+  Eigen::Vector2d flatten(const Vector3& foot) const override {
+    const Vector3 d = axes_.transpose() * (foot - centre_);
+    return {radius_ * std::atan2(d.x(), d.z()), d.y()};
+  }
+
+  bool lift(const Eigen::Vector2d& at, Vector3& foot, Vector3& normal) const override {
+    const double angle = at.x() / radius_;
+    normal = axes_ * Vector3(std::sin(angle), 0, std::cos(angle));
+    foot = centre_ + radius_ * normal + at.y() * axes_.col(1);
+    return true;
+  }
+
+ private:
+  double radius_;
+  Vector3 centre_;
+};
+
+// Arc length along a line across the mirror, against the line's projection on the tangent plane.
+class ArcLength {
+ public:
+  void add(double projected, double length) {
+    projected_.push_back(projected);
+    length_.push_back(length);
+  }
+  double length(double projected) const { return between(projected_, length_, projected); }
+  double projected(double length) const { return between(length_, projected_, length); }
+
+ private:
+  static double between(const std::vector<double>& from, const std::vector<double>& to, double at) {
+    const auto next = std::lower_bound(from.begin() + 1, from.end() - 1, at) - from.begin();
+    const double share = (at - from[next - 1]) / (from[next] - from[next - 1]);
+    return to[next - 1] + share * (to[next] - to[next - 1]);
+  }
+
+  std::vector<double> projected_, length_;
+};
+
+// Feet projected on the tangent plane in the middle, each coordinate stretched to arc length.
+class Spread final : public Chart {
+ public:
+  Spread(const Mirror& mirror, const Layout& layout) : mirror_(mirror) {
+    Vector3 normal;
+    Index nearest = 0;
+    for (std::size_t i = 0; i < layout.feet.size(); ++i)
+      if ((layout.feet[i] - layout.middle).squaredNorm() <
+          (layout.feet[nearest] - layout.middle).squaredNorm())
+        nearest = static_cast<Index>(i);
+    origin_ = layout.feet[nearest];
+    normal = layout.normals[nearest];
+    // It bends most where the normals vary most.
+    Matrix3 spread = Matrix3::Zero();
+    for (const Vector3& n : layout.normals) {
+      const Vector3 across = n - n.dot(normal) * normal;
+      spread += across * across.transpose();
+    }
+    Vector3 most = eigen_of(spread).vectors.col(2);
+    most -= most.dot(normal) * normal;
+    axes_.col(0) =
+        most.norm() > 0.5 ? Vector3(most.normalized()) : Vector3(normal.unitOrthogonal());
+    axes_.col(1) = normal.cross(axes_.col(0));
+    axes_.col(2) = normal;
+    for (int axis = 0; axis < 2; ++axis) measure(axis, layout);
+  }
+
+  Eigen::Vector2d flatten(const Vector3& foot) const override {
+    const Vector3 d = axes_.transpose() * (foot - origin_);
+    return {arcs_[0].length(d.x()), arcs_[1].length(d.y())};
+  }
+
+  bool lift(const Eigen::Vector2d& at, Vector3& foot, Vector3& normal) const override {
+    return above({arcs_[0].projected(at.x()), arcs_[1].projected(at.y())}, foot, normal);
+  }
+
+ private:
+  // The mirror's point over the tangent plane's: Newton's method on the height.
+  bool above(const Eigen::Vector2d& at, Vector3& foot, Vector3& normal) const {
+    const Vector3 base = origin_ + axes_.leftCols<2>() * at;
+    double height = 0;
+    for (int step = 0; step < 60; ++step) {
+      const Vector3 x = base + height * axes_.col(2);
+      if (!foot_and_normal(mirror_, x, foot, normal)) return false;
+      const double steep = normal.dot(axes_.col(2));
+      if (!(steep > 0.05)) return false;
+      const double move = normal.dot(foot - x) / steep;
+      height += move;
+      if (std::abs(move) <= 1e-13 * (1 + std::abs(height))) {
+        foot = base + height * axes_.col(2);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void measure(int axis, const Layout& layout) {
+    constexpr int samples = 256;
+    double low = 0, high = 0;
+    for (const Vector3& foot : layout.feet) {
+      const double at = axes_.col(axis).dot(foot - origin_);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    const double step = std::max((high - low) / samples, 1e-12);  // also where nothing extends
+    std::vector<std::pair<double, double>> back{{0, 0}}, ahead{{0, 0}};
+    for (auto* side : {&back, &ahead}) {
+      const double sign = side == &ahead ? 1 : -1, end = side == &ahead ? high : -low;
+      Vector3 last = origin_;
+      for (double at = step; at < end + step; at += step) {
+        Eigen::Vector2d where = Eigen::Vector2d::Zero();
+        where[axis] = sign * at;
+        Vector3 foot, normal;
+        // Where the line leaves the mirror, lengths go on as in the plane.
+        if (!above(where, foot, normal)) foot = last + sign * step * axes_.col(axis);
+        side->push_back({sign * at, side->back().second + sign * (foot - last).norm()});
+        last = foot;
+      }
+    }
+    for (auto at = back.rbegin(); at != back.rend(); ++at) arcs_[axis].add(at->first, at->second);
+    for (std::size_t k = 1; k < ahead.size(); ++k) arcs_[axis].add(ahead[k].first, ahead[k].second);
+    if (back.size() + ahead.size() < 3) arcs_[axis].add(step, step);
+  }
+
+  const Mirror& mirror_;
+  std::array<ArcLength, 2> arcs_;
+};
+
+// Laid out over an object that lies about the origin and is 1 long. The mirror must outlive it.
+// Throws InvalidInput when nothing of the object has a foot.
+std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object) {
+  const Layout l = layout(mirror, object);
+  if (const auto* cylinder = dynamic_cast<const Cylinder*>(&mirror))
+    return std::make_unique<Unrolled>(*cylinder, l);
+  return std::make_unique<Spread>(mirror, l);
+}
 
 // Where the footprint lies about the origin and is 1 long: as exact there as where the object lies,
 // in whatever unit.

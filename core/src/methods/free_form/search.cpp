@@ -16,8 +16,7 @@ namespace {
 constexpr std::size_t most_trials = 20, most_surfaces = 4;  // of either kind of seed
 constexpr Index trial_points = 60;
 constexpr int trial_refinements = 2, first_rounds = 2;
-constexpr std::array<double, 3> seed_distances{12, 6,
-                                               3};  // spacings between seeds, while there are any
+constexpr std::array<double, 3> seed_distances{12, 6, 3};  // spacings, the least between seeds
 constexpr double least_support = 0.3;
 constexpr double same_direction = 0.9;
 constexpr double least_expected = 0.4;  // of the best support
@@ -76,7 +75,7 @@ std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& se
   return growths;
 }
 
-// Adds the surfaces grown from trials, each from one that no surface before explains, and refines
+// Adds the surfaces grown from trials, each from one that no surface before mirrors, and refines
 // those that may come near the best support so far. In the order found.
 void explore(const SearchCloud& cloud, const std::vector<Seed>& seeds,
              std::vector<GrownSurface>& surfaces, const Context& context) {
@@ -113,7 +112,7 @@ constexpr double least_rank = 0.7;  // of the best; others are not refined
 double rank(const GrownSurface& surface) { return (is_flat(surface) ? 0.85 : 1) * surface.support; }
 bool ranks_higher(const GrownSurface& a, const GrownSurface& b) { return rank(a) > rank(b); }
 
-// How well the points that a surface carries land.
+// How closely the points that a surface carries fit their partners, in the mean.
 double precision(const SearchCloud& cloud, const GrownSurface& surface) {
   return surface.support * static_cast<double>(cloud.size()) /
          static_cast<double>(surface.carried.size());
@@ -215,8 +214,8 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   Search search{SearchCloud(cloud, sample_size, context.stage(0, 0.2)), {}};
   Seeds seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.2, 0.4));
   if (search.cloud.noisy() && !has_exact_partners(search.cloud, seeds)) {
-    search.cloud.smooth();
-    seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.4, 0.6));
+    search.cloud.smooth(context.stage(0.4, 0.45));
+    seeds = find_seeds(search.cloud, cloud.seed, context.stage(0.45, 0.6));
   }
   explore(search.cloud, seeds.along, search.surfaces, context.stage(0.6, 0.7));
   explore(search.cloud, seeds.across, search.surfaces, context.stage(0.7, 0.75));

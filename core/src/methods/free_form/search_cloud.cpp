@@ -121,7 +121,7 @@ SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& c
     : SearchCloud(cloud, thinned(cloud.points, most_points, context.stage(0, 0.1)), context) {}
 
 SearchCloud::SearchCloud(const Cloud& cloud, const std::vector<Index>& rows, const Context& context)
-    : SurfacePoints(unit_frame(cloud, rows), context.stage(0.1, 1)),
+    : SurfacePoints(unit_frame(cloud, rows), context.stage(0.1, 1), ring + 1),
       context(context),
       centroid(centroid_of(cloud.points)),
       diagonal(cloud.diagonal),
@@ -133,13 +133,13 @@ SearchCloud::SearchCloud(const Cloud& cloud, const std::vector<Index>& rows, con
 
 bool SearchCloud::noisy() const { return noise > noticeable * spacing; }
 
-void SearchCloud::smooth() {
+void SearchCloud::smooth(const Context& progress) {
   // The fit's error falls with the root of the neighbours' number.
   const double excess = noise / (noticeable * spacing);
   const Index count = std::min({size(), most_smoothing, static_cast<Index>(ring * excess)});
   Points smoothed = points, fitted = normals;
   constexpr Index grain = 256;
-  parallel_for(context, size(), grain, [&](Index begin, Index end) {
+  parallel_for(progress.stage(0, 0.5), size(), grain, [&](Index begin, Index end) {
     std::vector<Neighbour> around;
     for (Index p = begin; p < end; ++p) {
       const Index i = tree.order()[p];
@@ -151,7 +151,8 @@ void SearchCloud::smooth() {
     }
   });
   const double raw = noise;
-  static_cast<SurfacePoints&>(*this) = SurfacePoints(std::move(smoothed), context);
+  static_cast<SurfacePoints&>(*this) =
+      SurfacePoints(std::move(smoothed), progress.stage(0.5, 1), ring + 1);
   spacing = std::max(spacing, least_spacing);
   noise = raw;
   normals = std::move(fitted);

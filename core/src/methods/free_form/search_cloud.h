@@ -19,7 +19,7 @@ struct SearchCloud : SurfacePoints {
   /// Whether the points scatter about their surface by enough to hide it.
   bool noisy() const;
   /// Draws every point to the surface it scatters about. The noise stays that of before.
-  void smooth();
+  void smooth(const Context& progress);
 
  private:
   SearchCloud(const Cloud& cloud, const std::vector<Index>& rows, const Context& context);

@@ -18,14 +18,14 @@ constexpr Index searched_size = 2000;
 constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
 constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
 constexpr double evidence_reach = 1.7;                     // spacings
-constexpr double suspicion = 3;           // from here on the evidence is measured again
-constexpr double no_evidence = 5;         // standard deviations that chance reaches
-constexpr double known_scatter = 7;       // from here on the scatter is believed
-constexpr double strong_evidence = 9;     // no need to look further
-constexpr double evidence_weight = 0.15;  // share of supported points a deviation is worth
-constexpr double common_share = 0.3;      // of points with partners: no accident of the sampling
-constexpr double support_margin = 0.03;   // of directions with about as much
-constexpr double rough_surfaces = 0.115;  // spacings off a plane: noise, or sharp bends
+constexpr double suspicion = 3;            // from here on the evidence is measured again
+constexpr double no_evidence = 5;          // standard deviations that chance reaches
+constexpr double known_scatter = 7;        // from here on the scatter is believed
+constexpr double strong_evidence = 9;      // no need to look further
+constexpr double evidence_weight = 0.15;   // share of supported points a deviation is worth
+constexpr double common_share = 0.3;       // of points with partners: no accident of the sampling
+constexpr double support_margin = 0.03;    // of directions with about as much
+constexpr double rough_surfaces = 0.1155;  // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
