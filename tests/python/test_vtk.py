@@ -108,6 +108,65 @@ def test_setters_are_the_descriptions() -> None:
             assert parameter.doc in getattr(found, f"Set{name}").__doc__
 
 
+def test_properties_are_the_descriptions() -> None:
+    found = MirrorDetection()
+    assert found.method == "auto"
+    found.method = "plane"
+    assert found.GetMethod() == "plane"
+    for method in symsurf.methods().values():
+        for parameter in method.parameters:
+            name = f"{method.name}_{parameter.name}"
+            assert np.array_equal(getattr(found, name), parameter.default)
+            assert parameter.doc in getattr(MirrorDetection, name).__doc__
+            setattr(found, name, parameter.default)
+    before = found.GetMTime()
+    found.plane_pair_distance = 0.125
+    assert found.GetPlanePairDistance() == 0.125 and found.GetMTime() > before
+
+
+def test_properties_are_keywords_of_the_constructor() -> None:
+    shape = mirrored_shape()
+    found = MirrorDetection(
+        input_data=polydata(shape), method="plane", plane_pair_distance=0, number_of_threads=1
+    )
+    found.Update()
+    assert np.nanmax(array(found.GetOutput(2), "MirrorResidual"), initial=0) < 1e-12
+    assert found.output.GetFieldData().GetAbstractArray("Method").GetValue(0) == "plane"
+    for method in symsurf.methods().values():
+        for parameter in method.parameters:
+            name = f"{method.name}_{parameter.name}"
+            made = MirrorDetection(**{name: parameter.default})
+            assert np.array_equal(getattr(made, name), parameter.default)
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("metod", "has no attribute 'metod'; nearest: method"),
+        ("Method", "has no attribute 'Method'; nearest: method"),
+        ("plane_pair_distanc", "nearest: plane_pair_distance"),
+        ("pair_distance", "nearest: plane_pair_distance"),
+        ("UseNormals", "nearest: use_normals"),
+        ("threads", "allowed are .*number_of_threads"),
+        ("qqq", "allowed are input_data, method, use_normals, .*plane_pair_distance"),
+    ],
+)
+def test_unknown_attributes_are_refused(name: str, says: str) -> None:
+    found = MirrorDetection()
+    with pytest.raises(AttributeError, match=says):
+        setattr(found, name, 1)
+    with pytest.raises(AttributeError, match=says):
+        getattr(found, name)
+    with pytest.raises(TypeError, match=f"{name!r}; {says.split('; ')[-1]}"):
+        MirrorDetection(**{name: 1})
+
+
+def test_what_is_no_property_is_no_keyword() -> None:
+    for name in ("Update", "MIRROR", "GetOutput", "output"):
+        with pytest.raises((TypeError, AttributeError), match=name):
+            MirrorDetection(**{name: 1})
+
+
 def test_parameters_reach_the_method() -> None:
     found = detection(mirrored_shape())
     before = found.GetMTime()
