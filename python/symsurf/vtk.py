@@ -233,6 +233,8 @@ def _rows(array: vtkDataArray | None) -> NDArray[np.float64]:
 def _triangles(source: vtkPolyData) -> NDArray[np.int64] | None:
     if source.GetNumberOfPolys() + source.GetNumberOfStrips() == 0:
         return None
+    for cells in (source.GetPolys(), source.GetStrips()):
+        _require_points(vtk_to_numpy(cells.GetConnectivityArray()), source.GetNumberOfPoints())
     divided = vtkTriangleFilter()
     divided.SetInputData(source)
     divided.PassVertsOff()
@@ -240,6 +242,13 @@ def _triangles(source: vtkPolyData) -> NDArray[np.int64] | None:
     divided.Update()
     corners = divided.GetOutput().GetPolys().GetConnectivityArray()
     return vtk_to_numpy(corners).reshape(-1, 3)
+
+
+def _require_points(named: NDArray[np.int64], count: int) -> None:
+    """VTK's own filters read what a polygon names without asking whether it is there."""
+    beyond = named[(named < 0) | (named >= count)]
+    if len(beyond):
+        raise InvalidInput(f"a polygon names point {beyond[0]}; allowed is 0 to {count - 1}")
 
 
 def _points(rows: NDArray[np.float64]) -> vtkPoints:

@@ -11,9 +11,10 @@ import symsurf
 
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
+from bad_input import tables
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 
 from symsurf.vtk import MirrorDetection
@@ -201,6 +202,44 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     wrong = MirrorDetection()
     wrong.SetInputDataObject(vtkUnstructuredGrid())
     assert "vtkPolyData" in error_of(wrong)
+
+
+@pytest.mark.parametrize("cloud", tables.clouds(), ids=lambda cloud: cloud.name)
+def test_clouds_of_the_table(cloud: tables.Cloud) -> None:
+    found = MirrorDetection(refuse_nonfinite=cloud.refuses_nonfinite)
+    good = polydata(mirrored_shape(50))
+    for method in symsurf.methods():
+        found.method = method
+        found.input_data = polydata(np.array(cloud.points, float).reshape(-1, 3))
+        assert cloud.reason in error_of(found)
+        assert [found.GetOutput(port).GetNumberOfPoints() for port in range(3)] == [0, 0, 0]
+    found.method, found.input_data = "plane", good
+    assert error_of(found) == "" and found.output.GetNumberOfPoints() > 0
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_numbers_out_of_range(method: str) -> None:
+    found = detection(mirrored_shape(50), method)
+    for parameter, value in tables.numbers_out_of_range(symsurf.methods()[method].parameters):
+        name = f"{method}_{parameter.name}"
+        setattr(found, name, value)
+        assert f"{parameter.name} is " in error_of(found)
+        assert found.output.GetNumberOfPoints() == 0
+        setattr(found, name, parameter.default)
+    assert error_of(found) == ""
+
+
+@pytest.mark.parametrize("ids", [(0, 1, 100), (0, 1, 2, 100), (-1, 1, 2), (0, 1, 2, -7)])
+@pytest.mark.parametrize("strips", [False, True])
+def test_polygons_that_name_no_point(ids: tuple[int, ...], strips: bool) -> None:
+    shape = polydata(mirrored_shape(50))
+    cells = vtkCellArray()
+    cells.InsertNextCell(len(ids), ids)
+    shape.SetStrips(cells) if strips else shape.SetPolys(cells)
+    found = MirrorDetection(method="plane", input_data=shape)
+    assert "a polygon names point" in error_of(found)
+    found.use_faces = False
+    assert error_of(found) == ""
 
 
 def test_points_that_are_not_finite_are_left_out() -> None:

@@ -1,0 +1,99 @@
+"""The tables of bad input, in Python and on the command line."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from bad_input import tables
+from command_line import run_here
+
+import symsurf
+
+GOOD = np.random.default_rng(0).normal(size=(50, 3))
+
+
+def named(rows):
+    return [pytest.param(row, id=f"{i} {row.name}") for i, row in enumerate(rows)]
+
+
+def array(points):
+    return np.array(points, float).reshape(-1, 3)
+
+
+def assert_python_lives():
+    assert 0 <= symsurf.detect_plane(GOOD).score <= 1
+
+
+@pytest.mark.parametrize("cloud", named(tables.clouds()))
+def test_clouds_in_python(cloud):
+    nonfinite = "refuse" if cloud.refuses_nonfinite else "skip"
+    for method in symsurf.methods():
+        with pytest.raises(symsurf.InvalidInput) as error:
+            symsurf.detect(array(cloud.points), method, nonfinite=nonfinite)
+        assert cloud.reason in str(error.value)
+    assert_python_lives()
+
+
+@pytest.mark.parametrize("mirror", named(tables.mirrors()))
+def test_mirrors_in_python(mirror):
+    numbers = {
+        name: value if isinstance(value, (float, str)) else np.array(value)
+        for name, value in mirror.numbers.items()
+    }
+    with pytest.raises((symsurf.InvalidInput, symsurf.InvalidParameter)) as error:
+        symsurf._core.make_mirror(mirror.kind, numbers)
+    assert mirror.reason in str(error.value)
+
+
+@pytest.mark.parametrize("file", named(tables.files()))
+def test_files_in_python_and_on_the_command_line(file, tmp_path):
+    path = tmp_path / file.name
+    path.write_bytes(file.content)
+    for read in (symsurf.read, symsurf.detect):
+        with pytest.raises(symsurf.InvalidInput) as error:
+            read(path)
+        assert str(error.value).startswith(f"{path}: {file.reason}")
+    assert_refused_and_the_rest_done(path, file.reason)
+
+
+@pytest.mark.parametrize("cloud", named(tables.clouds()[1:]))  # a file of no points is in files.tsv
+def test_clouds_on_the_command_line(cloud, tmp_path):
+    path = tmp_path / "bad.csv"
+    rows = "\n".join(",".join(map(repr, point)) for point in cloud.points)
+    path.write_text(f"x,y,z\n{rows}\n")
+    assert_refused_and_the_rest_done(path, cloud.reason, refuse=cloud.refuses_nonfinite)
+
+
+def assert_refused_and_the_rest_done(path, reason, refuse=False):
+    """One line says why, and the file after it is done."""
+    good = path.with_name("good.xyz")
+    np.savetxt(good, GOOD)
+    output = path.with_name("results")
+    words = "--nonfinite refuse" if refuse else ""
+    done = run_here(
+        f"detect {path.name} good.xyz --method plane --json --output {output} {words}", path.parent
+    )
+    assert done.returncode == 1
+    errors = done.stderr.splitlines()
+    assert len(errors) == 1 and path.name in errors[0] and reason in errors[0]
+    assert json.loads(done.stdout)["file"] == "good.xyz"
+    assert {file.stem for file in output.iterdir()} == {"good"}
+
+
+def out_of_range():
+    for method in symsurf.methods().values():
+        for parameter, value in tables.numbers_out_of_range(method.parameters):
+            name = f"{method.name}-{parameter.name}-{value}"
+            yield pytest.param(method.name, parameter, value, id=name)
+
+
+@pytest.mark.parametrize(("method", "parameter", "value"), list(out_of_range()))
+def test_numbers_out_of_range_on_the_command_line(method, parameter, value, tmp_path):
+    np.savetxt(tmp_path / "good.xyz", GOOD)
+    option = f"--{parameter.name.replace('_', '-')}={value}"
+    done = run_here(f"detect good.xyz --method {method} {option} --json", tmp_path)
+    assert done.returncode == 2 and done.stdout == ""
+    assert f"{parameter.name} is " in done.stderr and parameter.range in done.stderr
+    assert len(done.stderr.splitlines()) == 1
