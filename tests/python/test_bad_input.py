@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 
 import numpy as np
 import pytest
 from bad_input import tables
-from command_line import run_here
+from command_line import run, run_here
 
 import symsurf
 
@@ -80,6 +81,68 @@ def assert_refused_and_the_rest_done(path, reason, refuse=False):
     assert len(errors) == 1 and path.name in errors[0] and reason in errors[0]
     assert json.loads(done.stdout)["file"] == "good.xyz"
     assert {file.stem for file in output.iterdir()} == {"good"}
+
+
+def nothing(path):
+    """No file of that name."""
+
+
+NAMES = {
+    "none": ("none.ply", nothing, "there is no such file"),
+    "folder": ("folder.ply", lambda path: path.mkdir(), "this is not a file"),
+    "pipe": ("pipe.ply", os.mkfifo, "this is not a file"),
+    "link to nothing": (
+        "link.ply",
+        lambda path: path.symlink_to("nowhere"),
+        "there is no such file",
+    ),
+    "link to itself": ("link.ply", lambda path: path.symlink_to(path), "there is no such file"),
+    "folder of a file": ("good.xyz/a.ply", nothing, "there is no such file"),
+    "too long": (300 * "a" + ".ply", nothing, "there is no such file"),
+    "no suffix": ("a", nothing, "suffix '' is none of .ply"),
+    "suffix alone": (".ply", nothing, "suffix '' is none of .ply"),
+    "two lines": ("a\nb.ply", nothing, "there is no such file"),
+    "not UTF-8": (os.fsdecode(b"\xff.ply"), nothing, "there is no such file"),
+    "umlaut": ("ä.ply", nothing, "there is no such file"),
+    "format": ("%s%n{0}.ply", nothing, "there is no such file"),
+    "holes": ("holes.ply", lambda path: os.truncate(made(path), 8 * 10**12), "the file has 8000"),
+}
+
+
+def made(path):
+    path.touch()
+    return path
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names(name, tmp_path):
+    file, make, reason = NAMES[name]
+    path = tmp_path / file
+    np.savetxt(tmp_path / "good.xyz", GOOD)
+    make(path)
+    for read in (symsurf.read, symsurf.detect):
+        with pytest.raises(symsurf.InvalidInput) as error:
+            read(path)
+        assert str(error.value).startswith(f"{path}: {reason}")
+    done = run("detect", file, "good.xyz", "--json", cwd=tmp_path)
+    assert done.returncode == 1 and json.loads(done.stdout)["file"] == "good.xyz"
+    assert len(done.stderr.splitlines()) == 1 and reason in done.stderr
+
+
+@pytest.mark.parametrize("path", [None, 5, 1.5, [], object(), "a\0.ply"])
+def test_what_names_no_file(path):
+    with pytest.raises(symsurf.InvalidInput, match="path is .*; allowed is the name of a file"):
+        symsurf.read(path)
+
+
+def test_a_good_file_of_any_name(tmp_path, monkeypatch):
+    monkeypatch.setenv("PYTHONIOENCODING", "utf-8:strict")  # Python's choice in most locales
+    name = os.fsdecode(b"\xff.xyz")
+    np.savetxt(tmp_path / name, GOOD)
+    for words in ((), ("--json",)):
+        done = run("detect", name, *words, cwd=tmp_path, errors="surrogateescape")
+        assert done.returncode == 0 and done.stderr == ""
+    assert json.loads(done.stdout)["file"] == name
 
 
 def out_of_range():

@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter
@@ -26,6 +27,8 @@ COMMANDS = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
+    if isinstance(sys.stdout, TextIOWrapper):  # a file's name may be any bytes
+        sys.stdout.reconfigure(errors="surrogateescape")
     try:
         chosen = parser().parse_args(attach_negative_numbers(words))
         status = chosen.run(chosen)
