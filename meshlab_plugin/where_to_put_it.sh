@@ -14,7 +14,8 @@ pymeshlab has double numbers:
   print(mesh_set.apply_filter("compute_mirror_auto"))
 
 MeshLab: Help > About plugins > Load Plugins, and choose the file; or copy it to the plugins folder
-of MeshLab (Debian: /usr/lib/x86_64-linux-gnu/meshlab/plugins). Debian's MeshLab has float numbers;
-of the official builds those with "d" behind the version have double, the others float.
+of MeshLab. Of the official builds those with "d" behind the version have double numbers, the others
+float, as has Debian's MeshLab from Debian 13 on (2022.02: SYMSURF_MESHLAB_VERSION=2022.02 make
+meshlab). Debian 12's own MeshLab, 2020.09, cannot load the plugin.
 The filters are then under Filters > Quality Measure and Computations and Filters > Point Set.
 TEXT

@@ -5,6 +5,7 @@ option(BUILD_SHARED_LIBS "Build shared VTK modules" ON)
 option(SYMSURF_VTK_PYTHON "Wrap the VTK module for Python" ON)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR})
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # a VTK that stands elsewhere is found at run time too
 
 if(SYMSURF_PARAVIEW)
   find_package(ParaView REQUIRED
@@ -35,8 +36,18 @@ vtk_module_build(MODULES ${symsurf_modules}
   PACKAGE symsurf-filters INSTALL_EXPORT symsurf-filters INSTALL_HEADERS ON
   HEADERS_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/symsurf-filters
   CMAKE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/symsurf-filters)
+# The VTK that it was built with, and the core where the module is a static library.
+set(core_dependency)
+if(SYMSURF_PARAVIEW)
+  export(EXPORT symsurf NAMESPACE symsurf::)  # VTK exports what it builds, which names the core
+  set(core_dependency "find_dependency(symsurf HINTS \${CMAKE_CURRENT_LIST_DIR}/../symsurf)\n")
+endif()
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/symsurf-filters-config.cmake
   "include(CMakeFindDependencyMacro)\n"
+  "if(NOT VTK_DIR)\n"
+  "  set(VTK_DIR \"${VTK_DIR}\")\n"
+  "endif()\n"
+  "${core_dependency}"
   "find_dependency(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel\n"
   "  OPTIONAL_COMPONENTS ParallelMPI)\n"
   "include(\${CMAKE_CURRENT_LIST_DIR}/symsurf-filters-targets.cmake)\n")
@@ -48,7 +59,7 @@ if(SYMSURF_VTK_PYTHON)
   set(symsurf_python_folder
     ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
   vtk_module_wrap_python(MODULES ${symsurf_modules} PYTHON_PACKAGE symsurf_filters
-    MODULE_DESTINATION ${symsurf_python_folder}
+    MODULE_DESTINATION ${symsurf_python_folder} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)
 endif()
 

@@ -57,8 +57,9 @@ symsurf::Value value_of(vtkAbstractArray* array) {
     return std::string(strings->GetValue(0));
   auto* data = vtkArrayDownCast<vtkDataArray>(array);
   if (array->GetNumberOfValues() == 1) {
-    if (array->GetDataType() == VTK_DOUBLE) return data->GetComponent(0, 0);
-    return static_cast<symsurf::Index>(data->GetComponent(0, 0));
+    const double value = data->GetComponent(0, 0);
+    const bool is_real = array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT;
+    return is_real ? symsurf::Value(value) : symsurf::Value(static_cast<symsurf::Index>(value));
   }
   if (array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 3)
     return symsurf::Vector3(data->GetTuple3(0));

@@ -1,9 +1,11 @@
 #include "point_arrays.h"
 
+#include <symsurf/errors.h>
 #include <symsurf/mirror.h>
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"
@@ -27,6 +29,18 @@ vtkNew<vtkCellArray> cells_of(vtkIdType count, int corners, const Fill& fill) {
   return cells;
 }
 
+// VTK's own filters read what a polygon names without asking whether it is there.
+void require_points(vtkCellArray* cells, vtkIdType count) {
+  if (cells->GetNumberOfConnectivityIds() == 0) return;
+  double range[2];
+  cells->GetConnectivityArray()->GetRange(range);
+  for (const double named : range)
+    if (named < 0 || named >= static_cast<double>(count))
+      throw symsurf::InvalidInput("a polygon names point " +
+                                  std::to_string(static_cast<vtkIdType>(named)) +
+                                  "; allowed is 0 to " + std::to_string(count - 1));
+}
+
 }  // namespace
 
 PointArray::PointArray(vtkDataArray* array) : doubles_(vtkArrayDownCast<vtkDoubleArray>(array)) {
@@ -43,6 +57,8 @@ symsurf::PointsView PointArray::view() const {
 TriangleArray::TriangleArray(vtkPolyData* data)
     : corners_(vtkSmartPointer<vtkTypeInt64Array>::New()) {
   if (!data || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) return;
+  require_points(data->GetPolys(), data->GetNumberOfPoints());
+  require_points(data->GetStrips(), data->GetNumberOfPoints());
   vtkNew<vtkTriangleFilter> divided;
   divided->SetInputData(data);
   divided->PassVertsOff();

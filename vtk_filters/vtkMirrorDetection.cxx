@@ -174,7 +174,8 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     if (this->UseNormals) require_normals(processes, normals.view().size() < points.view().size());
     const symsurf::Index before = points_before(processes, points.view().size());
 
-    const TriangleArray faces(this->UseFaces ? input : nullptr);
+    // Several processes use their points only: polygons that one cannot use would stop it alone.
+    const TriangleArray faces(this->UseFaces && processes.size() == 1 ? input : nullptr);
 
     symsurf::Options options;
     options.method = this->Method;

@@ -108,7 +108,7 @@ template <typename Rows>
 Shape read_elements(Rows rows, const PlyHeader& header) {
   Index vertices = 0;
   for (const PlyElement& element : header.elements)
-    if (element.name == "vertex") vertices += element.count;
+    if (element.name == "vertex") vertices = element.count;
   ShapeBuilder shape;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex")

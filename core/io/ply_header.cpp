@@ -3,6 +3,7 @@
 #include <symsurf/errors.h>
 
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace symsurf {
@@ -33,6 +34,7 @@ PlyType type(TextScanner& text, std::string_view name) {
 
 PlyElement element(TextScanner& text) {
   const std::string name(text.word());
+  if (name.empty()) text.fail("the element's name is missing");
   const Index count = text.integer("the count of the element " + in_quotes(name));
   if (count < 0) text.fail("the count of the element " + in_quotes(name) + " is below 0");
   return {name, count, {}};
@@ -62,6 +64,7 @@ PlyHeader read_ply_header(TextScanner& text) {
   text.pass_over("obj_info");
 
   PlyHeader header;
+  std::set<std::string> names;
   bool has_format = false;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
@@ -70,6 +73,9 @@ PlyHeader read_ply_header(TextScanner& text) {
       has_format = true;
     } else if (keyword == "element") {
       header.elements.push_back(element(text));
+      const std::string& name = header.elements.back().name;
+      if (!names.insert(name).second)
+        text.fail("the element " + in_quotes(name) + " stands there twice");
     } else if (keyword == "property") {
       if (header.elements.empty()) text.fail("a property stands before any element");
       header.elements.back().properties.push_back(property(text));

@@ -1,10 +1,14 @@
 #include <symsurf/errors.h>
 #include <symsurf/read.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <fstream>
+#include <new>
 #include <string>
 
 #include "formats.h"
@@ -37,12 +41,30 @@ const Format& format_of(const std::filesystem::path& path) {
   throw InvalidInput("suffix '" + suffix + "' is none of " + known);
 }
 
+// The bytes of memory that the process may have.
+std::uintmax_t memory() {
+  const std::uintmax_t machine = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  rlimit process{};
+  if (getrlimit(RLIMIT_AS, &process) != 0) return machine;  // RLIM_INFINITY is the largest number
+  return std::min<std::uintmax_t>(machine, process.rlim_cur);
+}
+
+// Half of the memory: the content stands beside the numbers that are made of it.
+void require_that_it_fits(std::uintmax_t bytes) {
+  const std::uintmax_t allowed = memory() / 2;
+  if (bytes > allowed)
+    throw InvalidInput("the file has " + std::to_string(bytes) + " bytes; allowed are at most " +
+                       std::to_string(allowed) + ", half of the memory");
+}
+
 std::string content_of(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InvalidInput("there is no such file");
   if (!std::filesystem::is_regular_file(status)) throw InvalidInput("this is not a file");
   const auto size = std::filesystem::file_size(path, error);
+  if (!error) require_that_it_fits(size);
   std::ifstream file(path, std::ios::binary);
   std::string content(error ? 0 : size, '\0');
   if (error || !file.read(content.data(), static_cast<std::streamsize>(content.size())))
@@ -72,6 +94,8 @@ Shape read(const std::filesystem::path& path) {
     return shape;
   } catch (const InvalidInput& error) {
     throw InvalidInput(path.string() + ": " + error.what());
+  } catch (const std::bad_alloc&) {  // what else is held leaves less than half of the memory
+    throw InvalidInput(path.string() + ": what the file holds does not fit into the memory");
   }
 }
 

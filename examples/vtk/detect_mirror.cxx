@@ -10,16 +10,34 @@
 #include <cstdlib>
 #include <iostream>
 
-int main(int, char* argv[]) {
+int main(int argc, char* argv[]) {
+  if (argc != 3) {
+    std::cerr << "usage: detect_mirror SHAPE.obj MIRROR.vtp" << std::endl;
+    return 2;
+  }
   vtkNew<vtkOBJReader> reader;
   reader->SetFileName(argv[1]);
+  reader->Update();
+  if (reader->GetOutput()->GetNumberOfPoints() == 0) {
+    std::cerr << argv[1] << ": no points can be read" << std::endl;
+    return EXIT_FAILURE;
+  }
   vtkNew<vtkMirrorDetection> detection;
   detection->SetInputConnection(reader->GetOutputPort());
   detection->SetMethod("plane");
+  detection->Update();
+  vtkDataArray* normal = detection->GetOutput()->GetFieldData()->GetArray("Normal");
+  if (!normal) {  // an error of the filter, which VTK has said, or a shape without a plane
+    std::cerr << argv[1] << ": no mirror plane" << std::endl;
+    return EXIT_FAILURE;
+  }
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
   writer->SetFileName(argv[2]);
-  if (!writer->Write()) return EXIT_FAILURE;
-  const double* normal = detection->GetOutput()->GetFieldData()->GetArray("Normal")->GetTuple3(0);
-  std::cout << "Normal " << normal[0] << " " << normal[1] << " " << normal[2] << std::endl;
+  if (!writer->Write() || writer->GetErrorCode() != 0) {
+    std::cerr << argv[2] << ": the file cannot be written" << std::endl;
+    return EXIT_FAILURE;
+  }
+  const double* n = normal->GetTuple3(0);
+  std::cout << "Normal " << n[0] << " " << n[1] << " " << n[2] << std::endl;
 }

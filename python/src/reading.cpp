@@ -1,4 +1,5 @@
 #include <pybind11/stl/filesystem.h>
+#include <symsurf/errors.h>
 #include <symsurf/read.h>
 
 #include <filesystem>
@@ -18,7 +19,15 @@ py::object array_or_none(Matrix&& matrix) {
 }
 
 py::dict read_fields(const std::filesystem::path& path) {
-  Shape shape = without_gil([&] { return read(path); });
+  Shape shape;
+  try {
+    shape = without_gil([&] { return read(path); });
+  } catch (const InvalidInput& error) {
+    // It has the file's name, whose bytes need not be UTF-8.
+    const auto text = py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefault(error.what()));
+    PyErr_SetObject(py::module_::import("symsurf._core").attr("InvalidInput").ptr(), text.ptr());
+    throw py::error_already_set();
+  }
   py::dict fields;
   fields["points"] = owned_array(std::move(shape.points));
   fields["faces"] = array_or_none(std::move(shape.faces));

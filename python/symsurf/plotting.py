@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 import sys
 from ctypes.util import find_library
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import InvalidInput
+from ._core import InvalidInput, InvalidParameter
 from .mirror_mesh import mirror_mesh
 from .result import Result
+from .saving import write_whole
 from .shape import Shape
 
 if TYPE_CHECKING:
@@ -36,14 +38,23 @@ def plot(
     points: ArrayLike | None = None,
 ) -> pyvista.Plotter:
     """Draws a result; see ``Result.plot``."""
+    if path is not None and Path(path).suffix.lower() != ".png":
+        raise InvalidParameter(f"path is {str(path)!r}; allowed is the suffix .png")
     plotter = new_plotter(off_screen=path is not None)
     draw(plotter, result, shape=shape, points=points, title=_title(result))
     if path is None:
         plotter.show(auto_close=False)
     else:
-        plotter.screenshot(Path(path))
-        plotter.close()
+        write_picture(plotter, Path(path))
     return plotter
+
+
+def write_picture(plotter: pyvista.Plotter, path: Path) -> None:
+    """As a PNG, whole or not at all; closes the plotter."""
+    picture = BytesIO()
+    plotter.screenshot(picture)
+    plotter.close()
+    write_whole(path, picture.getvalue())
 
 
 def new_plotter(off_screen: bool, **options: Any) -> pyvista.Plotter:

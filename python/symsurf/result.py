@@ -123,7 +123,7 @@ class Result:
         needs PyVista.
 
         Args:
-            path: a PNG to write off-screen; without it a window opens.
+            path: a PNG to write off-screen, whole or not at all; without it a window opens.
             shape: another object with as many points, with its faces.
             points: its points (n, 3) alone; without both, the points and faces of the detection.
         """

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from ._core import InvalidInput
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,8 @@ def read(path: str | os.PathLike[str]) -> Shape:
     """Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix.
 
     Coordinates keep every digit a double holds. Raises InvalidInput naming the file and the reason:
-    unknown suffix, not readable, broken, truncated, no points.
+    unknown suffix, not readable, larger than half of the memory, broken, truncated, no points.
     """
+    if not isinstance(path, (str, bytes, os.PathLike)) or "\0" in os.fsdecode(path):
+        raise InvalidInput(f"path is {path!r}; allowed is the name of a file")
     return Shape(**_core.read(path))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .plotting import new_plotter
+from .plotting import new_plotter, write_picture
 from .thesis_tables import Outcome
 
 YELLOW, GREEN, RED = "#e8c100", "#1d9a3c", "#d42020"
@@ -24,6 +24,5 @@ def draw(outcome: Outcome, folder: Path) -> Path:
     if len(outcome.result.surface_points):
         plotter.add_points(outcome.result.surface_points, color=RED, point_size=6)
     plotter.view_vector((1, -1.6, 0.9))
-    plotter.screenshot(path)
-    plotter.close()
+    write_picture(plotter, path)
     return path

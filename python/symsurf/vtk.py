@@ -1,9 +1,8 @@
 """The detection as a VTK filter, for the ``vtk`` package that pip installs.
 
 >>> from symsurf.vtk import MirrorDetection
->>> detection = MirrorDetection()
+>>> detection = MirrorDetection(method="plane")
 >>> detection.SetInputConnection(reader.GetOutputPort())
->>> detection.SetMethod("plane")
 >>> detection.Update()
 >>> mirror = detection.GetOutput(MirrorDetection.MIRROR)
 
@@ -13,7 +12,7 @@ Programs built on VTK or ParaView have the same filter in C++: ``vtkMirrorDetect
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -49,38 +48,49 @@ class MirrorDetection(VTKPythonAlgorithmBase):
     ``fixed_direction`` project it onto that); point data Residual. Output 2 "Mapping": the input;
     point data MirrorPartner (index, -1 for none), MirrorResidual (NaN for none) and MirrorSide.
 
-    Every parameter of every method has its setter and getter: ``SetPlanePairDistance`` for
-    ``pair_distance`` of ``plane``. Points are read in place when they are doubles. Bad input and
-    values out of range are errors of the filter; they leave the outputs empty.
+    Every parameter of every method is a property, a keyword of the constructor, and has its setter
+    and getter: ``plane_pair_distance`` and ``SetPlanePairDistance`` for ``pair_distance`` of
+    ``plane``. Other attributes cannot be set. Points are read in place when they are doubles. Bad
+    input and values out of range are errors of the filter; they leave the outputs empty.
     """
 
     MIRROR, SURFACE_POINTS, MAPPING = range(3)
 
-    def __init__(self) -> None:
+    def __init__(self, **properties: Any) -> None:
         super().__init__(
             nInputPorts=1, inputType="vtkPolyData", nOutputPorts=3, outputType="vtkPolyData"
         )
         self._options: dict[str, Any] = {
-            "Method": next(iter(methods())),
-            "UseNormals": False,
-            "UseFaces": True,
-            "RefuseNonfinite": False,
-            "ShowCandidates": False,
-            "Seed": 0,
-            "NumberOfThreads": 0,
-        } | {
-            _property(method.name, parameter.name): parameter.default
-            for method in methods().values()
-            for parameter in method.parameters
+            name: default for name, (default, _) in _properties().items()
         }
+        for name, value in properties.items():
+            if not hasattr(getattr(type(self), name, None), "__set__"):
+                raise TypeError(f"unexpected keyword argument {name!r}; {_nearest(name)}")
+            setattr(self, name, value)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        is_made = "_options" in vars(self)  # VTK's own base class sets some attributes
+        if is_made and not hasattr(self, name):
+            raise AttributeError(_no_attribute(self, name), name=name, obj=self)
+        super().__setattr__(name, value)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(_no_attribute(self, name), name=name, obj=self)
 
     def SetInputData(self, data: vtkPolyData) -> None:
         """The shape, where no filter or reader makes it."""
         self.SetInputDataObject(0, data)
 
+    def GetInput(self) -> vtkPolyData | None:
+        """The shape; None where there is none yet."""
+        return self.GetInputDataObject(0, 0) if self.GetNumberOfInputConnections(0) else None
+
     def GetOutput(self, port: int = 0) -> vtkPolyData:
         """The output at a port."""
         return self.GetOutputDataObject(port)
+
+    input_data = property(GetInput, SetInputData, doc="The shape, where no filter makes it.")
+    output = property(GetOutput, doc="The output at port 0, the mirror.")
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
         """Runs the detection; VTK calls this."""
@@ -88,7 +98,7 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         try:
             result = self._detected(source)
             mirror = vtkPolyData.GetData(outputs, self.MIRROR)
-            _set_mirror_meshes(mirror, result, self._options["ShowCandidates"])
+            _set_mirror_meshes(mirror, result, self._options["show_candidates"])
             _set_mirror_fields(mirror.GetFieldData(), result)
         except Cancelled:
             return 1
@@ -102,10 +112,10 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         return 1
 
     def _detected(self, source: vtkPolyData) -> Result:
-        name = self._options["Method"]
+        name = self._options["method"]
         method = methods().get(name)
-        normals = source.GetPointData().GetNormals() if self._options["UseNormals"] else None
-        if self._options["UseNormals"] and not normals and source.GetNumberOfPoints():
+        normals = source.GetPointData().GetNormals() if self._options["use_normals"] else None
+        if self._options["use_normals"] and not normals and source.GetNumberOfPoints():
             raise InvalidInput(
                 "UseNormals is on, but the input has no point normals; compute them first, or do "
                 "without"
@@ -115,11 +125,11 @@ class MirrorDetection(VTKPythonAlgorithmBase):
             result = detect(
                 _rows(source.GetPoints() and source.GetPoints().GetData()),
                 name,
-                faces=_triangles(source) if self._options["UseFaces"] else None,
+                faces=_triangles(source) if self._options["use_faces"] else None,
                 normals=normals and _rows(normals),
-                nonfinite="refuse" if self._options["RefuseNonfinite"] else "skip",
-                seed=self._options["Seed"],
-                threads=self._options["NumberOfThreads"],
+                nonfinite="refuse" if self._options["refuse_nonfinite"] else "skip",
+                seed=self._options["seed"],
+                threads=self._options["number_of_threads"],
                 progress=self._progress,
                 **{
                     parameter.name: self._options[_property(name, parameter.name)]
@@ -151,14 +161,45 @@ class MirrorDetection(VTKPythonAlgorithmBase):
 
 
 def _property(method: str, parameter: str) -> str:
-    return _camel_case(method) + _camel_case(parameter)
+    return f"{method}_{parameter}"
 
 
 def _camel_case(name: str) -> str:
     return "".join(word[0].upper() + word[1:] for word in name.split("_"))
 
 
-def _accessors(name: str, doc: str) -> tuple[Callable[..., None], Callable[..., Any]]:
+def _properties() -> dict[str, tuple[Any, str]]:
+    """The default and the description of every property, by name."""
+    properties: dict[str, tuple[Any, str]] = {
+        "method": (next(iter(methods())), "One of: " + ", ".join(methods())),
+        "use_normals": (False, "Whether the input's point normals are used, as lines."),
+        "use_faces": (
+            True,
+            "Whether samples of the input's polygons find the mirror, not its points alone.",
+        ),
+        "refuse_nonfinite": (
+            False,
+            "Whether points that are not finite are an error, not left out.",
+        ),
+        "show_candidates": (
+            False,
+            "Whether the output Mirror has the triangles of the candidates too.",
+        ),
+        "seed": (0, "Seed of the methods that draw at random."),
+        "number_of_threads": (0, "0 means as many as the machine has."),
+    }
+    for method in methods().values():
+        for parameter in method.parameters:
+            properties[_property(method.name, parameter.name)] = (
+                parameter.default,
+                f"{parameter.doc} Allowed: {allowed(parameter)}.",
+            )
+    return properties
+
+
+def _add_property(name: str, doc: str) -> None:
+    """As VTK wraps its classes: a setter, a getter and, as VTK has it from 9.4 on, a property."""
+
     def set_value(self: MirrorDetection, *value: Any) -> None:
         new = value[0] if len(value) == 1 else value
         if not np.array_equal(self._options[name], new):
@@ -168,29 +209,21 @@ def _accessors(name: str, doc: str) -> tuple[Callable[..., None], Callable[..., 
     def get_value(self: MirrorDetection) -> Any:
         return self._options[name]
 
-    set_value.__name__, get_value.__name__ = f"Set{name}", f"Get{name}"
+    set_value.__name__, get_value.__name__ = f"Set{_camel_case(name)}", f"Get{_camel_case(name)}"
     set_value.__doc__ = get_value.__doc__ = doc
-    return set_value, get_value
+    for accessor in (set_value, get_value):
+        setattr(MirrorDetection, accessor.__name__, accessor)
+    setattr(MirrorDetection, name, property(get_value, set_value, doc=doc))
 
 
-def _add_properties() -> None:
-    properties = {
-        "Method": "One of: " + ", ".join(methods()),
-        "UseNormals": "Whether the input's point normals are used, as lines.",
-        "UseFaces": "Whether samples of the input's polygons find the mirror, not its points alone.",
-        "RefuseNonfinite": "Whether points that are not finite are an error, not left out.",
-        "ShowCandidates": "Whether the output Mirror has the triangles of the candidates too.",
-        "Seed": "Seed of the methods that draw at random.",
-        "NumberOfThreads": "0 means as many as the machine has.",
-    }
-    for method in methods().values():
-        for parameter in method.parameters:
-            properties[_property(method.name, parameter.name)] = (
-                f"{parameter.doc} Allowed: {allowed(parameter)}."
-            )
-    for name, doc in properties.items():
-        for accessor in _accessors(name, doc):
-            setattr(MirrorDetection, accessor.__name__, accessor)
+def _no_attribute(algorithm: MirrorDetection, name: str) -> str:
+    return f"{type(algorithm).__name__} has no attribute {name!r}; {_nearest(name)}"
+
+
+def _nearest(name: str) -> str:
+    names = ["input_data", *_properties()]
+    near = get_close_matches(name.lower(), names)
+    return f"nearest: {', '.join(near)}" if near else f"allowed are {', '.join(names)}"
 
 
 def _rows(array: vtkDataArray | None) -> NDArray[np.float64]:
@@ -200,6 +233,8 @@ def _rows(array: vtkDataArray | None) -> NDArray[np.float64]:
 def _triangles(source: vtkPolyData) -> NDArray[np.int64] | None:
     if source.GetNumberOfPolys() + source.GetNumberOfStrips() == 0:
         return None
+    for cells in (source.GetPolys(), source.GetStrips()):
+        _require_points(vtk_to_numpy(cells.GetConnectivityArray()), source.GetNumberOfPoints())
     divided = vtkTriangleFilter()
     divided.SetInputData(source)
     divided.PassVertsOff()
@@ -207,6 +242,13 @@ def _triangles(source: vtkPolyData) -> NDArray[np.int64] | None:
     divided.Update()
     corners = divided.GetOutput().GetPolys().GetConnectivityArray()
     return vtk_to_numpy(corners).reshape(-1, 3)
+
+
+def _require_points(named: NDArray[np.int64], count: int) -> None:
+    """VTK's own filters read what a polygon names without asking whether it is there."""
+    beyond = named[(named < 0) | (named >= count)]
+    if len(beyond):
+        raise InvalidInput(f"a polygon names point {beyond[0]}; allowed is 0 to {count - 1}")
 
 
 def _points(rows: NDArray[np.float64]) -> vtkPoints:
@@ -297,4 +339,5 @@ def _set_mapping(output: vtkPolyData, result: Result) -> None:
     data.SetScalars(numpyTovtkDataArray(residuals, "MirrorResidual"))
 
 
-_add_properties()
+for _name, (_, _doc) in _properties().items():
+    _add_property(_name, _doc)

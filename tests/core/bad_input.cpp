@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
+#include <symsurf/make_mirror.h>
 #include <symsurf/symsurf.h>
 
 #include <cmath>
 #include <limits>
 
+#include "bad_input/tables.h"
 #include "expect_error.h"
 #include "random_cloud.h"
+#include "temporary_file.h"
 
 namespace symsurf {
 namespace {
@@ -25,6 +28,29 @@ Points line(const Vector3& from, const Vector3& step, Index n) {
   Points points(n, 3);
   for (Index i = 0; i < n; ++i) points.row(i) = (from + double(i) * step).transpose();
   return points;
+}
+
+TEST(BadInput, CloudsOfTheTable) {
+  for (const bad_input::Cloud& cloud : bad_input::clouds()) {
+    SCOPED_TRACE(cloud.name);
+    for (const Method& method : methods())
+      expect_error<InvalidInput>(cloud.reason, [&] {
+        detect(cloud.points, {.method = method.name, .refuse_nonfinite = cloud.refuses_nonfinite});
+      });
+  }
+}
+
+TEST(BadInput, MirrorsOfTheTable) {
+  for (const bad_input::MirrorNumbers& mirror : bad_input::mirrors()) {
+    SCOPED_TRACE(mirror.name);
+    expect_error<std::invalid_argument>(mirror.reason,
+                                        [&] { make_mirror(mirror.kind, mirror.numbers); });
+  }
+}
+
+TEST(BadInput, FilesOfTheTable) {
+  for (const bad_input::File& file : bad_input::files())
+    expect_unreadable(file.name, file.content, file.reason);
 }
 
 TEST(BadInput, TooFewPoints) {

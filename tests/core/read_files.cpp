@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -126,6 +129,41 @@ TEST(ReadFiles, ThatAreNone) {
   std::filesystem::create_directory(folder);
   expect_error<InvalidInput>("folder.ply: this is not a file", [&] { read(folder); });
   std::filesystem::remove(folder);
+}
+
+// Files of holes, which take no room on the disk.
+TEST(ReadFiles, LargerThanTheMemory) {
+  constexpr std::uintmax_t size = 8'000'000'000'000;
+  for (const char* suffix : {".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt"}) {
+    const TemporaryFile file(std::string("holes") + suffix, "");
+    std::error_code error;
+    std::filesystem::resize_file(file.path(), size, error);
+    if (error) GTEST_SKIP() << "no file may have " << size << " bytes: " << error.message();
+    expect_error<InvalidInput>(
+        std::string("holes") + suffix + ": the file has 8000000000000 bytes; allowed are at most ",
+        [&] { read(file.path()); });
+  }
+}
+
+// What a process may have can be less than the machine's memory.
+TEST(ReadFiles, LargerThanTheProcessMayBe) {
+  const auto read_with = [](rlim_t memory, const std::string& said) {
+    const TemporaryFile file("holes.xyz", "");
+    std::filesystem::resize_file(file.path(), 900'000'000);
+    const rlimit limit{memory, memory};
+    setrlimit(RLIMIT_AS, &limit);
+    expect_error<InvalidInput>("holes.xyz: " + said, [&] { read(file.path()); });
+    std::exit(testing::Test::HasFailure());
+  };
+  EXPECT_EXIT(
+      read_with(1'000'000'000, "the file has 900000000 bytes; allowed are at most 500000000"),
+      testing::ExitedWithCode(0), "");
+  // Half of the memory is too little beside what the process has already.
+  const auto read_beside = [&] {
+    mmap(nullptr, 1'200'000'000, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    read_with(1'900'000'000, "what the file holds does not fit into the memory");
+  };
+  EXPECT_EXIT(read_beside(), testing::ExitedWithCode(0), "");
 }
 
 TEST(ReadFiles, WithSuffixesInCapitals) {

@@ -199,5 +199,14 @@ TEST(ReadPly, DoesNotTrustCounts) {
                     "the file is truncated");
 }
 
+// The sum of such counts is more than an index holds.
+TEST(ReadPly, RefusesAnElementThatStandsTwice) {
+  const std::string vertices = "element vertex 6666661000000000000\n" + xyz;
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
+    expect_unreadable("a.ply", header(format, vertices + vertices),
+                      "line 7: the element 'vertex' stands there twice");
+  expect_unreadable("a.ply", header("ascii", "element\n"), "line 3: the element's name is missing");
+}
+
 }  // namespace
 }  // namespace symsurf

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pymeshlab
 import pytest
+from bad_input import tables
 from shapes import cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
@@ -49,21 +51,20 @@ def layer(points) -> pymeshlab.MeshSet:
     return mesh_set
 
 
-LAYERS = {
-    "one vertex": ([[1, 2, 3]], "1 points given; at least"),
-    "not finite": (np.full((50, 3), np.nan), "0 of 50 points given are finite; at least"),
-    "all equal": (np.ones((100, 3)), "all 100 points are equal"),
-    "huge": (1e200 * cloud().points, "extend over .*; allowed is"),
-    "tiny": (1e-200 * cloud().points, "extend over .*; allowed is"),
-    "on a line": (np.outer(np.arange(100), (1, 2, 3)), "all 100 points lie on one line"),
-}
+# A layer without vertices is another case: MeshLab has none to begin with. A filter always leaves
+# out points that are not finite. A percentage of the extent of "just too large" is beyond the single
+# precision in which pymeshlab passes it on.
+CLOUDS = [
+    pytest.param(cloud, id=cloud.name)
+    for cloud in tables.clouds()
+    if cloud.points and not cloud.refuses_nonfinite and cloud.name != "just too large"
+]
 
 
-@pytest.mark.parametrize("what", LAYERS)
+@pytest.mark.parametrize("bad", CLOUDS)
 @pytest.mark.parametrize("method", symsurf.methods())
-def test_layers_that_cannot_be_used(method, what):
-    points, sentence = LAYERS[what]
-    assert_refused(layer(points), "compute_mirror_" + method, sentence)
+def test_layers_that_cannot_be_used(method, bad):
+    assert_refused(layer(bad.points), "compute_mirror_" + method, re.escape(bad.reason))
 
 
 @pytest.mark.parametrize("method", symsurf.methods())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bad_input import tables
 
 import symsurf
 
@@ -56,6 +59,32 @@ def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> Non
     assert points.pop("good again") > 0
     assert len(points) >= 5
     assert set(points.values()) == {0}
+
+
+def test_the_tables_of_bad_input_leave_the_session_alive(run_host: Callable[..., Any]) -> None:
+    outside = [
+        ("".join(word.capitalize() for word in f"{method.name}_{parameter.name}".split("_")),
+         method.name, parameter, value)
+        for method in symsurf.methods().values()
+        for parameter, value in tables.numbers_out_of_range(method.parameters)
+    ]  # fmt: skip
+    # JSON has no NaN.
+    values = [
+        [name, method, None if math.isnan(value) else value] for name, method, _, value in outside
+    ]
+    seen = run_host("pvpython", "bad_tables.py", json.dumps(values))
+    reasons = {
+        "clouds": [cloud.reason for cloud in tables.clouds()],
+        "mirrors": [mirror.reason for mirror in tables.mirrors()],
+        "properties": [f"{parameter.name} is " for _, _, parameter, _ in outside],
+    }
+    assert {kind: len(cases) for kind, cases in seen.items()} == {
+        kind: len(cases) for kind, cases in reasons.items()
+    }
+    for kind, cases in seen.items():
+        for case, reason in zip(cases, reasons[kind]):
+            assert reason in case["said"] and case["points"] == 0
+            assert case["good"] > 0 and case["said of good"] == ""
 
 
 def test_state_and_trace_bring_the_same_mirror_back(

@@ -14,10 +14,10 @@ from symsurf.cli import main
 Done = subprocess.CompletedProcess
 
 
-def run(*words: object, cwd: Path | None = None) -> Done[str]:
+def run(*words: object, cwd: Path | None = None, errors: str = "strict") -> Done[str]:
     command = [sys.executable, "-m", "symsurf", *map(str, words)]
     return subprocess.run(
-        command, cwd=cwd, capture_output=True, text=True, timeout=120, check=False
+        command, cwd=cwd, capture_output=True, text=True, errors=errors, timeout=120, check=False
     )
 
 

@@ -11,9 +11,10 @@ import symsurf
 
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
+from bad_input import tables
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 
 from symsurf.vtk import MirrorDetection
@@ -108,6 +109,65 @@ def test_setters_are_the_descriptions() -> None:
             assert parameter.doc in getattr(found, f"Set{name}").__doc__
 
 
+def test_properties_are_the_descriptions() -> None:
+    found = MirrorDetection()
+    assert found.method == "auto"
+    found.method = "plane"
+    assert found.GetMethod() == "plane"
+    for method in symsurf.methods().values():
+        for parameter in method.parameters:
+            name = f"{method.name}_{parameter.name}"
+            assert np.array_equal(getattr(found, name), parameter.default)
+            assert parameter.doc in getattr(MirrorDetection, name).__doc__
+            setattr(found, name, parameter.default)
+    before = found.GetMTime()
+    found.plane_pair_distance = 0.125
+    assert found.GetPlanePairDistance() == 0.125 and found.GetMTime() > before
+
+
+def test_properties_are_keywords_of_the_constructor() -> None:
+    shape = mirrored_shape()
+    found = MirrorDetection(
+        input_data=polydata(shape), method="plane", plane_pair_distance=0, number_of_threads=1
+    )
+    found.Update()
+    assert np.nanmax(array(found.GetOutput(2), "MirrorResidual"), initial=0) < 1e-12
+    assert found.output.GetFieldData().GetAbstractArray("Method").GetValue(0) == "plane"
+    for method in symsurf.methods().values():
+        for parameter in method.parameters:
+            name = f"{method.name}_{parameter.name}"
+            made = MirrorDetection(**{name: parameter.default})
+            assert np.array_equal(getattr(made, name), parameter.default)
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("metod", "has no attribute 'metod'; nearest: method"),
+        ("Method", "has no attribute 'Method'; nearest: method"),
+        ("plane_pair_distanc", "nearest: plane_pair_distance"),
+        ("pair_distance", "nearest: plane_pair_distance"),
+        ("UseNormals", "nearest: use_normals"),
+        ("threads", "allowed are .*number_of_threads"),
+        ("qqq", "allowed are input_data, method, use_normals, .*plane_pair_distance"),
+    ],
+)
+def test_unknown_attributes_are_refused(name: str, says: str) -> None:
+    found = MirrorDetection()
+    with pytest.raises(AttributeError, match=says):
+        setattr(found, name, 1)
+    with pytest.raises(AttributeError, match=says):
+        getattr(found, name)
+    with pytest.raises(TypeError, match=f"{name!r}; {says.split('; ')[-1]}"):
+        MirrorDetection(**{name: 1})
+
+
+def test_what_is_no_property_is_no_keyword() -> None:
+    for name in ("Update", "MIRROR", "GetOutput", "output"):
+        with pytest.raises((TypeError, AttributeError), match=name):
+            MirrorDetection(**{name: 1})
+
+
 def test_parameters_reach_the_method() -> None:
     found = detection(mirrored_shape())
     before = found.GetMTime()
@@ -142,6 +202,44 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     wrong = MirrorDetection()
     wrong.SetInputDataObject(vtkUnstructuredGrid())
     assert "vtkPolyData" in error_of(wrong)
+
+
+@pytest.mark.parametrize("cloud", tables.clouds(), ids=lambda cloud: cloud.name)
+def test_clouds_of_the_table(cloud: tables.Cloud) -> None:
+    found = MirrorDetection(refuse_nonfinite=cloud.refuses_nonfinite)
+    good = polydata(mirrored_shape(50))
+    for method in symsurf.methods():
+        found.method = method
+        found.input_data = polydata(np.array(cloud.points, float).reshape(-1, 3))
+        assert cloud.reason in error_of(found)
+        assert [found.GetOutput(port).GetNumberOfPoints() for port in range(3)] == [0, 0, 0]
+    found.method, found.input_data = "plane", good
+    assert error_of(found) == "" and found.output.GetNumberOfPoints() > 0
+
+
+@pytest.mark.parametrize("method", symsurf.methods())
+def test_numbers_out_of_range(method: str) -> None:
+    found = detection(mirrored_shape(50), method)
+    for parameter, value in tables.numbers_out_of_range(symsurf.methods()[method].parameters):
+        name = f"{method}_{parameter.name}"
+        setattr(found, name, value)
+        assert f"{parameter.name} is " in error_of(found)
+        assert found.output.GetNumberOfPoints() == 0
+        setattr(found, name, parameter.default)
+    assert error_of(found) == ""
+
+
+@pytest.mark.parametrize("ids", [(0, 1, 100), (0, 1, 2, 100), (-1, 1, 2), (0, 1, 2, -7)])
+@pytest.mark.parametrize("strips", [False, True])
+def test_polygons_that_name_no_point(ids: tuple[int, ...], strips: bool) -> None:
+    shape = polydata(mirrored_shape(50))
+    cells = vtkCellArray()
+    cells.InsertNextCell(len(ids), ids)
+    shape.SetStrips(cells) if strips else shape.SetPolys(cells)
+    found = MirrorDetection(method="plane", input_data=shape)
+    assert "a polygon names point" in error_of(found)
+    found.use_faces = False
+    assert error_of(found) == ""
 
 
 def test_points_that_are_not_finite_are_left_out() -> None:

@@ -1,18 +1,25 @@
 // Bad input is an error event and empty outputs; the next good run works. An abort stops the run.
 
 #include <gtest/gtest.h>
+#include <symsurf/method.h>
 
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "bad_input/tables.h"
 #include "error_listener.h"
+#include "field_values.h"
 #include "mirrored_shape.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkFieldData.h"
+#include "vtkFloatArray.h"
 #include "vtkMirrorDetection.h"
 #include "vtkMirrorReflection.h"
+#include "vtkMirrorSampleSource.h"
+#include "vtkPointDamage.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -65,6 +72,128 @@ TEST(FilterErrors, BadInputIsAnErrorAndALaterGoodRunWorks) {
   vtkNew<vtkMirrorDetection> fresh;  // VTK refuses the type itself and leaves earlier outputs
   fresh->SetInputDataObject(vtkNew<vtkUnstructuredGrid>());
   EXPECT_NE(error_of(fresh).find("vtkPolyData"), std::string::npos);
+}
+
+TEST(FilterErrors, CloudsOfTheTable) {
+  vtkNew<vtkMirrorDetection> filter;
+  const vtkNew<vtkPolyData> good = polydata_of(mirrored_shape(truth, 50));
+  for (const symsurf::bad_input::Cloud& cloud : symsurf::bad_input::clouds()) {
+    SCOPED_TRACE(cloud.name);
+    for (const symsurf::Method& method : symsurf::methods()) {
+      filter->SetMethod(method.name.c_str());
+      filter->SetRefuseNonfinite(cloud.refuses_nonfinite);
+      filter->SetInputData(polydata_of(cloud.points));
+      EXPECT_NE(error_of(filter).find(cloud.reason), std::string::npos) << method.name;
+    }
+    filter->SetMethod("plane");
+    filter->SetInputData(good);
+    EXPECT_TRUE(error_of(filter).empty());
+  }
+}
+
+// A mirror as a detection would hand it on, its numbers in the field data.
+vtkNew<vtkPolyData> mirror_of(const std::string& kind, const symsurf::Values& numbers) {
+  vtkNew<vtkPolyData> data;
+  add_field_values(data->GetFieldData(), numbers);
+  add_field_values(data->GetFieldData(), {{"kind", kind}});
+  return data;
+}
+
+TEST(FilterErrors, MirrorsOfTheTable) {
+  vtkNew<vtkMirrorReflection> reflection;
+  const symsurf::Points points = mirrored_shape(truth, 10);
+  reflection->SetInputData(0, polydata_of(points));
+  const auto said = [&](vtkPolyData* mirror) {
+    reflection->SetInputData(1, mirror);
+    const ErrorListener listener(reflection);
+    reflection->Update();
+    EXPECT_EQ(reflection->GetOutput()->GetNumberOfPoints(),
+              listener.message().empty() ? points.rows() : 0);
+    return listener.message();
+  };
+  for (const symsurf::bad_input::MirrorNumbers& mirror : symsurf::bad_input::mirrors()) {
+    EXPECT_NE(said(mirror_of(mirror.kind, mirror.numbers)).find(mirror.reason), std::string::npos)
+        << mirror.name;
+    EXPECT_TRUE(said(mirror_of("plane", truth.numbers())).empty());
+  }
+}
+
+TEST(FilterErrors, AMirrorOfSinglePrecisionKeepsItsFractions) {
+  vtkNew<vtkMirrorReflection> reflection;
+  reflection->SetInputData(0, polydata_of(symsurf::Points::Zero(1, 3)));
+  vtkNew<vtkPolyData> mirror =
+      mirror_of("plane", {{"normal", symsurf::Vector3(1, 0, 0)}, {"offset", 0.0}});
+  vtkNew<vtkFloatArray> offset;
+  offset->SetName("Offset");
+  offset->InsertNextValue(-0.5f);
+  mirror->GetFieldData()->AddArray(offset);
+  reflection->SetInputData(1, mirror);
+  reflection->Update();
+  EXPECT_EQ(reflection->GetOutput()->GetPoint(0)[0], 1);
+}
+
+TEST(FilterErrors, PolygonsThatNameNoPoint) {
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetMethod("plane");
+  const symsurf::Points points = mirrored_shape(truth, 50);
+  using Ids = std::initializer_list<vtkIdType>;
+  for (const Ids& ids :
+       {Ids{0, 1, 100}, {0, 1, 2, 100}, {-1, 1, 2}, {-1, 1, 2, 3}, {0, 1, 2, 3, 4000000000}})
+    for (const bool is_strip : {false, true}) {
+      const vtkNew<vtkPolyData> shape = polydata_of(points);
+      vtkNew<vtkCellArray> cells;
+      cells->InsertNextCell(ids);
+      is_strip ? shape->SetStrips(cells) : shape->SetPolys(cells);
+      filter->SetInputData(shape);
+      filter->UseFacesOn();
+      EXPECT_NE(error_of(filter).find("a polygon names point "), std::string::npos);
+      filter->UseFacesOff();
+      EXPECT_TRUE(error_of(filter).empty());
+    }
+}
+
+TEST(FilterErrors, NormalsThatAreNone) {
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetMethod("plane");
+  filter->UseNormalsOn();
+  const symsurf::Points points = mirrored_shape(truth, 50);
+  const auto said = [&](vtkIdType count, const symsurf::Vector3& last) {
+    const vtkNew<vtkPolyData> shape = polydata_of(points);
+    vtkNew<vtkDoubleArray> normals;
+    normals->SetNumberOfComponents(3);
+    for (vtkIdType i = 0; i < count; ++i)
+      normals->InsertNextTuple((i + 1 < count ? symsurf::Vector3(0, 0, 1) : last).data());
+    if (count > 0) shape->GetPointData()->SetNormals(normals);
+    filter->SetInputData(shape);
+    return error_of(filter);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_NE(said(0, {0, 0, 1}).find("the input has no point normals"), std::string::npos);
+  EXPECT_NE(said(99, {0, 0, 1}).find("the input has no point normals"), std::string::npos);
+  EXPECT_NE(said(101, {0, 0, 1}).find("101 normals given for 100 points"), std::string::npos);
+  EXPECT_NE(said(100, {0, 0, 0}).find("normal 99 is (0, 0, 0)"), std::string::npos);
+  EXPECT_NE(said(100, {nan, 0, 1}).find("normal 99 is (nan, 0, 1)"), std::string::npos);
+  EXPECT_NE(said(100, {0, -infinity, 1}).find("normal 99 is (0, -inf, 1)"), std::string::npos);
+  EXPECT_TRUE(said(100, {0, 0, 1}).empty());
+}
+
+TEST(FilterErrors, SamplesAndDamageOfNothingKnown) {
+  vtkNew<vtkMirrorSampleSource> source;
+  source->SetGenerator("no such");
+  {
+    const ErrorListener listener(source);
+    source->Update();
+    EXPECT_NE(listener.message().find("'no such'"), std::string::npos);
+    EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  vtkNew<vtkPointDamage> damage;
+  damage->SetInputData(polydata_of(mirrored_shape(truth, 10)));
+  damage->SetDamage("no such");
+  const ErrorListener listener(damage);
+  damage->Update();
+  EXPECT_NE(listener.message().find("'no such'"), std::string::npos);
+  EXPECT_EQ(damage->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {

@@ -24,7 +24,8 @@ struct Shape {
 /// columns are ignored.
 ///
 /// Throws InvalidInput naming the file and the reason, in text files with the line:
-/// unknown suffix, not readable, empty, broken, truncated, no points.
+/// unknown suffix, not readable, empty, larger than half of the memory, broken, truncated, no
+/// points.
 Shape read(const std::filesystem::path& path);
 
 }  // namespace symsurf

@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter
@@ -26,19 +27,32 @@ COMMANDS = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
-    chosen = parser().parse_args(attach_negative_numbers(words))
+    if isinstance(sys.stdout, TextIOWrapper):  # a file's name may be any bytes
+        sys.stdout.reconfigure(errors="surrogateescape")
     try:
+        chosen = parser().parse_args(attach_negative_numbers(words))
         status = chosen.run(chosen)
         sys.stdout.flush()
         return status
     except BrokenPipeError:  # the reader, such as head, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         return 128 + signal.SIGPIPE
-    except (InvalidInput, InvalidParameter, OSError) as error:
+    except (InvalidInput, InvalidParameter) as error:
+        print(f"symsurf: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        if error.filename is None:  # such as a full disk
+            error.filename = "standard output"
+            _drop_output()
         print(f"symsurf: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130
+
+
+def _drop_output() -> None:
+    """What could not be written is not tried again at the end of the process."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def parser() -> argparse.ArgumentParser:

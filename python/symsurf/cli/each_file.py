@@ -15,9 +15,9 @@ def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
     for path in files:
         try:
             do(path)
-        except BrokenPipeError:
-            raise
         except (InvalidInput, OSError, MemoryError) as error:
+            if isinstance(error, OSError) and error.filename is None:
+                raise  # it is the output that fails
             failed += 1
             reason = str(error) or type(error).__name__
             named = reason if str(path) in reason else f"{path}: {reason}"

@@ -1,0 +1,1 @@
+"""Bad input that every front end must refuse; README.md describes the tables."""
