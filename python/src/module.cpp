@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, module) {
   bind_reading(module);
   bind_synthesis(module);
   bind_metrics(module);
+  bind_operations(module);
 }

@@ -15,6 +15,7 @@ from ._core import (
     InvalidParameter,
     Method,
     Mirror,
+    Operation,
     Parameter,
     Plane,
     Quadric,
@@ -24,17 +25,33 @@ from ._core import (
     bend,
     make_mirror,
     methods,
+    operations,
     straight_mirror,
 )
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
+from .mirror_operations import (
+    Alignment,
+    Asymmetry,
+    Correspondences,
+    Straightened,
+    Symmetrized,
+    align,
+    asymmetry,
+    correspondences,
+    straighten,
+    symmetrize,
+)
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape, read
 
 __all__ = [
+    "Alignment",
+    "Asymmetry",
     "Cancelled",
+    "Correspondences",
     "Cylinder",
     "FreeForm",
     "HeightField",
@@ -43,15 +60,21 @@ __all__ = [
     "InvalidParameter",
     "Method",
     "Mirror",
+    "Operation",
     "Parameter",
     "Plane",
     "Quadric",
     "Result",
     "Shape",
     "Sphere",
+    "Straightened",
     "SurfaceMirror",
+    "Symmetrized",
     "__version__",
+    "align",
+    "asymmetry",
     "bend",
+    "correspondences",
     "detect",
     "downsample",
     "estimate_normals",
@@ -59,8 +82,11 @@ __all__ = [
     "match",
     "methods",
     "metrics",
+    "operations",
     "read",
     "straight_mirror",
+    "straighten",
+    "symmetrize",
     "synthetic",
 ]
 __all__ += detectors.__all__

@@ -1,5 +1,5 @@
-"""The README's opening examples and those of the methods' pages run; the README's table of methods
-is the methods' own description."""
+"""The README's examples in Python and those of the methods' pages run; the tables of methods and of
+operations are their own descriptions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from symmetric_shapes import mirrored_surface
 import symsurf
 
 README = (ROOT / "README.md").read_text()
-OPENING = README.split("\n## ")[0]  # the sections after it need hosts of their own
+SECTIONS = README.split("\n## ")
+# Most sections after the opening need hosts of their own.
+OPENING = SECTIONS[0] + "".join(s for s in SECTIONS if s.startswith("What to do with a mirror"))
 
 
 def examples(language: str, page: str = OPENING) -> list[str]:
@@ -36,7 +38,7 @@ def folder(tmp_path):
 
 def output_of(example: str, folder: Path) -> str:
     done = subprocess.run(
-        [sys.executable, "-c", example], cwd=folder, capture_output=True, text=True, check=False
+        [sys.executable, "-c", f"import symsurf\n{example}"], cwd=folder, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -79,3 +81,11 @@ def test_table_of_methods():
     rows = re.findall(r"^\| `\w+` \| .* \|$", README, re.MULTILINE)
     methods = symsurf.methods().values()
     assert rows == [f"| `{method.name}` | {method.summary} |" for method in methods]
+
+
+def test_table_of_operations():
+    page = (ROOT / "docs/operations.md").read_text()
+    rows = re.findall(r"^\| `\w+` \| .* \|$", page, re.MULTILINE)
+    assert rows[:5] == [
+        f"| `{each.name}` | {each.summary} |" for each in symsurf.operations().values()
+    ]

@@ -18,6 +18,7 @@ namespace symsurf {
 /// An array that an operation gives each point.
 struct PointArray {
   std::string name;
+  ParameterType type = ParameterType::Real;  ///< or Integer or Boolean
   int components = 1;
   std::string doc;  ///< one sentence, with the unit
 };
@@ -31,6 +32,7 @@ struct Operation {
   std::vector<Parameter> parameters;
   std::vector<PointArray> arrays;
   bool moves_points = false;  ///< the result's points are not those of the input
+  bool takes_mask = false;    ///< OperationInput::mask
 };
 
 /// All operations, in the order front ends show them.
@@ -57,8 +59,8 @@ struct OperationResult {
 
 /// Runs an operation over a mirror of any kind, in the unit and pose of the points.
 /// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where a point is
-/// not finite, a face names no point, the mask is not one value in [0, 1] a point, or the mirror
-/// has images for less than half of the points; Cancelled.
+/// not finite, a face names no point, the mask is not one value in [0, 1] a point or the operation
+/// takes none, or the mirror has images for less than half of the points; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 

@@ -103,13 +103,15 @@ OperationImplementation asymmetry_operation() {
       "mirror image of the closest point on the surface to its own image.";
   operation.parameters = {max_distance(), max_angle()};
   operation.arrays = {
-      {"vector", 3, "From the point to its place, input units; NaN without a counterpart."},
-      {"distance", 1, "Its length, input units."},
-      {"signed", 1,
+      {"vector", ParameterType::Real, 3,
+       "From the point to its place, input units; NaN without a counterpart."},
+      {"distance", ParameterType::Real, 1, "Its length, input units."},
+      {"signed", ParameterType::Real, 1,
        "Its part along the outward normal, input units: positive where the point lies too far in."},
-      {"lateral", 1, "Its part away from the mirror, input units."},
-      {"matched", 1,
-       "1 where the point has a counterpart, else 0: past a rim, too far, or with another normal."},
+      {"lateral", ParameterType::Real, 1, "Its part away from the mirror, input units."},
+      {"matched", ParameterType::Boolean, 1,
+       "Whether the point has a counterpart: none past a rim, too far away, or with another "
+       "normal."},
   };
   operation.run = run_asymmetry;
   return operation;

@@ -61,14 +61,15 @@ OperationImplementation correspondences_operation() {
                          "Only pairs of points that are each other's mirror points."),
       max_distance(), max_angle()};
   operation.arrays = {
-      {"index", 1,
+      {"index", ParameterType::Integer, 1,
        "The mirror point, the point itself on the mirror, -1 for none. Of a mesh the closest "
        "corner "
        "of the face that the image comes closest to."},
-      {"confidence", 1,
+      {"confidence", ParameterType::Real, 1,
        "0 to 1: the cosine between the normals, halved where the image lies a spacing away."},
-      {"face", 1, "Of a mesh, the face that the image comes closest to; -1 for none."},
-      {"weights", 3, "Of a mesh, the barycentric coordinates on that face."},
+      {"face", ParameterType::Integer, 1,
+       "Of a mesh, the face that the image comes closest to; -1 for none."},
+      {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
   operation.run = run_correspondences;
   return operation;

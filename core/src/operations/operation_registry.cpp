@@ -27,8 +27,9 @@ const OperationImplementation& operation_implementation(std::string_view name) {
   throw InvalidParameter("unknown operation '" + std::string(name) + "'; allowed: " + names);
 }
 
-void require_mask(const Eigen::VectorXd& mask, Index points) {
+void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index points) {
   if (mask.size() == 0) return;
+  if (!operation.takes_mask) throw InvalidInput(operation.name + " takes no mask");
   if (mask.size() != points)
     throw InvalidInput(std::to_string(mask.size()) + " mask values given for " +
                        std::to_string(points) + " points; one a point is needed");
@@ -54,7 +55,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   const ParameterValues values(operation.name, operation.parameters, parameters);
   require_points(input.points);
   require_corners(input.faces, input.points.size());
-  require_mask(input.mask, input.points.size());
+  require_mask(operation, input.mask, input.points.size());
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();

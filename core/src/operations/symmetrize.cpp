@@ -124,8 +124,10 @@ OperationImplementation symmetrize_operation() {
       Parameter::real("strength", 1, 0, 1, "",
                       "How far the points move: 0 not at all, 1 all the way."),
       max_distance(), max_angle()};
-  operation.arrays = {{"paired", 1, "1 where the point has a counterpart, else 0: it stays."}};
+  operation.arrays = {
+      {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."}};
   operation.moves_points = true;
+  operation.takes_mask = true;
   operation.run = run_symmetrize;
   return operation;
 }

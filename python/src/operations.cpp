@@ -1,0 +1,91 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <symsurf/operation.h>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "context.h"
+#include "values.h"
+
+namespace symsurf::python {
+
+namespace {
+
+using Faces = py::array_t<Index, py::array::c_style>;
+
+py::object typed(const Eigen::MatrixXd& values, const PointArray& described) {
+  py::object array =
+      owned_array(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>(values));
+  if (described.components == 1) array = array.attr("ravel")();
+  if (described.type == ParameterType::Boolean) return array.attr("astype")("bool");
+  if (described.type == ParameterType::Integer) return array.attr("astype")("int64");
+  return array;
+}
+
+py::dict operate_fields(const std::string& name, const PointsArgument& points,
+                        const std::optional<Faces>& faces, const Mirror& mirror,
+                        const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
+                        const py::object& progress, const py::dict& parameters) {
+  const Operation& described = operation(name);
+  OperationInput input{points};
+  if (faces) input.faces = {faces->data(), static_cast<Index>(faces->shape(0))};
+  if (mask) input.mask = *mask;
+  const Values values = values_from(parameters, described.parameters);
+  const Context context = context_from(progress, threads);
+  OperationResult result =
+      without_gil([&] { return operate(name, input, mirror, values, context); });
+  py::dict arrays;
+  for (const PointArray& array : described.arrays) {
+    const auto found = result.arrays.find(array.name);
+    if (found != result.arrays.end()) arrays[py::str(array.name)] = typed(found->second, array);
+  }
+  py::dict fields;
+  fields["points"] = owned_array(std::move(result.points));
+  fields["arrays"] = arrays;
+  fields["parameters"] = to_python(result.parameters);
+  fields["statistics"] = to_python(result.statistics);
+  return fields;
+}
+
+}  // namespace
+
+void bind_operations(py::module_& module) {
+  py::class_<PointArray>(module, "PointArray", "An array that an operation gives each point.")
+      .def_readonly("name", &PointArray::name)
+      .def_property_readonly(
+          "type", [](const PointArray& array) { return std::string(to_string(array.type)); },
+          "'real', 'integer' or 'boolean'.")
+      .def_readonly("components", &PointArray::components)
+      .def_readonly("doc", &PointArray::doc, "One sentence, with the unit.")
+      .def("__repr__", [](const PointArray& array) { return "<PointArray " + array.name + ">"; });
+
+  py::class_<Operation>(module, "Operation", "The description of what is done with a mirror.")
+      .def_readonly("name", &Operation::name)
+      .def_readonly("title", &Operation::title, "For menus.")
+      .def_readonly("summary", &Operation::summary, "One sentence.")
+      .def_readonly("parameters", &Operation::parameters)
+      .def_readonly("arrays", &Operation::arrays)
+      .def_readonly("moves_points", &Operation::moves_points,
+                    "Whether the result's points are not those of the input.")
+      .def_readonly("takes_mask", &Operation::takes_mask)
+      .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
+
+  module.def(
+      "operations",
+      [] {
+        py::typing::Dict<py::str, Operation> found;
+        for (const Operation& each : operations())
+          found[py::str(each.name)] = py::cast(each, py::return_value_policy::reference);
+        return found;
+      },
+      "All operations by name, in the order to show them in.");
+  module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
+             py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
+             py::arg("parameters"), "The fields of an operation's result.");
+}
+
+}  // namespace symsurf::python

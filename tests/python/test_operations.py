@@ -1,0 +1,137 @@
+"""What is done with a mirror, from Python."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import pyvista
+import symsurf
+
+RESULTS = {
+    "asymmetry": symsurf.Asymmetry,
+    "correspondences": symsurf.Correspondences,
+    "align": symsurf.Alignment,
+    "symmetrize": symsurf.Symmetrized,
+    "straighten": symsurf.Straightened,
+}
+PLANE = symsurf.Plane((1, 0, 0), 0)
+
+
+@pytest.fixture
+def ball():
+    """A sphere's mesh with a dent on the positive side, and how deep it is at each point."""
+    mesh = pyvista.Icosphere(radius=1, nsub=4)
+    points = np.array(mesh.points, dtype=float)
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    off = ((points - np.array([0.8, 0.6, 0])) ** 2).sum(axis=1) / 0.2
+    depth = np.where(off < 1, 0.05 * (1 - off) ** 2, 0)
+    return symsurf.Shape(points * (1 - depth)[:, None], mesh.regular_faces), depth
+
+
+def test_each_has_a_function_and_a_result_as_described():
+    assert list(symsurf.operations()) == list(RESULTS)
+    for name, operation in symsurf.operations().items():
+        assert operation.summary and operation.title
+        fields = {each.name for each in dataclasses.fields(RESULTS[name])}
+        assert {array.name for array in operation.arrays} <= fields
+        assert getattr(symsurf, name).__doc__
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_arrays_have_the_type_and_shape_described(name, ball):
+    shape, _ = ball
+    result = getattr(symsurf, name)(shape, PLANE)
+    assert isinstance(result, RESULTS[name])
+    assert len(result.shape.points) == len(shape.points)
+    np.testing.assert_array_equal(result.shape.faces, shape.faces)
+    for array in symsurf.operations()[name].arrays:
+        values = getattr(result, array.name)
+        kind = {"real": "f", "integer": "i", "boolean": "b"}[array.type]
+        assert values.dtype.kind == kind
+        rows = (len(shape.points),)
+        assert values.shape == (rows if array.components == 1 else (*rows, array.components))
+    if not symsurf.operations()[name].moves_points:
+        np.testing.assert_array_equal(result.shape.points, shape.points)
+
+
+def test_asymmetry_is_the_dent(ball):
+    shape, depth = ball
+    result = symsurf.asymmetry(shape, PLANE)
+    deepest = depth.argmax()
+    assert result.signed[deepest] == pytest.approx(depth[deepest], rel=0.02)
+    assert result.statistics["maximum"] == pytest.approx(depth[deepest], rel=0.02)
+    assert result.statistics["volume_index"] < 0  # less on the positive side
+    elsewhere = (depth == 0) & (depth[symsurf.correspondences(shape, PLANE).index] == 0)
+    assert result.distance[elsewhere].max() < 1e-3 * result.statistics["diagonal"]
+
+
+def test_the_mirror_is_found_first(ball):
+    shape, _ = ball
+    assert symsurf.asymmetry(shape).mirror.kind == "plane"
+    found = symsurf.detect(shape)
+    np.testing.assert_array_equal(
+        symsurf.asymmetry(shape, found).distance, symsurf.asymmetry(shape, found.mirror).distance
+    )
+
+
+def test_align_moves_the_mirror_to_the_axis(ball):
+    shape, _ = ball
+    turned = symsurf.synthetic.rotate(shape.points, 10, 20, 30) + [5, 6, 7]
+    normal = symsurf.synthetic.rotate(np.array([[1.0, 0, 0]]), 10, 20, 30)[0]
+    mirror = symsurf.Plane(normal, -normal @ [5, 6, 7])
+    result = symsurf.align(turned, mirror, axis="y")
+    assert np.linalg.det(result.matrix[:3, :3]) == pytest.approx(1)
+    homogeneous = np.c_[turned, np.ones(len(turned))]
+    np.testing.assert_allclose((homogeneous @ result.matrix.T)[:, :3], result.shape.points)
+    left = symsurf.asymmetry(result.shape.points, symsurf.Plane((0, 1, 0), 0))
+    np.testing.assert_allclose(
+        left.statistics["rms"], symsurf.asymmetry(turned, mirror).statistics["rms"], rtol=1e-6
+    )
+
+
+def test_symmetrize_leaves_nothing_and_heeds_the_mask(ball):
+    shape, depth = ball
+    even = symsurf.symmetrize(shape, PLANE, side="negative")
+    assert symsurf.asymmetry(even.shape, PLANE).statistics["maximum"] < 1e-9
+    np.testing.assert_allclose(np.linalg.norm(even.shape.points, axis=1), 1, atol=1e-9)
+    nothing = symsurf.symmetrize(shape, PLANE, mask=np.zeros(len(depth), bool))
+    np.testing.assert_array_equal(nothing.shape.points, shape.points)
+
+
+def test_straighten_goes_there_and_back(ball):
+    shape, _ = ball
+    mirror = symsurf.detect_cylinder(symsurf.bend(shape.points, symsurf.Cylinder(
+        (-3, 0, 0), (0, 1, 0), 3), back=True)).mirror
+    bent = mirror.project(shape.points)
+    straight = symsurf.straighten(bent, mirror)
+    back = symsurf.straighten(straight.shape, mirror, back=True)
+    np.testing.assert_allclose(back.shape.points, bent, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "says"),
+    [
+        ({"result": 3}, symsurf.InvalidParameter, "result is of type int"),
+        ({"max_angle": 200}, symsurf.InvalidParameter, "max_angle"),
+        ({"speed": 1}, symsurf.InvalidParameter, "speed"),
+        ({"result": symsurf.Sphere((0, 0, 0), 0.01)}, symsurf.InvalidInput, "have an image"),
+        ({"faces": [[0, 1, 10**6]]}, symsurf.InvalidInput, "face 0 names point 1000000"),
+    ],
+)
+def test_what_is_wrong_is_named(ball, arguments, error, says):
+    shape, _ = ball
+    with pytest.raises(error, match=says):
+        symsurf.asymmetry(shape.points, **({"result": PLANE} | arguments))
+
+
+def test_a_mask_must_fit(ball):
+    shape, depth = ball
+    for mask in (np.ones(3), np.ones((len(depth), 2)), 2 * np.ones(len(depth)), "all"):
+        with pytest.raises(symsurf.InvalidInput, match="mask"):
+            symsurf.symmetrize(shape, PLANE, mask=mask)
+
+
+def test_a_shape_without_a_mirror_is_no_crash():
+    cloud = np.random.default_rng(0).normal(size=(300, 3)) ** 3
+    with pytest.raises(symsurf.InvalidInput, match="has no mirror"):
+        symsurf.asymmetry(cloud)
