@@ -171,9 +171,7 @@ def align(
     about that axis, ``up`` and ``front`` which way is up and to the front. Other arguments and
     errors: those of ``asymmetry``.
     """
-    return Alignment(
-        **_operate("align", shape, result, faces, None, threads, progress, parameters)
-    )
+    return Alignment(**_operate("align", shape, result, faces, None, threads, progress, parameters))
 
 
 def symmetrize(
@@ -266,4 +264,3 @@ def _mirror_of(shape: Input, result: Result | Mirror | None, threads: int) -> Mi
     if result.mirror is None:
         raise InvalidInput(f"the result of {result.method} has no mirror")
     return result.mirror
-

@@ -38,7 +38,11 @@ def folder(tmp_path):
 
 def output_of(example: str, folder: Path) -> str:
     done = subprocess.run(
-        [sys.executable, "-c", f"import symsurf\n{example}"], cwd=folder, capture_output=True, text=True, check=False
+        [sys.executable, "-c", f"import symsurf\n{example}"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
