@@ -1,7 +1,5 @@
 #include <symsurf/errors.h>
 #include <symsurf/read.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +10,7 @@
 #include <string>
 
 #include "formats.h"
+#include "memory_limit.h"
 
 namespace symsurf {
 
@@ -41,18 +40,9 @@ const Format& format_of(const std::filesystem::path& path) {
   throw InvalidInput("suffix '" + suffix + "' is none of " + known);
 }
 
-// The bytes of memory that the process may have.
-std::uintmax_t memory() {
-  const std::uintmax_t machine = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
-                                 static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-  rlimit process{};
-  if (getrlimit(RLIMIT_AS, &process) != 0) return machine;  // RLIM_INFINITY is the largest number
-  return std::min<std::uintmax_t>(machine, process.rlim_cur);
-}
-
 // Half of the memory: the content stands beside the numbers that are made of it.
 void require_that_it_fits(std::uintmax_t bytes) {
-  const std::uintmax_t allowed = memory() / 2;
+  const std::uintmax_t allowed = memory_limit() / 2;
   if (bytes > allowed)
     throw InvalidInput("the file has " + std::to_string(bytes) + " bytes; allowed are at most " +
                        std::to_string(allowed) + ", half of the memory");

@@ -63,12 +63,17 @@ bool is_allowed_library(const std::string& header) {
          header == "nanoflann.hpp" || is_standard;
 }
 
+// The one source that asks the operating system, for what C++ cannot tell.
+bool asks_the_system(const fs::path& file) {
+  return file == fs::path(SYMSURF_CORE) / "io/memory_limit.cpp";
+}
+
 TEST(Dependencies, TheCoreUsesNoFrontEndAndNoLibraryButItsOwn) {
   const std::vector<Include> includes = includes_below(SYMSURF_CORE);
   EXPECT_GT(includes.size(), 500u);
   for (const Include& include : includes)
     if (include.in_brackets)
-      EXPECT_TRUE(is_allowed_library(include.header))
+      EXPECT_TRUE(is_allowed_library(include.header) || asks_the_system(include.file))
           << include.file << " includes " << include.header;
     else
       EXPECT_TRUE(fs::exists(source_root / include.header) ||
