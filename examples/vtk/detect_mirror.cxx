@@ -1,4 +1,5 @@
 // detect_mirror SHAPE.obj MIRROR.vtp: finds the mirror plane of a shape.
+#include <vtkAlgorithmOutput.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkMirrorDetection.h>
@@ -8,7 +9,26 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
+
+// Whole or not at all: what stood there stays until the new file is complete.
+bool write(vtkAlgorithmOutput* data, const std::filesystem::path& file) {
+  std::error_code error;
+  if (exists(file, error) && !is_regular_file(file, error)) return false;
+  std::filesystem::path partial = file;
+  partial += ".partial";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputConnection(data);
+  writer->SetFileName(partial.c_str());
+  if (writer->Write() && writer->GetErrorCode() == 0) {
+    rename(partial, file, error);
+    if (!error) return true;
+  }
+  remove(partial, error);
+  return false;
+}
 
 int main(int argc, char* argv[]) {
   if (argc != 3) {
@@ -31,10 +51,7 @@ int main(int argc, char* argv[]) {
     std::cerr << argv[1] << ": no mirror plane" << std::endl;
     return EXIT_FAILURE;
   }
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
-  writer->SetFileName(argv[2]);
-  if (!writer->Write() || writer->GetErrorCode() != 0) {
+  if (!write(detection->GetOutputPort(vtkMirrorDetection::MIRROR), argv[2])) {
     std::cerr << argv[2] << ": the file cannot be written" << std::endl;
     return EXIT_FAILURE;
   }

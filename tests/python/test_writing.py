@@ -145,6 +145,26 @@ def test_no_folder(writer, folder):
         write()
 
 
+def test_link(writer):
+    """It stays one, and its file is written."""
+    write, path = writer
+    file = path.parent.parent / f"elsewhere{path.suffix}"
+    path.replace(file)
+    path.symlink_to(file)
+    write()
+    assert path.is_symlink() and file.stat().st_size > len("precious")
+    assert not list(path.parent.parent.glob("**/*.partial"))
+
+
+def test_pipe_in_the_way(writer):
+    write, path = writer
+    path.unlink()
+    os.mkfifo(path)
+    with pytest.raises(OSError, match=rf"not a file.*{path.name}"):
+        write()
+    assert path.is_fifo() and list(path.parent.iterdir()) == [path]
+
+
 KILLED = """
 import sys, numpy, symsurf
 from pathlib import Path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -28,10 +29,13 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
 
 def write_whole(path: Path, content: bytes) -> None:
     """Writes the file whole or not at all: what stood there stays until the new one is complete."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    file = path.resolve()  # a link stays a link
+    if file.exists() and not file.is_file():  # such as a device, which a file would replace
+        raise OSError(errno.EINVAL, "This is not a file", str(path))
+    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
     try:
         partial.write_bytes(content)
-        partial.replace(path)
+        partial.replace(file)
     except BaseException as error:
         with suppress(OSError):
             partial.unlink()
