@@ -6,7 +6,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import os
+from dataclasses import dataclass, field, fields
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,6 +25,7 @@ __all__ = [
     "Alignment",
     "Asymmetry",
     "Correspondences",
+    "OperationResult",
     "Straightened",
     "Symmetrized",
     "align",
@@ -34,7 +37,9 @@ __all__ = [
 
 
 @dataclass(frozen=True, eq=False)
-class _OperationResult:
+class OperationResult:
+    """What an operation gives."""
+
     shape: Shape
     """The shape, moved or not: its points and faces in the order of the input."""
     mirror: Mirror
@@ -44,9 +49,33 @@ class _OperationResult:
     statistics: dict[str, Any]
     """Whatever else the operation reports."""
 
+    @property
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What the operation gives each point, by name."""
+        shared = {each.name for each in fields(OperationResult)}
+        own = {e.name: getattr(self, e.name) for e in fields(self) if e.name not in shared}
+        return {name: values for name, values in own.items() if values is not None}
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the shape with ``arrays``, in the format of the suffix, whole or not at all.
+
+        ``.ply``: binary, arrays as properties of the points. ``.vtp``: for VTK, ParaView and PyVista,
+        which read no such properties. Raises InvalidParameter for another suffix, OSError where
+        nothing can be written.
+        """
+        from .saving import SHAPE_FORMATS, write_whole
+
+        path = Path(path)
+        suffix = path.suffix.lower()
+        if suffix not in SHAPE_FORMATS:
+            raise InvalidParameter(
+                f"path is {str(path)!r}; allowed are the suffixes {', '.join(SHAPE_FORMATS)}"
+            )
+        write_whole(path, SHAPE_FORMATS[suffix](self.shape, self.arrays))
+
 
 @dataclass(frozen=True, eq=False)
-class Asymmetry(_OperationResult):
+class Asymmetry(OperationResult):
     """How far each point is from where the other side says it should be.
 
     ``statistics``: "matched_share"; over the matched points "mean", "rms", "median", "p75", "p95",
@@ -70,7 +99,7 @@ class Asymmetry(_OperationResult):
 
 
 @dataclass(frozen=True, eq=False)
-class Correspondences(_OperationResult):
+class Correspondences(OperationResult):
     """Which point mirrors which. ``statistics``: "paired_share"."""
 
     index: NDArray[np.int64] = field(repr=False)
@@ -84,7 +113,7 @@ class Correspondences(_OperationResult):
 
 
 @dataclass(frozen=True, eq=False)
-class Alignment(_OperationResult):
+class Alignment(OperationResult):
     """The shape laid so that its mirror plane is a coordinate plane."""
 
     @property
@@ -94,7 +123,7 @@ class Alignment(_OperationResult):
 
 
 @dataclass(frozen=True, eq=False)
-class Symmetrized(_OperationResult):
+class Symmetrized(OperationResult):
     """The shape made symmetric. ``statistics``: "paired_share"."""
 
     paired: NDArray[np.bool_] = field(repr=False)
@@ -102,7 +131,7 @@ class Symmetrized(_OperationResult):
 
 
 @dataclass(frozen=True, eq=False)
-class Straightened(_OperationResult):
+class Straightened(OperationResult):
     """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
     the mirror is then, and how many "unplaced_points" have no foot on it: they are NaN."""
 
@@ -137,8 +166,8 @@ def asymmetry(
             that is not finite; else as ``detect`` does.
         InvalidParameter, Cancelled: as ``detect`` does.
     """
-    fields = _operate("asymmetry", shape, result, faces, None, threads, progress, parameters)
-    return Asymmetry(**fields)
+    made = _operate("asymmetry", shape, result, faces, None, threads, progress, parameters)
+    return Asymmetry(**made)
 
 
 def correspondences(
@@ -153,8 +182,8 @@ def correspondences(
     """Gives for each point the point that mirrors it; with ``one_to_one=True`` only pairs of points
     that are each other's. Arguments and errors: those of ``asymmetry``.
     """
-    fields = _operate("correspondences", shape, result, faces, None, threads, progress, parameters)
-    return Correspondences(**fields)
+    made = _operate("correspondences", shape, result, faces, None, threads, progress, parameters)
+    return Correspondences(**made)
 
 
 def align(
@@ -194,8 +223,8 @@ def symmetrize(
     Raises:
         InvalidInput: a mask that is not one number in [0, 1] a point; else as ``asymmetry`` does.
     """
-    fields = _operate("symmetrize", shape, result, faces, mask, threads, progress, parameters)
-    return Symmetrized(**fields)
+    made = _operate("symmetrize", shape, result, faces, mask, threads, progress, parameters)
+    return Symmetrized(**made)
 
 
 def straighten(
@@ -210,8 +239,8 @@ def straighten(
     """Carries the shape along while its curved mirror is laid flat, or, with ``back=True``, back.
     Arguments and errors: those of ``asymmetry``.
     """
-    fields = _operate("straighten", shape, result, faces, None, threads, progress, parameters)
-    return Straightened(**fields)
+    made = _operate("straighten", shape, result, faces, None, threads, progress, parameters)
+    return Straightened(**made)
 
 
 def _operate(
@@ -226,12 +255,12 @@ def _operate(
 ) -> dict[str, Any]:
     shape = as_input(given, faces)
     mirror = _mirror_of(shape, result, threads)
-    fields = _core.operate(
+    made = _core.operate(
         name, shape.points, shape.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
-    arrays = fields.pop("arrays")
-    points = fields.pop("points")
-    return fields | arrays | {"mirror": mirror, "shape": Shape(points, shape.faces)}
+    arrays = made.pop("arrays")
+    points = made.pop("points")
+    return made | arrays | {"mirror": mirror, "shape": Shape(points, shape.faces)}
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -1,10 +1,12 @@
 """What is done with a mirror, from Python."""
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
 import pyvista
+from command_line import run_here
 
 import symsurf
 
@@ -142,3 +144,54 @@ def test_a_shape_without_a_mirror_is_an_error_that_says_why():
     radius = 1 + 0.4 * np.sin(3 * x + 1) * np.cos(4 * y + 0.5) + 0.3 * np.sin(5 * z + 2 * x)
     with pytest.raises(symsurf.InvalidInput, match="has no mirror: .*give a result or a mirror"):
         symsurf.asymmetry(u * radius[:, None])
+
+
+def test_save_keeps_points_faces_and_arrays(ball, tmp_path):
+    shape, _ = ball
+    result = symsurf.asymmetry(shape, PLANE)
+    result.save(tmp_path / "ball.ply")
+    again = symsurf.read(tmp_path / "ball.ply")
+    np.testing.assert_array_equal(again.points, shape.points)
+    np.testing.assert_array_equal(again.faces, shape.faces)
+    assert b"property double distance" in (tmp_path / "ball.ply").read_bytes()
+    result.save(tmp_path / "ball.vtp")
+    mesh = pyvista.read(tmp_path / "ball.vtp")
+    np.testing.assert_array_equal(mesh.points, shape.points)
+    np.testing.assert_array_equal(mesh.regular_faces, shape.faces)
+    for name, values in result.arrays.items():
+        np.testing.assert_array_equal(mesh[name], values)
+    symsurf.asymmetry(shape.points, PLANE).save(tmp_path / "cloud.vtp")
+    assert pyvista.read(tmp_path / "cloud.vtp").n_verts == len(shape.points)
+    with pytest.raises(symsurf.InvalidParameter, match="allowed are the suffixes .ply, .vtp"):
+        result.save(tmp_path / "ball.obj")
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_a_command_for_each(name, ball, tmp_path):
+    shape, _ = ball
+    symsurf.straighten(shape, PLANE).save(tmp_path / "ball.ply")
+    done = run_here(f"{name} ball.ply --output made --format ply --json --method plane", tmp_path)
+    assert done.returncode == 0, done.stderr
+    record = json.loads(done.stdout)
+    assert record["mirror"]["kind"] == "plane"
+    made = symsurf.read(tmp_path / "made/ball.ply")
+    assert len(made.points) == len(shape.points)
+    in_python = getattr(symsurf, name)(shape, symsurf.detect_plane(shape))
+    np.testing.assert_array_equal(made.points, in_python.shape.points)
+    assert set(record["statistics"]) == set(in_python.statistics)
+    told = run_here(f"{name} ball.ply", tmp_path)
+    assert all(figure in told.stdout for figure in record["statistics"])
+
+
+def test_commands_name_what_is_wrong(ball, tmp_path):
+    shape, _ = ball
+    symsurf.straighten(shape, PLANE).save(tmp_path / "ball.ply")
+    for line, status, says in [
+        ("align ball.ply --axis w", 2, "axis is w"),
+        ("asymmetry ball.ply gone.ply", 1, "gone.ply"),
+        ("asymmetry ball.ply --output made --format obj", 2, "format is obj; allowed are ply, vtp"),
+        ("asymmetry ball.ply --output . --format ply", 2, "would overwrite an input"),
+    ]:
+        done = run_here(line, tmp_path)
+        assert done.returncode == status
+        assert says in done.stderr

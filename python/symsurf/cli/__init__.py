@@ -1,4 +1,4 @@
-"""The command line. Each command is a module with SUMMARY, add_arguments(parser) and
+"""The command line. Each command is a module, or an object, with SUMMARY, add_arguments(parser) and
 run(arguments), which returns the exit status."""
 
 from __future__ import annotations
@@ -9,14 +9,17 @@ import signal
 import sys
 from collections.abc import Sequence
 from io import TextIOWrapper
+from typing import Any
 
 from .. import __version__
-from .._core import InvalidInput, InvalidParameter
+from .._core import InvalidInput, InvalidParameter, operations
 from . import damage, demo, detect, evaluate, generate, methods
+from .operate import OperationCommand
 from .values import attach_negative_numbers
 
-COMMANDS = {
+COMMANDS: dict[str, Any] = {
     "detect": detect,
+    **{name: OperationCommand(operation) for name, operation in operations().items()},
     "generate": generate,
     "damage": damage,
     "evaluate": evaluate,

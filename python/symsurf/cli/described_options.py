@@ -1,4 +1,4 @@
-"""The options of generators and of kinds of damage, made from their descriptions."""
+"""The options of generators, kinds of damage and operations, made from their descriptions."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
-from .._core import Damage, Generator
+from .._core import Damage, Generator, Operation
 from ..descriptions import allowed
 from .values import shown, value_from
 
-Description: TypeAlias = Generator | Damage
+Description: TypeAlias = Generator | Damage | Operation
 
 
 def add_kinds(
@@ -25,18 +25,23 @@ def add_kinds(
             name, help=kind.title, description=kind.summary, allow_abbrev=False
         )
         add_more(sub, kind)
-        sub.set_defaults(kind=kind)
-        group = sub.add_argument_group("parameters")
-        for parameter in kind.parameters:
-            about = f"{parameter.doc} {allowed(parameter)}, default {shown(parameter.default)}"
-            vector = parameter.type in ("direction", "position")
-            group.add_argument(
-                *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
-                dest=f"value:{parameter.name}",
-                default=argparse.SUPPRESS,
-                metavar="X,Y,Z" if vector else "VALUE",
-                help=about.replace("%", "%%"),
-            )
+        add_parameters(sub, kind)
+
+
+def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
+    """One option for each parameter of the kind."""
+    parser.set_defaults(kind=kind)
+    group = parser.add_argument_group("parameters")
+    for parameter in kind.parameters:
+        about = f"{parameter.doc} {allowed(parameter)}, default {shown(parameter.default)}"
+        vector = parameter.type in ("direction", "position")
+        group.add_argument(
+            *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
+            dest=f"value:{parameter.name}",
+            default=argparse.SUPPRESS,
+            metavar="X,Y,Z" if vector else "VALUE",
+            help=about.replace("%", "%%"),
+        )
 
 
 def given_values(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -10,11 +10,12 @@ from pathlib import Path
 from .._core import InvalidParameter
 from ..result import Result
 from .json_format import json_bytes
-from .ply_format import ply_bytes
+from .ply_format import ply_bytes, shape_ply_bytes
 from .text_format import text_bytes
-from .vtp_format import vtp_bytes
+from .vtp_format import shape_vtp_bytes, vtp_bytes
 
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
+SHAPE_FORMATS = {".ply": shape_ply_bytes, ".vtp": shape_vtp_bytes}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> None:

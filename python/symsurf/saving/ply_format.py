@@ -1,11 +1,18 @@
-"""Surface points as binary PLY, each with its residual as MeshLab's quality."""
+"""Binary PLY: surface points, each with its residual as MeshLab's quality; shapes with arrays."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..result import Result
+from ..shape import Shape
 from .text_format import figures
+
+_TYPES = {"f": ("double", "<f8"), "i": ("int", "<i4"), "b": ("uchar", "u1")}
 
 
 def ply_bytes(result: Result) -> bytes:
@@ -20,3 +27,29 @@ def ply_bytes(result: Result) -> bytes:
     ]
     rows = np.column_stack([result.surface_points, result.residuals]).astype("<f8")
     return "\n".join(header).encode("ascii", "replace") + b"\n" + rows.tobytes()
+
+
+def shape_ply_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """A shape with arrays of its points as properties. Arrays are (n,) or (n, 3); of these the properties end in _x, _y and _z."""
+    columns = dict(zip("xyz", shape.points.T, strict=True))
+    for name, values in arrays.items():
+        if values.ndim == 1:
+            columns[name] = values
+        else:
+            columns |= {
+                f"{name}_{axis}": column for axis, column in zip("xyz", values.T, strict=True)
+            }
+    faces = np.empty((0, 3), np.int64) if shape.faces is None else shape.faces
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(shape.points)}"]
+    header += [f"property {_TYPES[v.dtype.kind][0]} {name}" for name, v in columns.items()]
+    if len(faces):
+        header += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
+    header.append("end_header")
+    rows = np.empty(
+        len(shape.points), [(name, _TYPES[v.dtype.kind][1]) for name, v in columns.items()]
+    )
+    for name, values in columns.items():
+        rows[name] = values
+    corners = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", (3,))])
+    corners["count"], corners["corners"] = 3, faces
+    return "\n".join(header).encode() + b"\n" + rows.tobytes() + corners.tobytes()

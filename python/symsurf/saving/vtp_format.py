@@ -7,6 +7,8 @@ own vertices NaN and -1. Field arrays: Kind, Score and the numbers of the mirror
 from __future__ import annotations
 
 import base64
+from collections.abc import Mapping, Sequence
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
@@ -14,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..mirror_mesh import mirror_mesh
 from ..result import Result
+from ..shape import Shape
 
 _TYPES = {"f": "Float64", "i": "Int64"}
 
@@ -25,25 +28,53 @@ def vtp_bytes(result: Result) -> bytes:
     points = np.concatenate([result.surface_points, vertices])
     residuals = np.concatenate([result.residuals, np.full(extra, np.nan)])
     pairs = [np.concatenate([column, none]) for column in result.pairs.T]
+    return poly_data(
+        points,
+        np.arange(count).reshape(-1, 1),
+        triangles + count,
+        {"Residual": residuals, "MirrorPoint": pairs[0], "MirrorPartner": pairs[1]},
+        _field_data(result),
+    )
+
+
+def shape_vtp_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """A shape with arrays of its points; a bare cloud as vertices."""
+    none = np.empty((0, 3), np.int64)
+    is_cloud = shape.faces is None or not len(shape.faces)
+    vertices = np.arange(len(shape.points)).reshape(-1, 1) if is_cloud else none[:, :1]
+    numbers = {
+        name: values.astype(np.int64) if values.dtype.kind == "b" else values
+        for name, values in arrays.items()
+    }
+    return poly_data(shape.points, vertices, none if shape.faces is None else shape.faces, numbers)
+
+
+def poly_data(
+    points: NDArray[np.float64],
+    vertices: NDArray[np.int64],
+    triangles: NDArray[np.int64],
+    arrays: Mapping[str, NDArray[Any]],
+    fields: Sequence[str] = (),
+) -> bytes:
+    """The file; the first array is the active scalars."""
+    active = f" Scalars={quoteattr(next(iter(arrays)))}" if arrays else ""
     lines = [
         '<?xml version="1.0"?>',
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
         "<PolyData>",
         "<FieldData>",
-        *_field_data(result),
+        *fields,
         "</FieldData>",
         (
-            f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count}"'
+            f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(vertices)}"'
             f' NumberOfPolys="{len(triangles)}">'
         ),
-        '<PointData Scalars="Residual">',
-        _array("Residual", residuals),
-        _array("MirrorPoint", pairs[0]),
-        _array("MirrorPartner", pairs[1]),
+        f"<PointData{active}>",
+        *(_array(name, values) for name, values in arrays.items()),
         "</PointData>",
         f"<Points>{_array('Points', points)}</Points>",
-        f"<Verts>{_cells(np.arange(count).reshape(-1, 1))}</Verts>",
-        f"<Polys>{_cells(triangles + count)}</Polys>",
+        f"<Verts>{_cells(vertices)}</Verts>",
+        f"<Polys>{_cells(triangles)}</Polys>",
         "</Piece>",
         "</PolyData>",
         "</VTKFile>",
