@@ -109,7 +109,12 @@ def _report(path: Path, found: Result, result: OperationResult) -> str:
     kind = found.mirror.kind if found.mirror is not None else "none"
     lines = [str(path), f"  mirror              {kind}, score {found.score:.3f}"]
     for name, value in result.statistics.items():
-        if getattr(value, "ndim", 1) == 2:
+        share = result.statistics.get(f"{name}_of_diagonal")
+        if name.endswith("_of_diagonal"):
+            continue
+        if share is not None:
+            lines.append(f"  {name:<19} {value:<12.6g} {100 * share:.4g} % of the diagonal")
+        elif getattr(value, "ndim", 1) == 2:
             rows = ["  ".join(f"{number:12.6g}" for number in row) for row in value]
             lines += [f"  {name}", *(f"    {row}" for row in rows)]
         else:
