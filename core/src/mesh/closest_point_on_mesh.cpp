@@ -98,10 +98,12 @@ std::int32_t ClosestPointOnMesh::build(std::int32_t begin, std::int32_t end,
   Index axis;
   centroids.sizes().maxCoeff(&axis);
   const std::int32_t middle = begin + (end - begin) / 2;
+  const auto along = [axis](const Triangle& t) {  // as centroids are ordered
+    return t.corner[0][axis] + t.corner[1][axis] + t.corner[2][axis];
+  };
   std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
                    triangles_.begin() + end, [&](const Triangle& a, const Triangle& b) {
-                     return std::pair(a.centroid()[axis], a.face) <
-                            std::pair(b.centroid()[axis], b.face);
+                     return std::pair(along(a), a.face) < std::pair(along(b), b.face);
                    });
   build(begin, middle, context);
   const std::int32_t second = build(middle, end, context);
