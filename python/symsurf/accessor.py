@@ -5,6 +5,7 @@ PyVista finds it by itself where symsurf is installed.
 >>> mesh = pyvista.read("scan.ply")
 >>> mesh.symmetry.detect(method="plane").mirror
 >>> mesh.symmetry.plot()
+>>> mesh.symmetry.asymmetry().plot(scalars="signed", cmap="coolwarm")
 """
 
 from __future__ import annotations
@@ -12,8 +13,11 @@ from __future__ import annotations
 import os
 from typing import Any
 
+import numpy as np
 import pyvista
 
+from . import mirror_operations
+from ._core import InvalidInput
 from .detection import detect
 from .result import Result
 
@@ -46,3 +50,40 @@ class Symmetry:
         """
         result = self.detect(**options) if options or self.result is None else self.result
         return result.plot(path)
+
+    def asymmetry(self, **options: Any) -> pyvista.DataSet:
+        """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
+        ``field_data``. Over the mirror last detected, or the one that is found first; options and
+        errors are those of the function. The other operations likewise."""
+        return self._operated("asymmetry", options)
+
+    def correspondences(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.correspondences``."""
+        return self._operated("correspondences", options)
+
+    def align(self, **options: Any) -> pyvista.DataSet:
+        """A copy turned by ``symsurf.align``; ``field_data["matrix"]`` has the turn."""
+        return self._operated("align", options)
+
+    def symmetrize(self, **options: Any) -> pyvista.DataSet:
+        """A copy made symmetric by ``symsurf.symmetrize``."""
+        return self._operated("symmetrize", options)
+
+    def straighten(self, **options: Any) -> pyvista.DataSet:
+        """A copy whose mirror ``symsurf.straighten`` has laid flat."""
+        return self._operated("straighten", options)
+
+    def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
+        if isinstance(self._mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
+            raise InvalidInput(
+                f"{name} takes points that it may move; {type(self._mesh).__name__} has none: give a "
+                "surface of it, such as contour()"
+            )
+        result = getattr(mirror_operations, name)(self._mesh, self.result, **options)
+        made = self._mesh.copy()
+        made.points = result.shape.points
+        for array, values in result.arrays.items():
+            made.point_data[array] = values
+        for figure, value in result.statistics.items():
+            made.field_data[figure] = np.atleast_1d(value)
+        return made

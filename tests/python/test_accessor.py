@@ -47,3 +47,28 @@ def test_plot_draws_the_data_and_its_mirror(data: str, tmp_path: Path) -> None:
 def test_errors_are_symsurfs() -> None:
     with pytest.raises(symsurf.InvalidInput, match="2 points"):
         pyvista.Line(resolution=1).symmetry.detect("plane")
+
+
+@pytest.mark.parametrize("name", symsurf.operations())
+def test_operations_give_meshes_with_arrays(name: str) -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    mesh["height"] = mesh.points[:, 2]
+    plane = mesh.symmetry.detect("plane")
+    made = getattr(mesh.symmetry, name)()
+    expected = getattr(symsurf, name)(mesh, plane)
+    assert isinstance(made, pyvista.PolyData)
+    np.testing.assert_allclose(made.points, expected.shape.points, atol=1e-6)  # float32
+    assert np.array_equal(made.faces, mesh.faces)
+    assert np.array_equal(made["height"], mesh["height"])
+    for array, values in expected.arrays.items():
+        np.testing.assert_array_equal(made.point_data[array], values)
+    for figure in expected.statistics:
+        assert figure in made.field_data
+    assert not set(expected.arrays) & set(mesh.array_names)
+
+
+def test_operations_find_the_mirror_first_and_refuse_grids() -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    assert mesh.symmetry.asymmetry()["distance"].max() < 1e-5
+    with pytest.raises(symsurf.InvalidInput, match="ImageData has none"):
+        pyvista.ImageData(dimensions=(3, 3, 3)).symmetry.align()
