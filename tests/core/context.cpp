@@ -35,6 +35,10 @@ std::vector<LongCall> long_calls() {
     calls.push_back(
         {method.name, [options](const Context& context) { detect(few, options, context); }});
   }
+  for (const Operation& operation : operations())
+    calls.push_back({operation.name, [&operation](const Context& context) {
+                       operate(operation.name, {points}, Plane({1, 0, 0}, 0), {}, context);
+                     }});
   return calls;
 }
 
@@ -87,6 +91,23 @@ TEST(Context, HandsOnWhatTheCallbackThrows) {
         call.run(Context(
             [](double fraction) -> bool { throw std::length_error(std::to_string(fraction)); }, 2)),
         std::length_error);
+}
+
+TEST(Context, ServesManyCallersAtOnce) {
+  const Points points = RandomCloud(3).sphere(500) * Vector3(1, 0.7, 0.4).asDiagonal();
+  for (const char* method : {"auto", "plane", "cylinder", "fixed_direction", "perpendicular"}) {
+    const Result alone = detect(points, {.method = method}, Context({}, 1));
+    std::vector<Result> results(8);
+    std::vector<std::thread> callers;
+    for (Result& result : results)
+      callers.emplace_back([&] { result = detect(points, {.method = method}, Context({}, 2)); });
+    for (std::thread& caller : callers) caller.join();
+    for (const Result& result : results) {
+      EXPECT_EQ(result.score, alone.score) << method;
+      EXPECT_EQ(result.pairs, alone.pairs) << method;
+      EXPECT_EQ(result.residuals, alone.residuals) << method;
+    }
+  }
 }
 
 TEST(Context, StagesMapIntoTheWhole) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/mirror.h>
 #include <symsurf/plane.h>
 
@@ -17,8 +18,9 @@ enum class Bend {
 /// that the mirror reflects onto itself comes out symmetric about straight_mirror().
 /// A mirror made by hand is laid out over the points' feet unless it was given a footprint; going
 /// there and back needs the same footprint. Rows without a foot are NaN. Throws InvalidInput when
-/// no point of the footprint has a foot.
-Points bend(PointsView points, const Mirror& mirror, Bend way = Bend::Straighten);
+/// no point of the footprint has a foot, Cancelled.
+Points bend(PointsView points, const Mirror& mirror, Bend way = Bend::Straighten,
+            const Context& context = {});
 
 /// The plane that the mirror becomes: its tangent plane in the middle of its footprint.
 /// `object` stands in for a mirror made by hand's missing footprint.

@@ -61,6 +61,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   result.points = input.points.matrix();
   result.faces = Eigen::Map<const Triangles>(input.faces.data(), input.faces.size(), 3);
   result.parameters = values.all();
+  context.report(0);
   operation.run(input, mirror, values, context, result);
   context.report(1);
   return result;

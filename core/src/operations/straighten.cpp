@@ -9,9 +9,8 @@ namespace {
 void run_straighten(const OperationInput& input, const Mirror& mirror,
                     const ParameterValues& values, const Context& context,
                     OperationResult& result) {
-  context.check();
   const bool back = values.boolean("back");
-  result.points = bend(input.points, mirror, back ? Bend::Restore : Bend::Straighten);
+  result.points = bend(input.points, mirror, back ? Bend::Restore : Bend::Straighten, context);
   const Plane plane = straight_mirror(mirror, input.points);
   result.statistics["normal"] = plane.normal();
   result.statistics["offset"] = plane.offset();
