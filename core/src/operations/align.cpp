@@ -2,10 +2,8 @@
 #include <symsurf/plane.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "base/math.h"
 #include "base/symmetric_eigen.h"

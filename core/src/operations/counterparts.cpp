@@ -14,6 +14,7 @@
 #include "cloud/normals.h"
 #include "cloud/surface_spacing.h"
 #include "mesh/closest_point_on_mesh.h"
+#include "mesh/triangle_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

@@ -2,10 +2,7 @@
 
 #include <symsurf/operation.h>
 
-#include <optional>
 #include <vector>
-
-#include "mesh/triangle_mesh.h"
 
 namespace symsurf {
 
