@@ -275,7 +275,9 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Grow
     GrownSurface surface;
     surface.mirror = bent[k].free_form();
     match(search, bent_foot_precision, surface);
-    if (surface.carried.size() < 6 || flatness(surface) > unbent) continue;
+    if (surface.carried.size() < 6) continue;
+    // Between noisy sheets a plane explains more than what bends with them, and less truly.
+    if (flatness(surface) > unbent && !surface.exact) continue;
     surface.support = support(search, surface);
     surface.bent = true;
     surfaces.push_back(std::move(surface));
