@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/math.h"
@@ -11,8 +10,6 @@
 namespace symsurf {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // In units and in shares of the diagonal: none is compared between shapes without knowing its unit.
 void report_length(Values& statistics, const std::string& name, double length, double diagonal) {
@@ -71,7 +68,8 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   Eigen::VectorXd distance(count), outward(count), lateral(count), matched(count);
   for (Index i = 0; i < count; ++i) {
     const Counterpart& counterpart = counterparts[i];
-    const Vector3 x = points[i], to_place = counterpart.place - x, from_mirror = x - mirror.foot(x);
+    const Vector3 x = points[i], to_place = counterpart.place - x;
+    const Vector3 from_mirror = x - counterparts.image(i);  // twice as far
     vector.row(i) = to_place.transpose();
     distance[i] = to_place.norm();
     outward[i] = to_place.dot(counterparts.normals().row(i).transpose());

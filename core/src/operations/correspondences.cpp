@@ -29,7 +29,7 @@ void run_correspondences(const OperationInput& input, const Mirror& mirror,
     index[i] = c.matched ? static_cast<double>(c.nearest) : -1;
     face[i] = c.matched ? static_cast<double>(c.face) : -1;
     weights.row(i) = c.weights.transpose();
-    const double gap = c.matched ? (mirror.reflect(points[i]) - points[c.nearest]).norm() : 0;
+    const double gap = c.matched ? (counterparts.image(i) - points[c.nearest]).norm() : 0;
     confidence[i] = c.matched ? confidence_of(gap, apart, c.agreement) : 0;
   }
   if (values.boolean("one_to_one")) {

@@ -36,6 +36,9 @@ class Counterparts {
   const Counterpart& operator[](Index i) const { return all_[i]; }
   Index matched() const { return matched_; }
 
+  /// Of a point, NaN where it has none.
+  Vector3 image(Index i) const { return images_.row(i).transpose(); }
+
   /// Unit normals, one a point: of a closed mesh outwards, of an open one by its winding, of a
   /// cloud away from its centroid.
   const Points& normals() const { return normals_; }
