@@ -7,7 +7,6 @@ import json
 import math
 import sys
 import warnings
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +20,7 @@ from ..sampling import downsample
 from ..saving import FORMATS
 from ..saving.json_format import plain, summary
 from ..shape import read
-from .each_file import for_each_file
+from .each_file import for_each_file, output_files
 from .method_options import add_method_options, given_parameters
 from .progress_bar import ProgressBar
 from .values import shown, whole
@@ -130,23 +129,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
         if suffix not in FORMATS:
             allowed = ", ".join(name[1:] for name in FORMATS)
             raise InvalidParameter(f"formats is {arguments.formats}; allowed are {allowed}")
-    stems: dict[str, Path] = {}
-    for path in arguments.files:
-        if stems.setdefault(path.stem, path) != path:
-            raise InvalidParameter(
-                f"{stems[path.stem]} and {path} would both be written as {path.stem}{suffixes[0]}"
-            )
-    outputs = {
-        path: [arguments.output / f"{path.stem}{suffix}" for suffix in suffixes]
-        for path in arguments.files
-    }
-    inputs = {path.resolve() for path in arguments.files}
-    for output in chain.from_iterable(outputs.values()):
-        if output.resolve() in inputs:
-            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
-    if arguments.output.exists():
-        arguments.output.mkdir(exist_ok=True)  # refuses what is no folder
-    return outputs
+    return output_files(arguments.files, arguments.output, suffixes)
 
 
 def _record(path: Path, result: Result) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from ..saving import SHAPE_FORMATS
 from ..saving.json_format import mirror_record, plain
 from ..shape import read
 from .described_options import add_parameters, given_values
-from .each_file import for_each_file
+from .each_file import for_each_file, output_files
 from .values import shown, whole
 
 
@@ -53,9 +53,9 @@ class OperationCommand:
 
         def do(path: Path) -> None:
             found, result = self._result(path, arguments)
-            if path in outputs:
-                outputs[path].parent.mkdir(parents=True, exist_ok=True)
-                result.save(outputs[path])
+            for output in outputs.get(path, []):
+                output.parent.mkdir(parents=True, exist_ok=True)
+                result.save(output)
             if arguments.json:
                 print(json.dumps(_record(path, found, result)))
             else:
@@ -73,7 +73,7 @@ class OperationCommand:
         return found, operate(shape, found, threads=threads, **given_values(arguments))
 
 
-def _outputs(arguments: argparse.Namespace) -> dict[Path, Path]:
+def _outputs(arguments: argparse.Namespace) -> dict[Path, list[Path]]:
     """The file to write for each file to read."""
     if arguments.output is None:
         return {}
@@ -81,17 +81,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path, Path]:
     if suffix not in SHAPE_FORMATS:
         allowed = ", ".join(name[1:] for name in SHAPE_FORMATS)
         raise InvalidParameter(f"format is {arguments.format}; allowed are {allowed}")
-    outputs = {path: arguments.output / f"{path.stem}{suffix}" for path in arguments.files}
-    inputs = {path.resolve() for path in arguments.files}
-    sources: dict[Path, Path] = {}
-    for path, output in outputs.items():
-        if sources.setdefault(output, path) != path:
-            raise InvalidParameter(
-                f"{sources[output]} and {path} would both be written as {output}"
-            )
-        if output.resolve() in inputs:
-            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
-    return outputs
+    return output_files(arguments.files, arguments.output, [suffix])
 
 
 def _record(path: Path, found: Result, result: OperationResult) -> dict[str, Any]:
