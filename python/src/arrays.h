@@ -1,9 +1,12 @@
 #pragma once
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 #include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace symsurf::python {
@@ -24,6 +27,14 @@ struct NormalsArgument : Rows {};
 struct VectorArgument {
   Vector3 vector;
 };
+
+/// (m, 3) indices of points, which the package has made sure of; none for a bare cloud.
+using FacesArgument = std::optional<py::array_t<Index, py::array::c_style>>;
+
+inline TrianglesView view_of(const FacesArgument& faces) {
+  return faces ? TrianglesView(faces->data(), static_cast<Index>(faces->shape(0)))
+               : TrianglesView();
+}
 
 /// Reads anything array-like. Throws InvalidInput naming `what`, the shape or type that was given
 /// and what is allowed.

@@ -20,9 +20,7 @@ py::dict with_points(Result&& result, const PointsArgument& points) {
   return fields;
 }
 
-using Faces = py::array_t<Index, py::array::c_style>;
-
-py::dict detect_fields(const PointsArgument& points, const std::optional<Faces>& faces,
+py::dict detect_fields(const PointsArgument& points, const FacesArgument& faces,
                        const py::object& method_name, const std::optional<NormalsArgument>& normals,
                        bool refuse_nonfinite, const py::object& seed, const py::object& threads,
                        const py::object& progress, const py::dict& parameters) {
@@ -30,7 +28,7 @@ py::dict detect_fields(const PointsArgument& points, const std::optional<Faces>&
   options.method = py::str(method_name);
   options.parameters = values_from(parameters, method(options.method).parameters);
   if (normals) options.normals = *normals;
-  if (faces) options.faces = {faces->data(), static_cast<Index>(faces->shape(0))};
+  options.faces = view_of(faces);
   options.refuse_nonfinite = refuse_nonfinite;
   options.seed = seed_from(seed);
   const Context context = context_from(progress, threads);

@@ -15,8 +15,6 @@ namespace symsurf::python {
 
 namespace {
 
-using Faces = py::array_t<Index, py::array::c_style>;
-
 py::object typed(const Eigen::MatrixXd& values, const PointArray& described) {
   py::object array =
       owned_array(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>(values));
@@ -27,12 +25,11 @@ py::object typed(const Eigen::MatrixXd& values, const PointArray& described) {
 }
 
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
-                        const std::optional<Faces>& faces, const Mirror& mirror,
+                        const FacesArgument& faces, const Mirror& mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
                         const py::object& progress, const py::dict& parameters) {
   const Operation& described = operation(name);
-  OperationInput input{points};
-  if (faces) input.faces = {faces->data(), static_cast<Index>(faces->shape(0))};
+  OperationInput input{points, view_of(faces)};
   if (mask) input.mask = *mask;
   const Values values = values_from(parameters, described.parameters);
   const Context context = context_from(progress, threads);
