@@ -24,6 +24,10 @@ py::object typed(const Eigen::MatrixXd& values, const PointArray& described) {
   return array;
 }
 
+py::array_t<Index> indices(const std::vector<Index>& values) {
+  return py::array_t<Index>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, const Mirror& mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
@@ -42,6 +46,9 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   }
   py::dict fields;
   fields["points"] = owned_array(std::move(result.points));
+  fields["faces"] = owned_array(std::move(result.faces));
+  fields["point_sources"] = indices(result.point_sources);
+  fields["face_sources"] = indices(result.face_sources);
   fields["arrays"] = arrays;
   fields["parameters"] = to_python(result.parameters);
   fields["statistics"] = to_python(result.statistics);
@@ -68,6 +75,8 @@ void bind_operations(py::module_& module) {
       .def_readonly("arrays", &Operation::arrays)
       .def_readonly("moves_points", &Operation::moves_points,
                     "Whether the result's points are not those of the input.")
+      .def_readonly("adds_points", &Operation::adds_points,
+                    "Whether the result has points and faces behind those of the input.")
       .def_readonly("takes_mask", &Operation::takes_mask)
       .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
 

@@ -259,8 +259,13 @@ def _operate(
         name, shape.points, shape.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
     arrays = made.pop("arrays")
-    points = made.pop("points")
-    return made | arrays | {"mirror": mirror, "shape": Shape(points, shape.faces)}
+    points, triangles = made.pop("points"), made.pop("faces")
+    del made["point_sources"], made["face_sources"]
+    return (
+        made
+        | arrays
+        | {"mirror": mirror, "shape": Shape(points, triangles if len(triangles) else None)}
+    )
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:

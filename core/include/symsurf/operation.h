@@ -32,6 +32,7 @@ struct Operation {
   std::vector<Parameter> parameters;
   std::vector<PointArray> arrays;
   bool moves_points = false;  ///< the result's points are not those of the input
+  bool adds_points = false;   ///< behind those of the input, and faces behind its faces
   bool takes_mask = false;    ///< OperationInput::mask
 };
 
@@ -50,8 +51,11 @@ struct OperationInput {
 
 struct OperationResult {
   std::string operation;
-  Points points;    ///< those of the input, in their order, moved or not
-  Triangles faces;  ///< those of the input
+  Points points;    ///< those of the input, in their order, moved or not, then those added
+  Triangles faces;  ///< those of the input, then those added
+  /// Where something was added: of each point and face of the result, the one of the input that its
+  /// attributes come from. Empty otherwise: each has its own.
+  std::vector<Index> point_sources, face_sources;
   std::map<std::string, Eigen::MatrixXd> arrays;  ///< Operation::arrays: one row a point
   Values parameters;                              ///< as used
   Values statistics;
