@@ -15,7 +15,7 @@ namespace symsurf {
 namespace {
 
 constexpr Index shift_neighbours = 16;  // that the shift of a point is the mean of
-constexpr double touching = 1.5;        // spacings: rims that are nearer meet
+constexpr double touching = 4;          // spacings: less than two rows of faces of each rim
 
 enum Origin { original, mirrored, at_seam };
 
@@ -95,11 +95,10 @@ class Completion {
   std::vector<bool> close_seam(OperationResult& result, const Context& context) {
     std::vector<bool> joined(result.points.rows(), false);
     std::vector<bool> meets(sources_.size());
-    for (std::size_t k = 0; k < sources_.size(); ++k)
-      meets[k] = added_.meets_mesh[sources_[k]] ||
-                 counterparts_[sources_[k]].gap < touching * counterparts_.spacing();
+    for (std::size_t k = 0; k < sources_.size(); ++k) meets[k] = added_.meets_mesh[sources_[k]];
     added_.meets_mesh = meets;
-    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_, context);
+    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_,
+                                        touching * counterparts_.spacing(), context);
     std::vector<Index> face_at(input_.points.size(), 0);
     for (Index f = 0; f < input_.faces.size(); ++f)
       for (int c = 0; c < 3; ++c) face_at[input_.faces[f][c]] = f;

@@ -1,11 +1,16 @@
 #include "operations/missing_points.h"
 
+#include <algorithm>
+
+#include "base/math.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
 
 namespace {
 
+constexpr double usual_gaps = 4;    // medians: of a normal distribution one in 150 is more
+constexpr double widths = 2;        // spacings
 constexpr double cloud_gap = 3;     // spacings: gaps of random samples are narrower
 constexpr double cloud_reach = 2;   // spacings between neighbours
 constexpr Index within_reach = 16;  // points: about thirteen are
@@ -27,6 +32,30 @@ void spread(std::vector<bool>& missing, const Context& context,
   }
 }
 
+// The same over a mesh, to vertices that are doubtful; of doubtful ones as many at a place at the
+// most as are missing for sure.
+void spread_over_mesh(std::vector<bool>& missing, const TriangleMesh& mesh,
+                      const std::vector<bool>& doubtful, const Context& context) {
+  std::vector<bool> done(missing.size(), false);
+  for (Index start = 0; start < static_cast<Index>(missing.size()); ++start) {
+    if (!missing[start] || done[start]) continue;
+    std::vector<Index> part{start};
+    done[start] = true;
+    Index sure = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (k % 1024 == 0) context.check();
+      sure += missing[part[k]];
+      for (const Index j : mesh.neighbours(part[k]))
+        if (!done[j] && (missing[j] || doubtful[j])) {
+          done[j] = true;
+          part.push_back(j);
+        }
+    }
+    if (2 * sure >= static_cast<Index>(part.size()))
+      for (const Index i : part) missing[i] = true;
+  }
+}
+
 bool is_beyond(const OperationInput& input, const Counterparts& counterparts, Index i,
                double max_distance) {
   const Counterpart& c = counterparts[i];
@@ -39,6 +68,16 @@ bool is_beyond(const OperationInput& input, const Counterparts& counterparts, In
   return (counterparts.image(i) - c.on_surface).dot(normal) > 0;
 }
 
+// How far images lie off the surface that they are images of, input units: not much farther than
+// most do, nor than faces are wide.
+double farthest_above(const Counterparts& counterparts, Index count) {
+  std::vector<double> gaps;
+  for (Index i = 0; i < count; ++i)
+    if (counterparts[i].matched) gaps.push_back(counterparts[i].gap);
+  const double usual = gaps.empty() ? 0 : median(std::move(gaps));
+  return std::max(usual_gaps * usual, widths * counterparts.spacing());
+}
+
 }  // namespace
 
 std::vector<bool> missing_points(const OperationInput& input, const Counterparts& counterparts,
@@ -47,11 +86,14 @@ std::vector<bool> missing_points(const OperationInput& input, const Counterparts
   std::vector<bool> missing(count, false);
   if (!input.faces.empty()) {
     for (Index i = 0; i < count; ++i) missing[i] = is_beyond(input, counterparts, i, max_distance);
-    // Where one layer of a thin surface is missing, the images lie above the other.
-    spread(missing, context, [&](Index i, const auto& visit) {
-      for (const Index j : counterparts.mesh().neighbours(i))
-        if (counterparts[j].agreement == 0) visit(j);
-    });
+    // Beside what is missing an image that lies off the surface lies above another part of it.
+    const double apart = farthest_above(counterparts, count);
+    std::vector<bool> doubtful(count, false);
+    for (Index i = 0; i < count; ++i) {
+      const Counterpart& c = counterparts[i];
+      doubtful[i] = c.face >= 0 && (!c.matched || c.gap > apart);
+    }
+    spread_over_mesh(missing, counterparts.mesh(), doubtful, context);
     return missing;
   }
   const double gap = cloud_gap * counterparts.spacing();

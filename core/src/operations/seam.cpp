@@ -17,6 +17,10 @@ namespace {
 // other: chains that run side by side are about as long, jagged ones up to twice.
 constexpr double longest_ratio = 3;
 
+// Cosine between the way out of the added part and that to the rim: rims that run on beside each
+// other have 0, those that face each other 1.
+constexpr double facing = 0.5;
+
 using Loop = std::vector<Index>;
 
 // A stretch of the added part's rim, in its winding; closed: all of a loop.
@@ -42,6 +46,8 @@ class RimFinder {
     all_ = rows_of(all);
     tree_.emplace(all_);
   }
+
+  Vector3 nearest(const Vector3& x) const { return all_.row(tree_->nearest(x).index).transpose(); }
 
   const Loop& rim(Index r) const { return rims_[r]; }
   std::vector<bool>& used(Index r) { return used_[r]; }
@@ -78,9 +84,19 @@ class RimFinder {
   std::map<Index, std::pair<Points, std::optional<PointTree>>> own_;
 };
 
+// For each added point the way out of the added part, where it is on its rim.
+Points outwards(PointsView points, const AddedPart& added) {
+  Points out = Points::Zero(points.size() - added.first, 3);
+  for (const auto& face : added.faces.rowwise()) {
+    const Vector3 centroid = (points[face[0]] + points[face[1]] + points[face[2]]) / 3;
+    for (const Index i : face) out.row(i - added.first) += (points[i] - centroid).transpose();
+  }
+  return out;
+}
+
 // The stretches of a loop where the mesh goes on.
-void add_chains(const Loop& loop, const AddedPart& added, std::vector<Chain>& chains) {
-  const auto meets = [&](Index i) { return added.meets_mesh[i - added.first]; };
+template <typename Meets>
+void add_chains(const Loop& loop, const Meets& meets, std::vector<Chain>& chains) {
   const auto free = std::find_if_not(loop.begin(), loop.end(), meets);
   if (free == loop.end()) {
     chains.push_back({.points = loop, .is_closed = true, .positions = {}});
@@ -166,17 +182,25 @@ std::pair<Loop, Loop> sides_of(PointsView points, const Chain& chain, RimFinder&
 }  // namespace
 
 Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
-                       const Context& context) {
+                       double touching, const Context& context) {
   std::vector<Loop> loops = mesh.boundary_loops();
   if (loops.empty() || added.faces.rows() == 0) return Triangles(0, 3);
   const PointsView own(points.data() + 3 * added.first, points.size() - added.first);
   const Triangles own_faces = added.faces.array() - added.first;
+  RimFinder rims(points, std::move(loops));
+  const Points out = outwards(points, added);
+  const auto meets = [&](Index i) {
+    if (added.meets_mesh[i - added.first]) return true;
+    const Vector3 to_rim = rims.nearest(points[i]) - points[i];
+    const Vector3 way_out = out.row(i - added.first).transpose();
+    return to_rim.norm() < touching &&
+           to_rim.dot(way_out) >= facing * to_rim.norm() * way_out.norm();
+  };
   std::vector<Chain> chains;
   for (Loop& loop : TriangleMesh(own, own_faces, context).boundary_loops()) {
     for (Index& i : loop) i += added.first;
-    add_chains(loop, added, chains);
+    add_chains(loop, meets, chains);
   }
-  RimFinder rims(points, std::move(loops));
   for (Chain& chain : chains) rims.place(chain);
   std::stable_sort(chains.begin(), chains.end(),
                    [](const Chain& a, const Chain& b) { return a.distance < b.distance; });
