@@ -180,6 +180,26 @@ TEST(Complete, FillsHolesAloneWhereAsked) {
     EXPECT_LT((holes.points.row(i).transpose() - Vector3(0.2, 0, 1)).norm(), 0.2);
 }
 
+// Without one vertex and the faces around it: no image of a face has room in the hole.
+TEST(Complete, ClosesHolesOfAFewFaces) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Ball b = ball(seed);
+    RandomCloud random(seed);
+    Index lost = random.below(b.points.rows());
+    while (b.points(lost, 0) < 0.3) lost = random.below(b.points.rows());
+    const Vector3 place = b.points.row(lost).transpose();
+    const Triangles faces = kept_faces(b, [&](const Vector3& x) { return x == place; });
+    const OperationResult result = operate("complete", {b.points, faces}, middle);
+    EXPECT_GT(count(result, "seam_faces"), 0);
+    EXPECT_EQ(TriangleMesh(result.points, result.faces).boundary_loops().size(), 0u) << seed;
+    // On both sides alike: nothing says that it is not meant to be there.
+    const Vector3 image = place.cwiseProduct(Vector3(-1, 1, 1));
+    const Triangles even =
+        kept_faces(b, [&](const Vector3& x) { return x == place || x == image; });
+    EXPECT_EQ(operate("complete", {b.points, even}, middle).faces.rows(), even.rows()) << seed;
+  }
+}
+
 TEST(Complete, LeavesTheSeamOpenWhereAsked) {
   const Ball b = ball(2);
   const Triangles faces =

@@ -97,7 +97,12 @@ class Completion {
     std::vector<bool> meets(sources_.size());
     for (std::size_t k = 0; k < sources_.size(); ++k) meets[k] = added_.meets_mesh[sources_[k]];
     added_.meets_mesh = meets;
-    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_,
+    std::vector<bool> fillable(input_.points.size());
+    for (std::size_t i = 0; i < fillable.size(); ++i) {
+      const Counterpart& c = counterparts_[static_cast<Index>(i)];
+      fillable[i] = c.matched && !c.on_rim;
+    }
+    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_, fillable,
                                         touching * counterparts_.spacing(), context);
     std::vector<Index> face_at(input_.points.size(), 0);
     for (Index f = 0; f < input_.faces.size(); ++f)
@@ -189,7 +194,7 @@ void run_complete(const OperationInput& input, const Mirror& mirror, const Param
   const Index patch = result.faces.rows() - faces;
   Eigen::VectorXd origin = Eigen::VectorXd::Constant(result.points.rows(), mirrored);
   origin.head(points).setConstant(original);
-  if (values.boolean("close_seam") && patch > 0) {
+  if (values.boolean("close_seam") && faces > 0) {
     const std::vector<bool> joined = completion.close_seam(result, context.stage(0.9, 1));
     for (Index i = points; i < result.points.rows(); ++i)
       if (joined[i]) origin[i] = at_seam;

@@ -110,12 +110,12 @@ void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
       c.on_surface = closest.point;
       c.gap = std::sqrt(closest.squared_distance);
       Vector3 normal = Vector3::Zero();
-      bool on_boundary = true;
+      c.on_rim = true;
       double longest = 0, nearest = std::numeric_limits<double>::infinity();
       for (int k = 0; k < 3; ++k) {
         const Vector3 x = input.points[corners[k]];
         normal += closest.weights[k] * normals_.row(corners[k]).transpose();
-        on_boundary = on_boundary && (closest.weights[k] < corner || is_boundary[corners[k]]);
+        c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
         longest = std::max(longest, (input.points[corners[(k + 1) % 3]] - x).norm());
         const double squared = (x - image).squaredNorm();
         if (squared < nearest) {
@@ -125,7 +125,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
       }
       normal.stableNormalize();
       const Vector3 gap = image - closest.point;
-      c.past_rim = on_boundary && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+      c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
       settle(i, mirror, limits, cosine_between(normal, image_normals.row(i).transpose()));
     }
   });

@@ -20,6 +20,7 @@ struct Counterpart {
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
   double gap = 0;                     ///< from the image to the surface, input units
   double agreement = 0;               ///< cosine between the normals there, 0 to 1
+  bool on_rim = false;                ///< the closest point is on a boundary of a mesh
   bool past_rim = false;              ///< the image lies beside the surface, not above it
   bool matched = false;
 };

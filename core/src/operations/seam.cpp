@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/math.h"
+#include "mesh/loop_triangulation.h"
 #include "mesh/strip_between.h"
 #include "spatial/point_tree.h"
 
@@ -19,7 +20,10 @@ constexpr double longest_ratio = 3;
 
 // Cosine between the way out of the added part and that to the rim: rims that run on beside each
 // other have 0, those that face each other 1.
-constexpr double facing = 0.5;
+constexpr double facing = 0.1;
+
+// Edges around a hole without an added part: larger ones hold an image of a face.
+constexpr std::size_t largest_hole = 32;
 
 using Loop = std::vector<Index>;
 
@@ -29,6 +33,7 @@ struct Chain {
   bool is_closed = false;
   Index rim = -1;                // that it faces
   std::vector<Index> positions;  // on that rim, of the closest points
+  Index turns = 0;               // of a closed chain: how often it goes round, against the rim
   double distance = 0;           // mean, to these
 };
 
@@ -49,6 +54,7 @@ class RimFinder {
 
   Vector3 nearest(const Vector3& x) const { return all_.row(tree_->nearest(x).index).transpose(); }
 
+  Index size() const { return static_cast<Index>(rims_.size()); }
   const Loop& rim(Index r) const { return rims_[r]; }
   std::vector<bool>& used(Index r) { return used_[r]; }
 
@@ -66,15 +72,35 @@ class RimFinder {
       found->second.first = rows_of(corners);
       found->second.second.emplace(found->second.first);
     }
+    const PointTree& tree = *found->second.second;
     chain.distance = 0;
     for (const Index i : chain.points) {
-      const Neighbour near = found->second.second->nearest(points_[i]);
+      const Neighbour near = tree.nearest(points_[i]);
       chain.positions.push_back(near.index);
       chain.distance += std::sqrt(near.squared_distance) / static_cast<double>(chain.points.size());
     }
+    if (chain.is_closed) chain.turns = turns(chain.points, tree);
   }
 
  private:
+  // Samples of each edge: a triangle within a hexagon is to pass all its corners.
+  static constexpr int samples = 8;
+
+  Index turns(const Loop& chain, const PointTree& rim) const {
+    Index steps = 0, last = rim.nearest(points_[chain.front()]).index;
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const Vector3 from = points_[chain[k]], to = points_[chain[(k + 1) % chain.size()]];
+      for (int sample = 1; sample <= samples; ++sample) {
+        const Index next = rim.nearest(from + sample / double{samples} * (to - from)).index;
+        Index step = (last - next + rim.size()) % rim.size();
+        if (2 * step > rim.size()) step -= rim.size();
+        steps += step;
+        last = next;
+      }
+    }
+    return steps / rim.size();
+  }
+
   PointsView points_;
   std::vector<Loop> rims_;
   std::vector<std::vector<bool>> used_;  // edges: from each point of a rim to the next
@@ -124,18 +150,6 @@ double length(PointsView points, const Loop& chain) {
   return sum;
 }
 
-// How often the chain goes round its rim, against the rim's winding.
-Index turns(const Chain& chain, Index size) {
-  Index steps = 0;
-  for (std::size_t k = 0; k < chain.positions.size(); ++k) {
-    const Index next = chain.positions[(k + 1) % chain.positions.size()];
-    Index step = (chain.positions[k] - next + size) % size;
-    if (2 * step > size) step -= size;
-    steps += step;
-  }
-  return steps / size;
-}
-
 Loop rotated(const Loop& loop, std::ptrdiff_t start) {
   Loop turned(loop.begin() + start, loop.end());
   turned.insert(turned.end(), loop.begin(), loop.begin() + start);
@@ -150,7 +164,7 @@ std::pair<Loop, Loop> sides_of(PointsView points, const Chain& chain, RimFinder&
   const auto size = static_cast<Index>(rim.size());
   Loop left, right;
   if (chain.is_closed) {
-    if (turns(chain, size) != 1) return {};
+    if (chain.turns != 1) return {};
     Index start = 0;
     double nearest = infinity;
     for (Index k = 0; k < static_cast<Index>(chain.points.size()); ++k) {
@@ -182,9 +196,14 @@ std::pair<Loop, Loop> sides_of(PointsView points, const Chain& chain, RimFinder&
 }  // namespace
 
 Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
-                       double touching, const Context& context) {
+                       const std::vector<bool>& fillable, double touching, const Context& context) {
   std::vector<Loop> loops = mesh.boundary_loops();
-  if (loops.empty() || added.faces.rows() == 0) return Triangles(0, 3);
+  // Those around faces that are kept aside are no holes.
+  const std::vector<bool> is_boundary = mesh.is_boundary();
+  std::erase_if(loops, [&](const Loop& loop) {
+    return std::none_of(loop.begin(), loop.end(), [&](Index i) { return is_boundary[i]; });
+  });
+  if (loops.empty()) return Triangles(0, 3);
   const PointsView own(points.data() + 3 * added.first, points.size() - added.first);
   const Triangles own_faces = added.faces.array() - added.first;
   RimFinder rims(points, std::move(loops));
@@ -205,11 +224,23 @@ Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedP
   std::stable_sort(chains.begin(), chains.end(),
                    [](const Chain& a, const Chain& b) { return a.distance < b.distance; });
   std::vector<std::array<Index, 3>> triangles;
+  const auto append = [&](const Triangles& more) {
+    for (const auto& t : more.rowwise()) triangles.push_back({t[0], t[1], t[2]});
+  };
   for (const Chain& chain : chains) {
     const auto [left, right] = sides_of(points, chain, rims);
     if (left.size() < 2) continue;
-    const Triangles strip = strip_between(points, left, right, context);
-    for (const auto& t : strip.rowwise()) triangles.push_back({t[0], t[1], t[2]});
+    append(strip_between(points, left, right, context));
+  }
+  for (Index r = 0; r < rims.size(); ++r) {
+    const Loop& rim = rims.rim(r);
+    const std::vector<bool>& used = rims.used(r);
+    const auto can_fill = [&](Index i) { return fillable[i] && is_boundary[i]; };
+    if (rim.size() > largest_hole || std::find(used.begin(), used.end(), true) != used.end() ||
+        !std::all_of(rim.begin(), rim.end(), can_fill))
+      continue;
+    context.check();
+    append(loop_triangulation(points, rim));
   }
   return rows_of(triangles);
 }

@@ -17,9 +17,10 @@ struct AddedPart {
   std::vector<bool> meets_mesh;
 };
 
-/// Triangles between the rims of a mesh and of what was added to it; only where the two face each
-/// other, or are closer than `touching` (input units).
+/// Triangles between the rims of a mesh and of what was added to it, where the two face each other
+/// or are closer than `touching` (input units); and in those holes that hold no added part because
+/// they are too small, if all their points are `fillable`.
 Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
-                       double touching, const Context& context);
+                       const std::vector<bool>& fillable, double touching, const Context& context);
 
 }  // namespace symsurf
