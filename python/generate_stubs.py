@@ -18,8 +18,10 @@ import pybind11_stubgen
 
 def compiled_stub() -> str:
     with TemporaryDirectory() as folder:
-        pybind11_stubgen.main(["symsurf._core", "-o", folder, "--exit-code"])
-        return (Path(folder) / "symsurf" / "_core.pyi").read_text()
+        variable = ["--ignore-unresolved-names", "T"]  # a mesh's own type, for Mirror.reflect
+        pybind11_stubgen.main(["symsurf._core", "-o", folder, "--exit-code", *variable])
+        stub = (Path(folder) / "symsurf" / "_core.pyi").read_text()
+    return stub.replace("\n__all__", '\nT = typing.TypeVar("T")\n\n__all__', 1)
 
 
 def detectors_stub() -> str:

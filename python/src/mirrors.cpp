@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 #include <symsurf/bend.h>
 #include <symsurf/cylinder.h>
 #include <symsurf/free_form.h>
@@ -21,6 +22,7 @@ namespace symsurf::python {
 
 namespace {
 
+using AnyMesh = py::typing::TypeVar<"T">;
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 // "Plane(normal=(0, 0, 1), offset=-2)": the class and the numbers that define the mirror.
@@ -83,7 +85,7 @@ void bind_mirror(py::module_& module) {
           py::arg("points"), "The images of points (n, 3); NaN where a point has none.")
       .def(
           "reflect",
-          [](const py::object& self, const py::object& mesh) {
+          [](const py::object& self, const AnyMesh& mesh) -> AnyMesh {
             return py::module_::import("symsurf.reflection").attr("reflected")(mesh, self);
           },
           py::arg("mesh"),
@@ -104,10 +106,10 @@ void bind_mirror(py::module_& module) {
           },
           py::arg("points"),
           "Distances (n,) of points (n, 3) from their feet, signed by side; NaN without a foot.")
-      .def_property_readonly(
-          "footprint", &footprint,
-          "Points (k, 3) that stand for the object in which the mirror was found; None for a mirror\n"
-          "made by hand.")
+      .def_property_readonly("footprint", &footprint,
+                             "Points (k, 3) that stand for the object in which the mirror was "
+                             "found; None for a mirror\n"
+                             "made by hand.")
       .def("mesh", &mesh, py::arg("points") = py::none(), py::arg("resolution") = 32,
            "Triangles over the part of the mirror that lies inside an object.\n\n"
            "points: the object (n, 3); without it, the one the mirror was found in.\n"

@@ -58,8 +58,8 @@ class Mirror {
   /// The numbers that define the mirror, by their public names ("normal", "offset").
   virtual Values numbers() const = 0;
 
-  /// Whether the other is of the same kind and has the same numbers, to the last bit; footprints may
-  /// differ.
+  /// Whether the other is of the same kind and has the same numbers, to the last bit; footprints
+  /// may differ.
   bool operator==(const Mirror& other) const;
 
   /// The mirror after x -> scale * rotation * x + translation.

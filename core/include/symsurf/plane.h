@@ -16,7 +16,8 @@ class Plane final : public Mirror {
   /// The plane's point closest to the origin of the coordinates.
   Vector3 origin() const { return -offset_ * normal_; }
   /// A right-handed frame, a unit vector a row: two within the plane, then the normal. The first is
-  /// orthogonal to the coordinate axis that the normal leans towards least; of equal ones the first.
+  /// orthogonal to the coordinate axis that the normal leans towards least; of equal ones the
+  /// first.
   Matrix3 axes() const;
 
   /// The reflection as a 4 x 4 matrix on homogeneous columns (x, y, z, 1).
