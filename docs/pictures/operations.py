@@ -46,8 +46,11 @@ def dented(shape, at, width, depth):
     return Shape(shape.points + depth * np.exp(-(away**2))[:, None] * inwards, shape.faces)
 
 
+ANGLES = (20, -25, 35)  # degrees
+
+
 def turned(shape):
-    return Shape(synthetic.rotate(shape.points, 20, -25, 35) + (3, 1, 2), shape.faces)
+    return Shape(synthetic.rotate(shape.points, *ANGLES) + (3, 1, 2), shape.faces)
 
 
 def ant():
@@ -76,7 +79,7 @@ def without(shape, lost):
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
     image = Image.open(path).convert("RGB").resize((800, 600), Image.Resampling.LANCZOS)
-    image.quantize(128).save(path, optimize=True)
+    image.quantize(255).save(path, optimize=True)
 
 
 def main(folder):
@@ -87,7 +90,9 @@ def main(folder):
     write(symsurf.asymmetry(hurt, plane), folder / "asymmetry.png", front)
     write(symsurf.symmetrize(hurt, plane, side="negative"), folder / "symmetrize.png", front)
     write(symsurf.correspondences(head(4), plane), folder / "correspondences.png", (0, -1, 0.35))
-    write(symsurf.align(turned(hurt), up=(0.2, 0.5, 1), axis="x"), folder / "align.png")
+    up, towards = synthetic.rotate(np.array([(0.0, 0, 1), (0, -1, 0)]), *ANGLES)
+    aligned = symsurf.align(turned(hurt), up=up, front=towards, frame="blender")
+    write(aligned, folder / "align.png")
     above = (0.3, 1, 0.5)
     write(symsurf.straighten(bent(ant())), folder / "straighten.png", above)
     if "complete" in symsurf.operations():

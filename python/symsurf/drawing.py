@@ -136,7 +136,7 @@ def draw_scalars(
             "title": title,
             "color": INK,
             "fmt": "%.2g",
-            "n_labels": 2 if clim[0] == 0 else 3,
+            "n_labels": 2,
             "width": 0.4,
             "height": 0.06,
             "position_x": 0.3,
@@ -185,6 +185,7 @@ def place_camera(
     object_: NDArray[np.float64],
     drawn: NDArray[np.float64],
     title: str,
+    has_bar: bool = True,
 ) -> None:
     """Looks at what is drawn from a direction (3,), from a camera position of PyVista, or, where the
     camera is None, as shows most of the object and its mirror.
@@ -192,7 +193,7 @@ def place_camera(
     Raises InvalidParameter for another camera.
     """
     if camera is None:
-        look(plotter, *view(mirror, object_), drawn, title)
+        look(plotter, *view(mirror, object_), drawn, title, has_bar)
         return
     try:
         direction = np.asarray(camera, dtype=float)
@@ -202,7 +203,7 @@ def place_camera(
         direction = direction / np.linalg.norm(direction)
         upright = np.eye(3)[2 if abs(direction[2]) < 0.99 else 1]
         up = upright - direction * (upright @ direction)
-        look(plotter, direction, up / np.linalg.norm(up), drawn, title)
+        look(plotter, direction, up / np.linalg.norm(up), drawn, title, has_bar)
         return
     try:
         plotter.camera_position = camera
@@ -219,10 +220,11 @@ def look(
     up: NDArray[np.float64],
     points: NDArray[np.float64],
     title: str,
+    has_bar: bool,
 ) -> None:
     """From that direction, so close that the points fill the picture between bar and title."""
     # Of the way to the picture's edges.
-    sides, bottom, top = 0.94, 0.7, 0.86 if title else 0.94
+    sides, bottom, top = 0.94, 0.7 if has_bar else 0.94, 0.86 if title else 0.94
     x0, y0, x1, y1 = plotter.renderer.viewport
     width, height = plotter.window_size
     aspect = width * (x1 - x0) / (height * (y1 - y0))

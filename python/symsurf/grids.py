@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pyvista
 from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
 from ._core import InvalidInput, InvalidParameter
@@ -82,14 +83,17 @@ def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyv
     """
     if isinstance(mesh, pyvista.PolyData):
         reverse = vtkReverseSense()
-        reverse.SetInputData(mesh)
+        # A strip of an even number of triangles is wound alike from both ends.
+        reverse.SetInputData(mesh.triangulate() if mesh.n_strips else mesh)
         reverse.ReverseCellsOn()
         reverse.ReverseNormalsOff()
         reverse.Update()
         made = pyvista.wrap(reverse.GetOutput())
     elif isinstance(mesh, pyvista.UnstructuredGrid) and _is_flat(mesh):
         made = pyvista.UnstructuredGrid(
-            _backwards(mesh.cells, mesh.offset), mesh.celltypes, np.asarray(mesh.points)
+            _backwards(mesh.cells, vtk_to_numpy(mesh.GetCells().GetOffsetsArray())),
+            mesh.celltypes,
+            np.asarray(mesh.points),
         )
         made.copy_attributes(mesh)
     else:

@@ -46,6 +46,7 @@ OBJECT = "#efdcb8"
 ORIGINS = {"original": OBJECT, "mirrored": "#de8350", "seam": "#74204f"}
 # From blue over light to red: what lies too far out, and what lies too far in.
 DIVERGING = ("#2f5fb0", "#8fb4dc", "#f5efe4", "#e39a7b", "#a83244")
+ABOVE_AXES = (1, -1.2, 0.6)
 AXES = {"x": "#c8443c", "y": "#4a9c4a", "z": "#3a62c4"}
 
 
@@ -108,11 +109,13 @@ def _draw_panel(
     add_title(plotter, title)
     points = np.asarray(object_.points)
     drawn = np.vstack([points, vertices])
-    # What is aligned is seen along its own axes.
-    seen = None if isinstance(result, Alignment) else mirror
-    if camera is None and isinstance(result, Alignment):
-        camera = (1, -1.2, 0.6)
-    place_camera(plotter, camera, seen, points, drawn, title)
+    if isinstance(result, Alignment):
+        length = 1.3 * float(np.abs(points).max())
+        _draw_axes(plotter, length)
+        drawn = np.vstack([drawn, 1.1 * length * np.eye(3)])
+        camera = ABOVE_AXES if camera is None else camera
+    has_bar = not isinstance(result, (Alignment, Straightened))
+    place_camera(plotter, camera, mirror, points, drawn, title, has_bar)
 
 
 def _draw_object(
@@ -144,27 +147,36 @@ def _draw_object(
         _draw_origins(plotter, object_, result.origin[rows])
     else:
         plotter.add_mesh(object_, color=OBJECT, **style_of(object_))
-        if isinstance(result, Alignment):
-            _draw_axes(plotter, object_)
 
 
 def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
-    """Lines between some of the points that mirror each other."""
-    seen = 60
+    """Some of the points that mirror each other, two of each colour."""
+    seen = 80
     points = result.shape.points
     pairs = np.column_stack([np.arange(len(points)), result.index])
     pairs = pairs[(result.index > pairs[:, 0]) & np.isfinite(points).all(axis=1)]
+    if not len(pairs):
+        return
     chosen = pairs[:: max(1, len(pairs) // seen)]
-    if len(chosen):
-        plotter.add_lines(points[chosen.ravel()], color=INK, width=1)
+    plotter.add_mesh(
+        import_pyvista().PolyData(points[chosen.T.ravel()]),
+        scalars=np.tile(np.arange(len(chosen)) % 7, 2),
+        cmap="tab10",
+        clim=(0, 9),
+        show_scalar_bar=False,
+        render_points_as_spheres=True,
+        point_size=14,
+    )
 
 
 def _draw_origins(
     plotter: pyvista.Plotter, object_: pyvista.PolyData, origin: NDArray[np.int64]
 ) -> None:
-    """A face with an added corner is added."""
-    faces = None if object_.n_cells == object_.n_verts else object_.regular_faces
-    of_cells = origin if faces is None else origin[faces].max(axis=1)
+    """Faces of the seam join original points with others."""
+    of_cells = origin
+    if object_.n_cells != object_.n_verts:
+        corners = origin[object_.regular_faces]
+        of_cells = np.where(corners.min(axis=1) > 0, 1, 2 * (corners.max(axis=1) > 0))
     for number, (name, colour) in enumerate(ORIGINS.items()):
         chosen = np.flatnonzero(of_cells == number)
         if len(chosen):
@@ -173,20 +185,19 @@ def _draw_origins(
     plotter.add_legend(bcolor=None, face="rectangle", size=(0.16, 0.12), loc="lower center")
 
 
-def _draw_axes(plotter: pyvista.Plotter, object_: pyvista.PolyData) -> None:
-    length = 0.6 * float(np.ptp(np.asarray(object_.points), axis=0).max())
+def _draw_axes(plotter: pyvista.Plotter, length: float) -> None:
+    """Arrows from the origin with the axes' names."""
     for direction, colour in zip(np.eye(3), AXES.values(), strict=True):
         arrow = import_pyvista().Arrow(
             direction=direction,
             scale=length,
-            shaft_radius=0.008,
-            tip_radius=0.025,
-            tip_length=0.08,
+            shaft_radius=0.01,
+            tip_radius=0.03,
+            tip_length=0.1,
         )
-        plotter.add_mesh(arrow, color=colour)
-    tips = 1.05 * length * np.eye(3)
+        plotter.add_mesh(arrow, color=colour, ambient=0.6)
     plotter.add_point_labels(
-        tips,
+        1.05 * length * np.eye(3),
         list(AXES),
         text_color=INK,
         shape=None,

@@ -79,7 +79,7 @@ def test_what_is_no_length_is_as_ever(points):
     for value in ("2 mm", True, None, (1, 2)):
         with pytest.raises(symsurf.InvalidParameter, match=r"pair_distance is .*of the diagonal"):
             symsurf.detect_plane(points, pair_distance=value, absolute=True)
-    with pytest.raises(symsurf.InvalidParameter, match="unknown method"):
+    with pytest.raises(symsurf.InvalidParameter, match="no method 'plain'"):
         symsurf.detect(points, "plain", pair_distance=2, absolute=True)
     with pytest.raises(symsurf.InvalidParameter, match="'plane' has no parameter 'distance'"):
         symsurf.detect_plane(points, distance=2, absolute=True)

@@ -12,7 +12,7 @@ import symsurf
 pyvista = pytest.importorskip("pyvista")
 
 PLANE = symsurf.Plane((1, 2, -2), 3)
-SPHERE = symsurf.Sphere((0.2, -0.1, 0.3), 4)
+SPHERE = symsurf.Sphere((5, 0, 0), 4)
 numbers = st.floats(-1e3, 1e3)
 
 
@@ -79,7 +79,10 @@ def test_the_image_of_a_mesh_is_one_of_its_kind_wound_outwards(make, mirror):
     after = as_shape(image)
     points = mirror.reflect(before.points)
     np.testing.assert_allclose(after.points, points, atol=1e-6)  # PyVista's may be float32
-    assert sorted(map(sorted, after.faces.tolist())) == sorted(map(sorted, before.faces.tolist()))
+    assert after.faces.shape == before.faces.shape
+    if make is not quads and make is not grid:  # whose triangles PyVista makes
+        faces = (sorted(map(sorted, each.faces.tolist())) for each in (before, after))
+        assert next(faces) == next(faces)
     sign = np.sign(volume(before))
     assert sign * volume(after) > 0
     if mirror is PLANE:

@@ -163,10 +163,11 @@ def test_a_mask_must_fit(ball):
 def test_a_mirror_in_another_unit_is_named(ball):
     shape, _ = ball
     placed = symsurf.Shape(shape.points + (50, 0, 0), shape.faces)
-    mirror = symsurf.detect_plane(placed).mirror
+    mirror = symsurf.Plane((1, 0, 0), -50)
     in_millimetres = symsurf.Shape(1000 * placed.points, shape.faces)
     for name in RESULTS:
-        with pytest.raises(symsurf.InvalidInput, match="unit"):
+        getattr(symsurf, name)(placed, mirror)
+        with pytest.raises(symsurf.InvalidInput, match="diagonals away .* unit"):
             getattr(symsurf, name)(in_millimetres, mirror)
 
 

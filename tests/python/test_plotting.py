@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -185,8 +186,7 @@ def test_the_camera_and_no_score(result, tmp_path):
         top = pictures[name].reshape(900, 1200, 3)[:30]
         assert (top == BACKGROUND).all()
         assert (pictures[name] != BACKGROUND).any(axis=1).mean() > 0.05
-    names = list(pictures)
-    for one, other in zip(names, names[1:], strict=False):
+    for one, other in pairwise(pictures):
         assert (pictures[one] != pictures[other]).any(axis=1).mean() > 0.02
 
 
