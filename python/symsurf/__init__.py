@@ -28,6 +28,7 @@ from ._core import (
     operations,
     straight_mirror,
 )
+from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
@@ -73,6 +74,7 @@ __all__ = [
     "__version__",
     "align",
     "asymmetry",
+    "batch",
     "bend",
     "correspondences",
     "detect",

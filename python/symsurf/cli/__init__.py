@@ -40,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader, such as head, has seen enough
         _drop_output()
         return 128 + signal.SIGPIPE
-    except (InvalidInput, InvalidParameter) as error:
+    except (InvalidInput, InvalidParameter, ImportError) as error:  # an optional package
         print(f"symsurf: {error}", file=sys.stderr)
         return 2
     except OSError as error:
