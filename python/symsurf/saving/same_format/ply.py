@@ -40,7 +40,7 @@ class _Element:
 def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     end = _END.search(content)
     assert end is not None  # it could be read
-    lines = [line.rstrip(b"\r") for line in content[: end.start()].split(b"\n")]
+    lines = content[: end.start()].splitlines()
     elements = _elements(lines)
     if not _is_plain(elements, new):
         plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays)
