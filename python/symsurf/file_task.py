@@ -25,6 +25,7 @@ from .shape import Shape, read
 DETECT = "detect"
 SUMMARY_SUFFIX = ".summary.json"
 PICTURE_SUFFIX = ".png"
+PAGE_SUFFIX = ".html"
 
 Record = dict[str, Any]
 """What is told of a file, in what JSON knows. A file that failed has an "error"."""
@@ -123,6 +124,10 @@ def _operate(
         output.parent.mkdir(parents=True, exist_ok=True)
         if output.suffix == PICTURE_SUFFIX:
             result.plot(output)
+        elif output.suffix.lower() == PAGE_SUFFIX:
+            from .report import shape_page
+
+            write_whole(output, shape_page(record, result))
         else:
             notices += save_shape(output, result, shape, source=task.file)
 

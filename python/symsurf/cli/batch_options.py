@@ -27,16 +27,16 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 def add_batch_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
-    )
-    parser.add_argument(
         "--plot", action="store_true", help="draw a PNG a file into the folder of --output"
     )
+    add_table_options(parser)
+
+
+def add_table_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
-    add_work_options(parser)
-
-
-def add_work_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--jobs", default="1", metavar="N", help="files worked on at once; default %(default)s"
     )
@@ -70,8 +70,9 @@ def planned_outputs(
 
 def run_tasks(
     tasks: Sequence[FileTask], arguments: argparse.Namespace, text_of: Callable[[Record], str]
-) -> int:
-    """Does the tasks and prints each record; the exit status says whether any failed."""
+) -> tuple[int, list[dict[str, Any]]]:
+    """Does the tasks and prints each record. Gives the exit status, 1 where any failed, and the
+    rows of the table."""
     table: Path | None = arguments.table
     if table is not None:
         _require_table(table, tasks)
@@ -84,7 +85,7 @@ def run_tasks(
             print(json.dumps(record) if arguments.json else text_of(record), flush=True)
     if table is not None:
         write_whole(table, csv_bytes(rows))
-    return status
+    return status, rows
 
 
 def tell(record: Record) -> int:

@@ -83,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         for path in arguments.files
     ]
-    return run_tasks(tasks, arguments, _text)
+    return run_tasks(tasks, arguments, _text)[0]
 
 
 def _divisor(text: str) -> float:

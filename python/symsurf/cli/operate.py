@@ -69,7 +69,7 @@ class OperationCommand:
             )
             for path in arguments.files
         ]
-        return run_tasks(tasks, arguments, _text)
+        return run_tasks(tasks, arguments, _text)[0]
 
 
 def _text(record: Record) -> str:
