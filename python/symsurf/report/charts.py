@@ -12,7 +12,7 @@ INK = "#333333"
 
 
 def histogram(values: NDArray[np.float64], label: str, of_what: str, symmetric: bool) -> str:
-    """How many values fall where; of the few farthest out only how many there are.
+    """How many values fall where; a symmetric one says of the few farthest out only how many.
 
     Args:
         values: finite.
@@ -35,6 +35,7 @@ def histogram(values: NDArray[np.float64], label: str, of_what: str, symmetric: 
         axes.set_title(f"{outside} of {len(values)} {of_what} lie beyond", fontsize=9, color=INK)
     axes.set_xlabel(label)
     axes.set_ylabel(of_what)
+    axes.yaxis.get_major_locator().set_params(integer=True)
     axes.spines[["top", "right"]].set_visible(False)
     file = io.StringIO()
     # Texts stay texts, and the same values give the same bytes.
@@ -44,9 +45,9 @@ def histogram(values: NDArray[np.float64], label: str, of_what: str, symmetric: 
 
 
 def _range(values: NDArray[np.float64], symmetric: bool) -> tuple[float, float]:
-    """Where all but one in a hundred lie, and a width above 0."""
+    """Where all lie, or about 0 all but one in a hundred; a width above 0."""
     if symmetric:
         end = float(np.percentile(np.abs(values), 99)) if len(values) else 0.0
         return (-end, end) if end > 0 else (-1.0, 1.0)
-    low, high = np.percentile(values, (0.5, 99.5)).tolist() if len(values) else (0.0, 1.0)
+    low, high = float(values.min()), float(values.max())
     return (low, high) if high > low else (low - 0.5, high + 0.5)

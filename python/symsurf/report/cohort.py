@@ -37,7 +37,7 @@ def cohort_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[st
 
     Args:
         rows: of ``symsurf.batch``.
-        links: the page of each file that has one, relative to this.
+        links: the page of each file, relative to this.
     """
     good = [row for row in rows if not row["error"]]
     parts = [paragraph(f"{len(good)} of {len(rows)} files have a mirror.")]
@@ -49,8 +49,10 @@ def cohort_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[st
             table(_percentile_rows(good), ("", *(_name(p) for p in PERCENTILES), "files")),
             histogram(rms, label, "files", symmetric=False),
         ]
-    names = ("file", "mirror", *(_FIGURES[name][0] for name in _SHOWN), "rank by rms")
-    parts += [heading("Files"), table(_file_rows(rows, good, links), names)]
+        names = ("file", "mirror", *(_FIGURES[name][0] for name in _SHOWN), "rank by rms")
+        parts += [heading("Files"), table(_file_rows(good, links), names)]
+    if errors := [(Path(row["file"]).name, row["error"]) for row in rows if row["error"]]:
+        parts += [heading("Files that failed"), table(errors, ("file", "reason"), numbers=False)]
     return page(title, parts)
 
 
@@ -64,23 +66,15 @@ def _percentile_rows(good: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     return made
 
 
-def _file_rows(
-    rows: Sequence[Mapping[str, Any]], good: Sequence[Mapping[str, Any]], links: Mapping[str, str]
-) -> list[list[str]]:
+def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> list[list[str]]:
     order = np.sort(_column(good, "rms_of_diagonal"))
     made = []
-    for row in rows:
-        name = escape(Path(row["file"]).name)
-        link = links.get(row["file"])
-        target = quote(os.fsencode(link)) if link and not row["error"] else ""
-        shown = [f'<a href="{target}">{name}</a>' if target else f"<span>{name}</span>"]
-        if row["error"]:
-            shown.append(f'<span class="error">{escape(row["error"])}</span>')
-            made.append(shown + [""] * (len(_SHOWN) + 1))
-            continue
+    for row in good:
+        target = quote(os.fsencode(links[row["file"]]))
+        link = f'<a href="{target}">{escape(Path(row["file"]).name)}</a>'
         figures = [f"{_FIGURES[key][1] * row[key]:.4g}" if key in row else "" for key in _SHOWN]
         rank = int(np.searchsorted(order, row["rms_of_diagonal"], side="right"))
-        made.append([*shown, row["kind"], *figures, f"{rank} of {len(order)}"])
+        made.append([link, row["kind"], *figures, f"{rank} of {len(order)}"])
     return made
 
 
