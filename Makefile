@@ -7,7 +7,7 @@ setup:
 	@.ci/setup python tests
 
 demo:
-	@.ci/setup python
+	@.ci/setup report
 	@build/venv/bin/symsurf demo --output build/demo
 
 paraview:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from .._core import InvalidParameter, operations
+from .._core import operations
 from ..file_task import FileTask, Record
-from ..saving import write_whole
-from ..saving.output_files import output_files
 from .batch_options import add_files, add_table_options, jobs_and_threads, run_tasks
 from .described_options import add_parameters, given_values
 
 SUMMARY = "Write an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures"
-OPERATION = "asymmetry"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,41 +27,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
     )
-    add_parameters(parser, operations()[OPERATION])
+    add_parameters(parser, operations()["asymmetry"])
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from ..report import cohort_page, require_viewer
+    from ..report import report_tasks, require_viewer, write_report
 
     require_viewer()
-    page: Path = arguments.output
-    if page.suffix.lower() != ".html":
-        raise InvalidParameter(f"output is {str(page)!r}; allowed is the suffix .html")
-    files: list[Path] = arguments.files
-    is_cohort = len(files) > 1
-    folder = page.with_name(f"{page.stem}_files")
-    pages = (
-        {files[0]: [page]} if not is_cohort else output_files(files, folder, lambda _: [".html"])
-    )
     _, threads = jobs_and_threads(arguments)
-    tasks = [
-        FileTask(
-            path,
-            OPERATION,
-            arguments.method,
-            given_values(arguments),
-            threads=threads,
-            unit=arguments.unit,
-            outputs=tuple(pages[path]),
-        )
-        for path in files
-    ]
+    asked = FileTask(
+        Path(),
+        method=arguments.method,
+        parameters=given_values(arguments),
+        threads=threads,
+        unit=arguments.unit,
+    )
+    tasks = report_tasks(arguments.files, arguments.output, asked)
     status, rows = run_tasks(tasks, arguments, _text)
-    if is_cohort:
-        links = {str(path): f"{folder.name}/{made[0].name}" for path, made in pages.items()}
-        write_whole(page, cohort_page(page.stem, rows, links))
-    if is_cohort or status == 0:
-        print(page)
+    write_report(arguments.output, tasks, rows)
+    if len(tasks) > 1 or status == 0:
+        print(arguments.output)
     return status
 
 

@@ -22,6 +22,7 @@ def histogram(values: NDArray[np.float64], label: str, of_what: str, symmetric: 
     """
     from matplotlib import rc_context
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     low, high = _range(values, symmetric)
     inside = values[(values >= low) & (values <= high)]
@@ -35,7 +36,7 @@ def histogram(values: NDArray[np.float64], label: str, of_what: str, symmetric: 
         axes.set_title(f"{outside} of {len(values)} {of_what} lie beyond", fontsize=9, color=INK)
     axes.set_xlabel(label)
     axes.set_ylabel(of_what)
-    axes.yaxis.get_major_locator().set_params(integer=True)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.spines[["top", "right"]].set_visible(False)
     file = io.StringIO()
     # Texts stay texts, and the same values give the same bytes.
