@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ._core import Cylinder, Mirror, Plane
 from .detection import detect
-from .mirror_operations import OperationResult, asymmetry, complete, straighten
+from .mirror_operations import OperationResult
+from .mirror_operations.operate import operate
 from .result import Result
 from .shape import Shape, read
 
@@ -97,15 +98,15 @@ def deeds(finding: Finding) -> Iterator[Deed]:
     if found.verdict != "found":
         return
     if case.change == "one tip raised":
-        measured = asymmetry(case.shape, found)
+        measured = operate("asymmetry", case.shape, found)
         farthest = unit * float(measured.statistics["maximum"])
         yield Deed(case, measured, "asymmetry at the most", farthest, 100 * RAISED)
     elif case.change == "half of a side cut away":
-        whole = complete(case.shape, found)
+        whole = operate("complete", case.shape, found)
         missed = unit * _missed(case.before, whole.shape)
         yield Deed(case, whole, "95 % of the uncut mesh are as near as", missed, 0)
     elif case.change == "bent":
-        straight = straighten(case.shape, found)
+        straight = operate("straighten", case.shape, found)
         off = unit * _difference_in_shape(straight.shape.points, case.before.points)
         yield Deed(case, straight, "difference from the mesh before, rms", off, 0)
 

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from ._core import InvalidInput
 from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
+from .mirror_operations import Asymmetry
+from .mirror_operations.operate import operate
 from .result import Result
 from .sampling import downsample
 from .saving import write_whole
@@ -112,19 +114,16 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
 def _operate(
     task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
 ) -> None:
-    import symsurf  # by the public names: one function for each operation
-
     if found.verdict != "found":
         raise InvalidInput(f"the shape has no mirror: {found.reason}")
-    operate = getattr(symsurf, task.operation)
-    result = operate(shape, found, threads=task.threads, **task.parameters)
+    result = operate(task.operation, shape, found, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     record.pop("candidates")
     for output in task.outputs:
         output.parent.mkdir(parents=True, exist_ok=True)
         if output.suffix == PICTURE_SUFFIX:
             result.plot(output)
-        elif output.suffix.lower() == PAGE_SUFFIX:
+        elif output.suffix.lower() == PAGE_SUFFIX and isinstance(result, Asymmetry):
             from .report import shape_page
 
             write_whole(output, shape_page(record, result))

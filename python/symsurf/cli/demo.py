@@ -53,7 +53,8 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.output.mkdir(parents=True, exist_ok=True)
     print("Lengths are shares of the diagonal of the bounding box.\n")
     print(ROW.format(*HEADINGS))
-    findings, done = [], []
+    findings: list[Finding] = []
+    done: list[Deed] = []
     for case in cases():
         finding = find(case)
         findings.append(finding)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import _core
 from .._core import InvalidParameter
+from ..mirror_operations import Completed, OperationResult
 from ..shape import Shape
 from . import SHAPE_FORMATS, write_whole
 from .same_format import REWRITERS, NewShape
-
-if TYPE_CHECKING:
-    from ..mirror_operations import OperationResult
 
 
 def output_suffix(file: Path, operation: str, format_name: str = "input") -> str:
@@ -48,7 +45,7 @@ def save_shape(path: Path, result: OperationResult, shape: Shape, source: Path) 
         result.save(path)
         return []
     count = len(result.shape.points)
-    sources = getattr(result, "sources", None)
+    sources = result.sources if isinstance(result, Completed) else np.arange(count)
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
     faces = result.shape.faces
@@ -56,7 +53,7 @@ def save_shape(path: Path, result: OperationResult, shape: Shape, source: Path) 
         points=result.shape.points,
         faces=np.empty((0, 3), np.int64) if faces is None else faces,
         old_faces=0 if shape.faces is None else len(shape.faces),
-        sources=np.arange(count) if sources is None else np.asarray(sources),
+        sources=sources,
         moved=not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
