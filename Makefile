@@ -7,7 +7,7 @@ setup:
 	@.ci/setup python tests
 
 demo:
-	@.ci/setup python
+	@.ci/setup report
 	@build/venv/bin/symsurf demo --output build/demo
 
 paraview:
@@ -43,9 +43,10 @@ fuzz:
 	@.ci/fuzz $(SECONDS)
 
 bench:
-	@.ci/setup benchmarks paraview
+	@.ci/setup benchmarks paraview python
 	@cmake --build build/benchmarks --target bench
 	@tests/benchmarks/vtk/run.sh
+	@build/venv/bin/python tests/benchmarks/batch.py
 
 # A quarter of an hour on two cores; OPTIONS=--all runs five times as many trials, OPTIONS="--cases
 # fixed --seeds 2" asks for less, OPTIONS=--help tells what there is.

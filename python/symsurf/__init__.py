@@ -28,6 +28,7 @@ from ._core import (
     operations,
     straight_mirror,
 )
+from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
@@ -55,6 +56,7 @@ __all__ = [
     "Sphere",
     "SurfaceMirror",
     "__version__",
+    "batch",
     "bend",
     "detect",
     "downsample",

@@ -1,18 +1,26 @@
-"""Real meshes with a known mirror plane, whole and damaged, and how well it is found."""
+"""Real meshes with a known mirror, as they are and changed: how well it is found, and what is done
+with it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Plane
+from ._core import Cylinder, Mirror, Plane
 from .detection import detect
+from .mirror_operations import OperationResult
+from .mirror_operations.operate import operate
 from .result import Result
 from .shape import Shape, read
+
+BEND = 0.8  # of the diagonal: the radius that a shape is bent over
+NOISE = 0.01  # of the diagonal: its standard deviation in each direction
+CUT = 0.25  # of the points: half of one side
+RAISED = 0.03  # of the diagonal: how far the tip of one side is
 
 
 @dataclass(frozen=True)
@@ -20,9 +28,11 @@ class Case:
     """A shape, what was done to it, and its true mirror."""
 
     name: str
-    damage: str
+    change: str
     shape: Shape
-    truth: Plane
+    truth: Mirror
+    before: Shape
+    """The shape that was changed."""
 
 
 @dataclass(frozen=True)
@@ -31,55 +41,89 @@ class Finding:
 
     case: Case
     result: Result
-    angle: float
-    """Between the normals, degrees; NaN where no plane was found, as is the offset."""
-    offset: float
-    """Between the planes at the centre of the points, % of the diagonal."""
+    error: float
+    """Between the images of the points over both, root mean square, % of the diagonal; NaN where no
+    mirror was found."""
+
+
+@dataclass(frozen=True)
+class Deed:
+    """What was done with the mirror of a case."""
+
+    case: Case
+    result: OperationResult
+    figure: str
+    """What is measured."""
+    value: float
+    """% of the diagonal."""
+    truth: float
+    """What it should be."""
 
 
 def cases() -> Iterator[Case]:
-    """The meshes that PyVista ships, as they are, turned, and damaged and turned."""
+    """The meshes that PyVista ships, as they are and changed."""
     from pyvista import examples
 
     # Both are modelled mirrored in x: the ant about 0, the airplane about half its span.
     for name, path in {"ant": examples.antfile, "airplane": examples.planefile}.items():
-        shape = read(Path(path))
-        x = shape.points[:, 0]
-        truth = Plane((1, 0, 0), -(x.min() + x.max()) / 2)
-        rng = np.random.default_rng(len(x))
-        noisy = add_noise(shape, 0.01, rng)
-        yield Case(name, "as it is", shape, truth)
-        yield moved(Case(name, "turned", shape, truth), rng)
-        yield moved(Case(name, "1 % noise", noisy, truth), rng)
-        yield moved(Case(name, "20 % removed", remove_part(shape, 0.2), truth), rng)
-        yield moved(Case(name, "noise and removed", remove_part(noisy, 0.2), truth), rng)
+        whole = read(Path(path))
+        rng = np.random.default_rng(len(whole.points))
+        straight = Case(name, "as it is", whole, middle(whole), whole)
+        yield straight
+        yield turned(straight, rng)
+        yield bent(straight)
+        yield turned(replace(straight, change="noisy", shape=add_noise(whole, NOISE, rng)), rng)
+        cut = remove_part(whole, CUT)
+        yield turned(replace(straight, change="half of a side cut away", shape=cut), rng)
+        yield replace(straight, change="one tip raised", shape=raise_tip(whole))
 
 
 def find(case: Case) -> Finding:
-    result = detect(case.shape.points, "plane")
-    found, truth = result.mirror, case.truth
-    if not isinstance(found, Plane):
-        return Finding(case, result, angle=float("nan"), offset=float("nan"))
-    centre = case.shape.points.mean(axis=0, keepdims=True)
-    sign = 1 if found.normal @ truth.normal >= 0 else -1
-    gap = found.signed_distance(centre)[0] - sign * truth.signed_distance(centre)[0]
-    sine = np.linalg.norm(np.cross(found.normal, truth.normal))
-    cosine = abs(found.normal @ truth.normal)
-    return Finding(
-        case,
-        result,
-        angle=float(np.degrees(np.arctan2(sine, cosine))),
-        offset=100 * abs(gap) / diagonal(case.shape.points),
-    )
+    """By the default call."""
+    result = detect(case.shape)
+    error = float("nan")
+    if result.mirror is not None:
+        points = case.shape.points
+        gaps = np.linalg.norm(
+            result.mirror.reflect(points) - case.truth.reflect(points), axis=1
+        ) / diagonal(case.shape)
+        error = 100 * float(np.sqrt(np.nanmean(gaps**2)))
+    return Finding(case, result, error)
 
 
-def diagonal(points: NDArray[np.float64]) -> float:
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
+def deeds(finding: Finding) -> Iterator[Deed]:
+    """What a case is there to show."""
+    case, found = finding.case, finding.result
+    unit = 100 / diagonal(case.before)
+    if found.verdict != "found":
+        return
+    if case.change == "one tip raised":
+        measured = operate("asymmetry", case.shape, found)
+        farthest = unit * float(measured.statistics["maximum"])
+        yield Deed(case, measured, "asymmetry at the most", farthest, 100 * RAISED)
+    elif case.change == "half of a side cut away":
+        whole = operate("complete", case.shape, found)
+        missed = unit * _missed(case.before, whole.shape)
+        yield Deed(case, whole, "95 % of the uncut mesh are as near as", missed, 0)
+    elif case.change == "bent":
+        straight = operate("straighten", case.shape, found)
+        off = unit * _difference_in_shape(straight.shape.points, case.before.points)
+        yield Deed(case, straight, "difference from the mesh before, rms", off, 0)
+
+
+def diagonal(shape: Shape) -> float:
+    return float(np.linalg.norm(np.ptp(shape.points, axis=0)))
+
+
+def middle(shape: Shape) -> Plane:
+    """The plane across x halfway between the extremes."""
+    x = shape.points[:, 0]
+    return Plane((1, 0, 0), -(x.min() + x.max()) / 2)
 
 
 def add_noise(shape: Shape, share: float, rng: np.random.Generator) -> Shape:
     """Normally distributed noise in all directions; share of the diagonal."""
-    noise = rng.normal(scale=share * diagonal(shape.points), size=shape.points.shape)
+    noise = rng.normal(scale=share * diagonal(shape), size=shape.points.shape)
     return Shape(shape.points + noise, shape.faces)
 
 
@@ -94,11 +138,51 @@ def remove_part(shape: Shape, share: float) -> Shape:
     return Shape(points[kept], (np.cumsum(kept) - 1)[faces])
 
 
-def moved(case: Case, rng: np.random.Generator) -> Case:
-    """The case turned at random about the origin."""
+def raise_tip(shape: Shape) -> Shape:
+    """Lifts what lies farthest out in x along z, gently."""
+    x = shape.points[:, 0]
+    out = (x - x.mean()) / (x.max() - x.mean())
+    weight = np.clip((out - 0.5) / 0.5, 0, 1)
+    lift = RAISED * diagonal(shape) * weight**2 * (3 - 2 * weight)
+    return Shape(shape.points + lift[:, None] * (0, 0, 1), shape.faces)
+
+
+def bent(case: Case) -> Case:
+    """Rolled along y over a cylinder that touches the mirror along z."""
+    points, radius = case.shape.points, BEND * diagonal(case.shape)
+    x, y, z = points.T
+    centre = np.array([-float(case.truth.numbers["offset"]) - radius, y.mean(), 0])
+    angle, height = (y - y.mean()) / radius, x - centre[0]
+    rolled = [centre[0] + height * np.cos(angle), y.mean() + height * np.sin(angle), z]
+    truth = Cylinder(centre, (0, 0, 1), radius)
+    shape = Shape(np.column_stack(rolled), case.shape.faces)
+    return replace(case, change="bent", shape=shape, truth=truth)
+
+
+def turned(case: Case, rng: np.random.Generator) -> Case:
+    """The case turned at random about the origin; its mirror is a plane."""
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
+    before = Shape(case.before.points @ rotation.T, case.before.faces)
     shape = Shape(case.shape.points @ rotation.T, case.shape.faces)
-    return Case(
-        case.name, case.damage, shape, Plane(rotation @ case.truth.normal, case.truth.offset)
+    normal, offset = case.truth.numbers["normal"], case.truth.numbers["offset"]
+    change = "turned" if case.change == "as it is" else case.change
+    return replace(
+        case, change=change, shape=shape, truth=Plane(rotation @ normal, offset), before=before
     )
+
+
+def _missed(whole: Shape, completed: Shape) -> float:
+    """How near 95 % of the whole shape's points are to the completed surface."""
+    import pyvista
+
+    surface = pyvista.PolyData.from_regular_faces(completed.points, completed.faces)
+    measured = pyvista.PolyData(whole.points).compute_implicit_distance(surface)
+    return float(np.percentile(np.abs(measured["implicit_distance"]), 95))
+
+
+def _difference_in_shape(points: NDArray[np.float64], others: NDArray[np.float64]) -> float:
+    """Root mean square, after the turn and shift that make it least."""
+    points, others = points - points.mean(axis=0), others - others.mean(axis=0)
+    left, _, right = np.linalg.svd(points.T @ others)
+    return float(np.sqrt(((points @ left @ right - others) ** 2).sum(axis=1).mean()))

@@ -1,17 +1,24 @@
-"""Pictures of the demonstration, one for each case."""
+"""Pictures of the demonstration: one for each case, and for each thing done."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from .demonstration import Finding
+from .demonstration import Case, Deed, Finding
 
 
-def draw(findings: list[Finding], folder: Path) -> Iterator[Path]:
+def draw(findings: Sequence[Finding], deeds: Sequence[Deed], folder: Path) -> Iterator[Path]:
     """Writes the pictures, naming each when it is there."""
     for finding in findings:
-        case = finding.case
-        path = folder / f"{case.name} {case.damage}.png".replace(" %", "").replace(" ", "-")
-        finding.result.plot(path, shape=case.shape)
+        path = folder / f"{file_name(finding.case)}.png"
+        finding.result.plot(path, shape=finding.case.shape)
         yield path
+    for deed in deeds:
+        path = folder / f"{file_name(deed.case)}-{deed.result.operation}.png"
+        deed.result.plot(path)
+        yield path
+
+
+def file_name(case: Case) -> str:
+    return f"{case.name} {case.change}".replace(" ", "-")

@@ -88,12 +88,28 @@ def test_report_for_people(clouds):
 
 def test_output_folder(clouds, tmp_path):
     folder = tmp_path / "new" / "results"
-    assert run("detect", *clouds, "--output", folder).returncode == 0
-    expected = {f"{path.stem}.{kind}" for path in clouds for kind in ("json", "vtp", "ply", "txt")}
-    assert {path.name for path in folder.iterdir()} == expected
+    done = run("detect", *clouds, "--output", folder, "--json")
+    assert {path.name for path in folder.iterdir()} == {
+        f"{path.stem}.summary.json" for path in clouds
+    }
+    for path, line in zip(clouds, done.stdout.splitlines()):
+        saved = json.loads((folder / f"{path.stem}.summary.json").read_text())
+        told = json.loads(line)
+        del told["seconds_in_all"]
+        assert saved == told
     chosen = tmp_path / "chosen"
-    assert run("detect", *clouds, "--output", chosen, "--formats", "txt").returncode == 0
-    assert {path.suffix for path in chosen.iterdir()} == {".txt"}
+    formats = "json,vtp,ply,txt,summary.json"
+    assert run("detect", *clouds, "--output", chosen, "--formats", formats).returncode == 0
+    expected = {f"{path.stem}.{kind}" for path in clouds for kind in formats.split(",")}
+    assert {path.name for path in chosen.iterdir()} == expected
+
+
+def test_pictures(clouds, tmp_path):
+    pytest.importorskip("pyvista")
+    path = next(iter(clouds))
+    assert run("detect", path, "--output", tmp_path / "made", "--plot").returncode == 0
+    picture = tmp_path / "made" / f"{path.stem}.png"
+    assert picture.read_bytes().startswith(b"\x89PNG")
 
 
 def test_files_that_would_overwrite_each_other_are_refused(clouds, tmp_path):
@@ -114,7 +130,8 @@ def test_files_to_read_are_not_written(clouds, tmp_path):
     linked.symlink_to(tmp_path)
     names = os.listdir(tmp_path)
     for folder in tmp_path, linked:
-        done = run("detect", *clouds, "mesh.ply", "--output", folder, cwd=tmp_path)
+        words = ("--formats", "ply", "--output", folder)
+        done = run("detect", *clouds, "mesh.ply", *words, cwd=tmp_path)
         assert done.returncode == 2 and done.stdout == ""
         assert "mesh.ply would overwrite an input" in done.stderr
         assert os.listdir(tmp_path) == names and mesh.read_bytes() == before

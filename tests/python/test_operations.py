@@ -270,7 +270,11 @@ def test_commands_name_what_is_wrong(ball, tmp_path):
     for line, status, says in [
         ("align ball.ply --axis w", 2, "axis is w"),
         ("asymmetry ball.ply gone.ply", 1, "gone.ply"),
-        ("asymmetry ball.ply --output made --format obj", 2, "format is obj; allowed are ply, vtp"),
+        (
+            "asymmetry ball.ply --output made --format obj",
+            2,
+            "format is obj; allowed are input, ply, vtp",
+        ),
         ("asymmetry ball.ply --output . --format ply", 2, "would overwrite an input"),
     ]:
         done = run_here(line, tmp_path)

@@ -13,13 +13,14 @@ from typing import Any
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter, operations
-from . import damage, demo, detect, evaluate, generate, methods
+from . import damage, demo, detect, evaluate, generate, methods, report
 from .operate import OperationCommand
 from .values import attach_negative_numbers
 
 COMMANDS: dict[str, Any] = {
     "detect": detect,
     **{name: OperationCommand(operation) for name, operation in operations().items()},
+    "report": report,
     "generate": generate,
     "damage": damage,
     "evaluate": evaluate,
@@ -40,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader, such as head, has seen enough
         _drop_output()
         return 128 + signal.SIGPIPE
-    except (InvalidInput, InvalidParameter) as error:
+    except (InvalidInput, InvalidParameter, ImportError) as error:  # an optional package
         print(f"symsurf: {error}", file=sys.stderr)
         return 2
     except OSError as error:

@@ -1,17 +1,26 @@
-"""symsurf demo: mirrors of real meshes, whole and damaged, against the truth."""
+"""symsurf demo: mirrors of real meshes, as they are and changed, against the truth, and what is done
+with them."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-from ..demonstration import Finding, cases, find
+from ..demonstration import Deed, Finding, cases, deeds, find
+from ..file_task import FileTask
+from ..result_table import row_of
+from ..saving import write_whole
+from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
 
-SUMMARY = "Find the mirrors of two real meshes, whole and damaged; print a table, draw pictures"
+SUMMARY = (
+    "Find the mirrors of two real meshes, straight, bent and damaged, and use them; with a report"
+)
 
-HEADINGS = "mesh", "damage", "points", "angle error", "offset error", "score", "time"
-ROW = "{:9} {:18} {:>7} {:>12} {:>13} {:>7} {:>9}"
+HEADINGS = "mesh", "change", "points", "mirror", "score", "error", "time"
+ROW = "{:9} {:24} {:>7} {:>9} {:>7} {:>10} {:>9}"
+DEED_HEADINGS = "mesh", "operation", "what", "is", "should be"
+DEED_ROW = "{:9} {:11} {:38} {:>9} {:>9}"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,43 +31,82 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="shapes",
         help="real meshes, or the thesis's tables beside its numbers; default %(default)s",
     )
-    parser.add_argument("--no-pictures", action="store_true", help="print the table only")
+    parser.add_argument(
+        "--no-pictures", action="store_true", help="print the tables only, without a report"
+    )
     parser.add_argument(
         "--output",
         type=Path,
         default=Path("symsurf-demo"),
         metavar="DIR",
-        help="where the pictures go; default %(default)s",
+        help="where meshes, pictures and report go; default %(default)s",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.which == "thesis":
         return demo_thesis.run(arguments)
+    if not arguments.no_pictures:
+        from ..report import require_viewer
+
+        require_viewer()
     arguments.output.mkdir(parents=True, exist_ok=True)
+    print("Lengths are shares of the diagonal of the bounding box.\n")
     print(ROW.format(*HEADINGS))
-    findings = []
+    findings: list[Finding] = []
+    done: list[Deed] = []
     for case in cases():
         finding = find(case)
         findings.append(finding)
+        done += deeds(finding)
         print(_row(finding), flush=True)
+    print(f"\n{DEED_ROW.format(*DEED_HEADINGS)}")
+    for deed in done:
+        print(_deed_row(deed))
     if arguments.no_pictures:
         return 0
-    from .. import gallery
-
-    for path in gallery.draw(findings, arguments.output):
-        print(path)
+    _show(findings, done, arguments.output)
     return 0
+
+
+def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
+    """Pictures, the meshes, and the report on them."""
+    from .. import gallery
+    from ..batching import processors, records, threads_of_each
+    from ..report import report_tasks, write_report
+
+    print("\npictures")
+    for path in gallery.draw(findings, done, folder):
+        print(f"  {path}")
+    meshes = []
+    for finding in findings:
+        meshes.append(folder / f"{gallery.file_name(finding.case)}.ply")
+        write_whole(meshes[-1], shape_ply_bytes(finding.case.shape, {}))
+    jobs = processors()
+    page = folder / "report.html"
+    tasks = report_tasks(meshes, page, FileTask(Path(), threads=threads_of_each(0, jobs)))
+    write_report(page, tasks, list(map(row_of, records(tasks, jobs=jobs))))
+    print(f"report\n  {page}")
 
 
 def _row(finding: Finding) -> str:
     result = finding.result
     return ROW.format(
         finding.case.name,
-        finding.case.damage,
+        finding.case.change,
         len(finding.case.shape.points),
-        f"{finding.angle:.4f}°",
-        f"{finding.offset:.4f} %",
+        result.mirror.kind if result.mirror is not None else "none",
         f"{result.score:.3f}",
-        f"{1000 * result.seconds:.1f} ms",
+        f"{finding.error:.4f} %",
+        f"{1000 * result.seconds:.0f} ms",
+    )
+
+
+def _deed_row(deed: Deed) -> str:
+    return DEED_ROW.format(
+        deed.case.name,
+        deed.result.operation,
+        deed.figure,
+        f"{deed.value:.3f} %",
+        f"{deed.truth:g} %",
     )

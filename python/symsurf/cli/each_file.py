@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from itertools import chain
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from .._core import InvalidInput, InvalidParameter
+from .._core import InvalidInput
 
 
 def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
@@ -24,23 +23,3 @@ def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
             named = reason if str(path) in reason else f"{path}: {reason}"
             print("symsurf:", " ".join(named.split()), file=sys.stderr)
     return 1 if failed else 0
-
-
-def output_files(
-    files: Sequence[Path], folder: Path, suffixes: Sequence[str]
-) -> dict[Path, list[Path]]:
-    """The files to write to the folder for each file to read: none twice, none over an input."""
-    stems: dict[str, Path] = {}
-    for path in files:
-        if stems.setdefault(path.stem, path) != path:
-            raise InvalidParameter(
-                f"{stems[path.stem]} and {path} would both be written as {path.stem}{suffixes[0]}"
-            )
-    outputs = {path: [folder / f"{path.stem}{suffix}" for suffix in suffixes] for path in files}
-    inputs = {path.resolve() for path in files}
-    for output in chain.from_iterable(outputs.values()):
-        if output.resolve() in inputs:
-            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
-    if folder.exists():
-        folder.mkdir(exist_ok=True)  # refuses what is no folder
-    return outputs

@@ -23,6 +23,10 @@ class ProgressBar:
                 f"\r{self._title} {bar} {fraction:4.0%}", end="\033[K", file=sys.stderr, flush=True
             )
 
+    def clear(self) -> None:
+        if self._shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
     def __enter__(self) -> ProgressBar:
         return self
 
@@ -32,5 +36,4 @@ class ProgressBar:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if self._shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
+        self.clear()

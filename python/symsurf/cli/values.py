@@ -29,15 +29,19 @@ def whole(text: str) -> Any:
         return text
 
 
-def shown(value: Any) -> str:
+def shown(value: Any, digits: str = "g") -> str:
     """The value as it would be written on the command line; of a table only its size."""
     if isinstance(value, bool):
         return str(value).lower()
+    if value is None:  # in a record, what is no number
+        return "nan"
     if isinstance(value, np.ndarray):
-        if value.ndim > 1:
-            return f"{len(value)} x {value.shape[1]} numbers"
-        return ",".join(f"{number:g}" for number in value.tolist())
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        value = value.tolist()
+    if isinstance(value, list):
+        if value and isinstance(value[0], list):
+            return f"{len(value)} x {len(value[0])} numbers"
+        return ",".join(shown(number, digits) for number in value)
+    return format(value, digits) if isinstance(value, float) else str(value)
 
 
 def attach_negative_numbers(words: Sequence[str]) -> list[str]:

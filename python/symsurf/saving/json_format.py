@@ -16,7 +16,11 @@ if TYPE_CHECKING:
 
 
 def json_bytes(result: Result) -> bytes:
-    return (json.dumps(record(result), indent=1, allow_nan=False) + "\n").encode()
+    return record_bytes(record(result))
+
+
+def record_bytes(fields: dict[str, Any]) -> bytes:
+    return (json.dumps(fields, indent=1, allow_nan=False) + "\n").encode()
 
 
 def record(result: Result) -> dict[str, Any]:

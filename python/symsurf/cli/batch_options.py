@@ -1,0 +1,128 @@
+"""What the commands for many files share: their options, and how they go through the files."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from .._core import InvalidParameter
+from ..batching import records, require_jobs, threads_of_each
+from ..file_task import PICTURE_SUFFIX, FileTask, Record, perform
+from ..result_table import csv_bytes, row_of
+from ..saving import write_whole
+from ..saving.output_files import output_files
+from .progress_bar import ProgressBar
+from .values import whole
+
+
+def add_files(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "files", nargs="+", type=Path, metavar="FILE", help="PLY, OBJ, OFF, STL, XYZ, CSV or TXT"
+    )
+
+
+def add_batch_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--plot", action="store_true", help="draw a PNG a file into the folder of --output"
+    )
+    add_table_options(parser)
+
+
+def add_table_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
+    )
+    parser.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
+    parser.add_argument(
+        "--jobs", default="1", metavar="N", help="files worked on at once; default %(default)s"
+    )
+    parser.add_argument(
+        "--threads", default="0", metavar="N", help="of each job; 0: all there are, divided"
+    )
+    parser.add_argument(
+        "--unit", default="", metavar="WORD", help="of the coordinates, such as mm: a label"
+    )
+
+
+def jobs_and_threads(arguments: argparse.Namespace) -> tuple[int, Any]:
+    jobs = whole(arguments.jobs)
+    require_jobs(jobs)
+    return jobs, threads_of_each(whole(arguments.threads), jobs)
+
+
+def planned_outputs(
+    arguments: argparse.Namespace, suffixes_of: Callable[[Path], Sequence[str]]
+) -> dict[Path, list[Path]]:
+    """The files to write for each file to read, a picture last."""
+    if arguments.output is None:
+        if arguments.plot:
+            raise InvalidParameter("plot is given without output; allowed is with a folder")
+        return {}
+    picture = [PICTURE_SUFFIX] if arguments.plot else []
+    return output_files(
+        arguments.files, arguments.output, lambda path: [*suffixes_of(path), *picture]
+    )
+
+
+def run_tasks(
+    tasks: Sequence[FileTask], arguments: argparse.Namespace, text_of: Callable[[Record], str]
+) -> tuple[int, list[dict[str, Any]]]:
+    """Does the tasks and prints each record. Gives the exit status, 1 where any failed, and the
+    rows of the table."""
+    table: Path | None = arguments.table
+    if table is not None:
+        _require_table(table, tasks)
+    rows = []
+    status = 0
+    for record in worked_on(tasks, arguments):
+        rows.append(row_of(record))
+        status = max(status, tell(record))
+        if "error" not in record:
+            print(json.dumps(record) if arguments.json else text_of(record), flush=True)
+    if table is not None:
+        write_whole(table, csv_bytes(rows))
+    return status, rows
+
+
+def tell(record: Record) -> int:
+    """Says on standard error what is to be said beside the result; 1 where the file failed."""
+    for notice in record.get("notices", []):
+        print(f"symsurf: {record['file']}: {notice}", file=sys.stderr)
+    if "error" in record:
+        print("symsurf:", record["error"], file=sys.stderr)
+    return 1 if "error" in record else 0
+
+
+def worked_on(tasks: Sequence[FileTask], arguments: argparse.Namespace) -> Iterator[Record]:
+    """The records in the order of the tasks, with a bar on a terminal."""
+    jobs, _ = jobs_and_threads(arguments)
+    if jobs == 1:
+        for task in tasks:
+            with ProgressBar(task.file.name) as bar:
+                record = perform(task, bar)
+            yield record
+    else:
+        yield from _counted(records(tasks, jobs=jobs), len(tasks))
+
+
+def _counted(records_: Iterable[Record], count: int) -> Iterator[Record]:
+    with ProgressBar(f"{count} files") as bar:
+        for done, record in enumerate(records_, 1):
+            bar.clear()
+            yield record
+            bar(done / count)
+
+
+def _require_table(table: Path, tasks: Sequence[FileTask]) -> None:
+    """Raises what would be wrong with the table before the work is done."""
+    if table.suffix.lower() != ".csv":
+        raise InvalidParameter(f"table is {str(table)!r}; allowed is the suffix .csv")
+    taken = {task.file.resolve() for task in tasks}
+    taken |= {output.resolve() for task in tasks for output in task.outputs}
+    if table.resolve() in taken:
+        raise InvalidParameter(f"{table} is an input or another output; allowed is another name")
+    table.parent.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,59 @@
+"""symsurf report: pages about the asymmetry of files."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from .._core import operations
+from ..file_task import FileTask, Record
+from .batch_options import add_files, add_table_options, jobs_and_threads, run_tasks
+from .described_options import add_parameters, given_values
+
+SUMMARY = "Write an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_files(parser)
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help="the page, HTML, which needs nothing but itself; of several files the percentiles over "
+        "all of them, with a page each in the folder FILE_files beside it",
+    )
+    add_table_options(parser)
+    parser.add_argument(
+        "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
+    )
+    add_parameters(parser, operations()["asymmetry"])
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from ..report import report_tasks, require_viewer, write_report
+
+    require_viewer()
+    _, threads = jobs_and_threads(arguments)
+    asked = FileTask(
+        Path(),
+        method=arguments.method,
+        parameters=given_values(arguments),
+        threads=threads,
+        unit=arguments.unit,
+    )
+    tasks = report_tasks(arguments.files, arguments.output, asked)
+    status, rows = run_tasks(tasks, arguments, _text)
+    write_report(arguments.output, tasks, rows)
+    if len(tasks) > 1 or status == 0:
+        print(arguments.output)
+    return status
+
+
+def _text(record: Record) -> str:
+    rms = 100 * record["statistics"]["rms_of_diagonal"]
+    kind = record["mirror"]["kind"]
+    return (
+        f"{record['file']}: {record['verdict']}, {kind}, score {record['score']:.3f}, asymmetry "
+        f"{rms:.3g} % of the diagonal"
+    )

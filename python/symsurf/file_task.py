@@ -1,0 +1,186 @@
+"""What is done with one file of many: read, find the mirror, operate, write; told in a record."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import InvalidInput
+from .detection import Progress, detect
+from .inputs import InputWarning, nonfinite_message
+from .mirror_operations import Asymmetry
+from .mirror_operations.operate import operate
+from .result import Result
+from .sampling import downsample
+from .saving import write_whole
+from .saving.json_format import mirror_record, plain, record_bytes, summary
+from .saving.shape_files import save_shape
+from .shape import Shape, read
+
+DETECT = "detect"
+SUMMARY_SUFFIX = ".summary.json"
+PICTURE_SUFFIX = ".png"
+PAGE_SUFFIX = ".html"
+
+Record = dict[str, Any]
+"""What is told of a file, in what JSON knows. A file that failed has an "error"."""
+
+
+@dataclass(frozen=True)
+class FileTask:
+    """A file and what is done with it. It pickles: another process can do it."""
+
+    file: Path
+    operation: str = DETECT
+    """Or the name of one of ``operations()``."""
+    method: str = "auto"
+    parameters: dict[str, Any] = field(default_factory=dict)
+    """Those of the operation, and of the method where only the mirror is found."""
+    seed: int = 0
+    threads: int = 0
+    nonfinite: str = "skip"
+    use_faces: bool = True
+    use_normals: bool = False
+    downsample: float | None = None
+    """Work on about one point in so many."""
+    unit: str = ""
+    """Of the coordinates: a label."""
+    outputs: tuple[Path, ...] = ()
+    """The files to write, each in the format of its suffix, and PNGs to draw."""
+
+
+def perform(task: FileTask, progress: Progress | None = None) -> Record:
+    """Does the task. What is wrong with the file is in the record; what is wrong with the
+    parameters is raised."""
+    started = time.perf_counter()
+    record: Record = {"file": str(task.file), "operation": task.operation, "unit": task.unit}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InputWarning)  # it is told in the record
+            _perform(task, record, progress)
+    except (InvalidInput, OSError, MemoryError) as error:
+        record["error"] = _one_line(task.file, error)
+    record["seconds_in_all"] = time.perf_counter() - started
+    return record
+
+
+def failed(task: FileTask, reason: str) -> Record:
+    """The record of a task that nobody could finish."""
+    return {
+        "file": str(task.file),
+        "operation": task.operation,
+        "unit": task.unit,
+        "error": f"{task.file}: {reason}",
+        "seconds_in_all": math.nan,
+    }
+
+
+def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
+    notices: list[str] = []
+    record["notices"] = notices
+    shape = read(task.file)
+    if task.downsample is not None:
+        shape = _downsampled(shape, task, notices)
+    record["points"] = len(shape.points)
+    parameters = task.parameters if task.operation == DETECT else {}
+    found = detect(
+        shape.points,
+        task.method,
+        faces=shape.faces,
+        use_faces=task.use_faces,
+        normals=shape.normals if task.use_normals else None,
+        nonfinite=task.nonfinite,
+        seed=task.seed,
+        threads=task.threads,
+        progress=progress,
+        **parameters,
+    )
+    if left_out := found.statistics.get("nonfinite_points", 0):
+        notices.append(nonfinite_message(left_out))
+    record |= about(found)
+    if task.operation == DETECT:
+        _write_result(found, record, task)
+    else:
+        _operate(task, shape, found, record, notices)
+
+
+def _operate(
+    task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
+) -> None:
+    if found.verdict != "found":
+        raise InvalidInput(f"the shape has no mirror: {found.reason}")
+    result = operate(task.operation, shape, found, threads=task.threads, **task.parameters)
+    record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
+    record.pop("candidates")
+    for output in task.outputs:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        if output.suffix == PICTURE_SUFFIX:
+            result.plot(output)
+        elif output.suffix.lower() == PAGE_SUFFIX and isinstance(result, Asymmetry):
+            from .report import shape_page
+
+            write_whole(output, shape_page(record, result))
+        else:
+            notices += save_shape(output, result, shape, source=task.file)
+
+
+def _write_result(found: Result, record: Record, task: FileTask) -> None:
+    for output in task.outputs:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        if output.name.endswith(SUMMARY_SUFFIX):
+            write_whole(output, record_bytes(record))
+        elif output.suffix == PICTURE_SUFFIX:
+            found.plot(output)
+        else:
+            found.save(output)
+
+
+def about(found: Result) -> Record:
+    """What a detection says without its points."""
+    return {
+        "pairs": len(found.pairs),
+        "surface_points": len(found.surface_points),
+        "median_residual": plain(distribution(found.residuals).get("p50")),
+        "residual": plain(distribution(found.residuals)),
+        "verdict": found.verdict,
+        "reason": found.reason,
+        "mirror": mirror_record(found.mirror),
+    } | summary(found)
+
+
+def distribution(lengths: NDArray[np.float64]) -> dict[str, float]:
+    """Mean, root mean square, percentiles and maximum; nothing of nothing."""
+    if not len(lengths):
+        return {}
+    p50, p95 = np.percentile(lengths, (50, 95)).tolist()
+    return {
+        "mean": float(lengths.mean()),
+        "rms": math.sqrt(float(lengths @ lengths) / len(lengths)),
+        "p50": p50,
+        "p95": p95,
+        "max": float(lengths.max()),
+    }
+
+
+def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
+    """The means of the points in each cell of a grid, without faces and normals."""
+    assert task.downsample is not None
+    points = shape.points
+    if task.nonfinite == "skip":
+        finite = np.isfinite(points).all(axis=1)
+        if not finite.all():
+            notices.append(nonfinite_message(int(np.count_nonzero(~finite))))
+            points = points[finite]
+    return Shape(downsample(points, math.ceil(len(points) / task.downsample)))
+
+
+def _one_line(file: Path, error: BaseException) -> str:
+    reason = str(error) or type(error).__name__
+    return " ".join((reason if str(file) in reason else f"{file}: {reason}").split())

@@ -1,0 +1,90 @@
+"""The parts of pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from .._core import __version__
+
+# Nothing is fetched: what a page shows is in it.
+_POLICY = (
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; "
+    "img-src data: blob:; frame-src 'self' about: blob:"
+)
+_STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; color: #222; margin: 0 auto; max-width: 1100px;
+  padding: 1.2rem; background: #fff; }
+h1 { font-size: 1.5rem; margin: 0; overflow-wrap: anywhere; }
+h2 { font-size: 1.1rem; margin: 1.6rem 0 .4rem; }
+p { margin: .3rem 0; }
+.none, .error { color: #a83244; }
+iframe { width: 100%; height: 620px; border: 1px solid #ddd; border-radius: 4px; }
+table { border-collapse: collapse; }
+th, td { text-align: left; padding: .2rem .9rem .2rem 0; border-bottom: 1px solid #eee;
+  font-weight: normal; vertical-align: top; }
+thead th { border-bottom: 2px solid #ccc; color: #555; }
+td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
+.columns { display: flex; flex-wrap: wrap; gap: 0 3rem; }
+.wide { overflow-x: auto; }
+svg { max-width: 100%; height: auto; }
+footer { color: #777; margin-top: 2rem; font-size: .85rem; }
+"""
+
+
+def page(title: str, parts: Iterable[str]) -> bytes:
+    """A whole page; names that are no text show a mark in their place."""
+    lines = [
+        "<!doctype html>",
+        '<html lang="en">',
+        '<head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f"<title>{escape(title)}</title>",
+        f"<style>{_STYLE}</style></head>",
+        f"<body><h1>{escape(title)}</h1>",
+        *parts,
+        f"<footer>symsurf {__version__}</footer>",
+        "</body></html>",
+    ]
+    return ("\n".join(lines) + "\n").encode("utf-8", "replace")
+
+
+def heading(text: str) -> str:
+    return f"<h2>{escape(text)}</h2>"
+
+
+def paragraph(text: str, kind: str = "") -> str:
+    return f'<p class="{kind}">{escape(text)}</p>'
+
+
+def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: bool = True) -> str:
+    """Rows of texts, those behind the first column to the right where they are numbers. A text that
+    starts with "<" is HTML."""
+    kind = ' class="number"' if numbers else ""
+    head = "".join(
+        f"<th{kind if column else ''}>{escape(name)}</th>" for column, name in enumerate(names)
+    )
+    body = "".join(
+        "<tr>"
+        + "".join(
+            f"<td{kind if column else ''}>{text if text.startswith('<') else escape(text)}</td>"
+            for column, text in enumerate(row)
+        )
+        + "</tr>"
+        for row in rows
+    )
+    thead = f"<thead><tr>{head}</tr></thead>" if names else ""
+    return f'<div class="wide"><table>{thead}<tbody>{body}</tbody></table></div>'
+
+
+def framed(whole_page: str, title: str) -> str:
+    """A page inside the page, which sees nothing of it."""
+    return (
+        f'<iframe title="{escape(title)}" sandbox="allow-scripts" '
+        f'srcdoc="{escape(whole_page)}"></iframe>'
+    )
+
+
+def columns(*parts: str) -> str:
+    return '<div class="columns">' + "".join(f"<div>{part}</div>" for part in parts) + "</div>"

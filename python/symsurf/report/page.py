@@ -1,0 +1,97 @@
+"""The page of one shape: in 3D with its mirror, coloured by its asymmetry, and in figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..drawing import new_plotter
+from ..operation_plotting import draw
+from .charts import histogram
+from .html import columns, framed, heading, page, paragraph, table
+from .scene import viewer_page
+
+if TYPE_CHECKING:
+    from ..file_task import Record
+    from ..mirror_operations import Asymmetry
+
+
+def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
+    """The page of a file.
+
+    Args:
+        record: what was told of it.
+        asymmetry: of what the file holds.
+    """
+    plotter = new_plotter(off_screen=True)
+    draw(plotter, asymmetry, score=False)
+    scene = viewer_page(plotter)
+    plotter.close()
+    diagonal = asymmetry.statistics["diagonal"]
+    signed = asymmetry.signed[np.isfinite(asymmetry.signed)]
+    percent = 100 * signed / diagonal
+    kind = asymmetry.mirror.kind
+    name = Path(record["file"]).name
+    return page(
+        name,
+        [
+            paragraph(f"Mirror {record['verdict']}: {record['reason']}."),
+            paragraph(_sentence(record, kind)),
+            framed(scene, f"{name} in 3D"),
+            paragraph(
+                "Drag to turn, roll the wheel to come closer. Blue lies further out than the other "
+                "side says, red further in; grey has no counterpart."
+            ),
+            columns(
+                heading("Signed asymmetry")
+                + histogram(percent, "% of the diagonal", "points", symmetric=True),
+                heading("Mirror") + table(_mirror_rows(record), numbers=False),
+            ),
+            columns(
+                heading("Asymmetry")
+                + table(
+                    _statistics_rows(record),
+                    ("", record["unit"] or "input units", "% of the diagonal"),
+                ),
+                heading("Parameters") + table(_parameter_rows(record), numbers=False),
+            ),
+        ],
+    )
+
+
+def _sentence(record: Record, kind: str) -> str:
+    statistics = record["statistics"]
+    matched = f"{100 * statistics['matched_share']:.3g} % of {record['points']} points"
+    rms = f"{100 * statistics['rms_of_diagonal']:.3g} % of the diagonal"
+    return f"Over a {kind} with score {record['score']:.3f}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
+
+
+def _mirror_rows(record: Record) -> list[tuple[str, str]]:
+    mirror: dict[str, Any] = record["mirror"]
+    rows = [("method", record["method"]), ("score", f"{record['score']:.4f}")]
+    return rows + [(name, _text(value)) for name, value in mirror.items()]
+
+
+def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
+    statistics: dict[str, Any] = record["statistics"]
+    rows = []
+    for name, value in statistics.items():
+        if not name.endswith("_of_diagonal"):
+            share = statistics.get(f"{name}_of_diagonal")
+            percent = "" if share is None else f"{100 * share:.4g}"
+            rows.append((name.replace("_", " "), _text(value), percent))
+    return rows
+
+
+def _parameter_rows(record: Record) -> list[tuple[str, str]]:
+    return [(name.replace("_", " "), _text(value)) for name, value in record["parameters"].items()]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, list):
+        if value and isinstance(value[0], list):
+            return f"{len(value)} x {len(value[0])} numbers"
+        return ", ".join(map(_text, value))
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

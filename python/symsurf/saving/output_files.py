@@ -1,0 +1,32 @@
+"""Where the results of many files go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import chain
+from pathlib import Path
+
+from .._core import InvalidParameter
+
+
+def output_files(
+    files: Sequence[Path], folder: Path, suffixes_of: Callable[[Path], Sequence[str]]
+) -> dict[Path, list[Path]]:
+    """The files to write to the folder for each file to read: none twice, none over an input."""
+    outputs = {
+        path: [folder / f"{path.stem}{suffix}" for suffix in suffixes_of(path)] for path in files
+    }
+    first: dict[Path, Path] = {}
+    for path, made in outputs.items():
+        for output in made:
+            if first.setdefault(output, path) != path:
+                raise InvalidParameter(
+                    f"{first[output]} and {path} would both be written as {output.name}"
+                )
+    inputs = {path.resolve() for path in files}
+    for output in chain.from_iterable(outputs.values()):
+        if output.resolve() in inputs:
+            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
+    if folder.exists():
+        folder.mkdir(exist_ok=True)  # refuses what is no folder
+    return outputs

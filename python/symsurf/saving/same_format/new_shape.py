@@ -1,0 +1,92 @@
+"""What an operation has made of a file's points and faces."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+_SPACE = re.compile(rb"SPACE=(RAS|LPS)")  # how 3D Slicer's files name their axes
+
+
+class Rewritten(NamedTuple):
+    """A file's new content."""
+
+    content: bytes
+    lost: list[str]
+    """What it does not hold, a sentence each."""
+
+
+@dataclass(frozen=True)
+class NewShape:
+    """Points and faces that stand behind or in place of a file's own."""
+
+    points: NDArray[np.float64]
+    """(n, 3): the file's, moved or not, then those added."""
+    faces: NDArray[np.int64]
+    """(m, 3): the file's as triangles, then those added."""
+    old_faces: int
+    """How many of them the file has."""
+    sources: NDArray[np.int64]
+    """(n,) the file's point that each takes its attributes from."""
+    moved: bool
+    turn: NDArray[np.float64] | None = None
+    """(3, 3) how the normals turn; None where the points did not move as a whole."""
+    space: bytes | None = None
+    """RAS or LPS, what the axes now mean; None: what they meant before."""
+    arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
+    """One row a point."""
+
+    @property
+    def added_faces(self) -> NDArray[np.int64]:
+        return self.faces[self.old_faces :]
+
+    @property
+    def keeps_normals(self) -> bool:
+        return not self.moved or self.turn is not None
+
+    def turned(self, normals: NDArray[Any]) -> NDArray[np.float64]:
+        return normals if self.turn is None else normals @ self.turn.T
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The arrays, of vectors each component by itself, as "vector_x"."""
+        columns = {}
+        for name, values in self.arrays.items():
+            if values.ndim == 1:
+                columns[name] = values
+            else:
+                columns |= {f"{name}_{a}": c for a, c in zip("xyz", values.T, strict=True)}
+        return columns
+
+    def with_space(self, comment: bytes) -> bytes:
+        """A comment of the file, in which the axes are named as they now are."""
+        return comment if self.space is None else _SPACE.sub(b"SPACE=" + self.space, comment)
+
+    def missing_space(self, comments: Iterable[bytes]) -> bytes | None:
+        """What names the axes where no comment does."""
+        if self.space is None or any(_SPACE.search(comment) for comment in comments):
+            return None
+        return b"SPACE=" + self.space
+
+    def lost_arrays(self, format_name: str) -> list[str]:
+        if not self.arrays:
+            return []
+        return [f"{format_name} holds no {', '.join(self.arrays)}; PLY and VTP do"]
+
+
+LOST_NORMALS = "the normals are left out, as the points no longer move as a whole"
+
+
+def texts(values: NDArray[Any]) -> list[bytes]:
+    """Each number with every digit it has; of booleans 0 and 1."""
+    plain = values.astype(np.int64) if values.dtype.kind == "b" else values
+    return [repr(value).encode() for value in plain.tolist()]
+
+
+def row_texts(rows: NDArray[np.float64]) -> list[list[bytes]]:
+    """Each row as texts."""
+    return [[repr(value).encode() for value in row] for row in rows.tolist()]

@@ -1,0 +1,60 @@
+"""OBJ: the lines of the vertices get new coordinates; texture coordinates, materials, groups,
+colours and polygons stay."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts
+
+_NORMAL = re.compile(rb"/[^/\s]*(?=\s|$)")  # what follows the second slash of a corner
+_CORNER = re.compile(rb"(\S+?/[^/\s]*)/[^/\s]*")
+
+
+def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
+    lines = content.split(b"\n")
+    coordinates = row_texts(new.points) if new.moved or _adds(new) else []
+    made: list[bytes] = []
+    rests: list[bytes] = []
+    is_face = lost = False
+    for line in lines:
+        words = line.split(None, 4)
+        keyword = words[0] if words else b""
+        is_face = keyword == b"f" or (is_face and made[-1].rstrip().endswith(b"\\"))
+        if keyword == b"v":
+            rests.append(words[4].rstrip() if len(words) > 4 else b"")
+            if new.moved:
+                line = _vertex(coordinates[len(rests) - 1], rests[-1])
+        elif keyword == b"vn" and new.moved:
+            if new.turn is None:
+                lost = True
+                continue
+            normal = new.turned(np.array([words[1:4]], dtype=float))
+            line = b"vn " + b" ".join(row_texts(normal)[0])
+        elif keyword.startswith(b"#"):
+            line = new.with_space(line)
+        elif is_face and not new.keeps_normals:
+            line = _CORNER.sub(lambda corner: corner[1].rstrip(b"/"), line)
+        made.append(line)
+    if space := new.missing_space(line for line in lines if line.startswith(b"#")):
+        made.insert(0, b"# " + space)
+    if _adds(new):
+        made = b"\n".join(made).rstrip().split(b"\n")
+        made += [
+            _vertex(coordinates[i], rests[new.sources[i]])
+            for i in range(len(rests), len(new.points))
+        ]
+        made += [b"f %d %d %d" % tuple(face) for face in (new.added_faces + 1).tolist()]
+        made.append(b"")
+    notices = [LOST_NORMALS] if lost else []
+    return Rewritten(b"\n".join(made), notices + new.lost_arrays("OBJ"))
+
+
+def _adds(new: NewShape) -> bool:
+    return len(new.added_faces) > 0 or bool((new.sources != np.arange(len(new.points))).any())
+
+
+def _vertex(coordinates: list[bytes], rest: bytes) -> bytes:
+    return b"v " + b" ".join([*coordinates, rest] if rest else coordinates)

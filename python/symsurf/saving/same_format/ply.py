@@ -1,0 +1,201 @@
+"""PLY, text and binary: the vertices get new coordinates and more properties, the rest stays."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shape import Shape
+from ..ply_format import shape_ply_bytes
+from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
+
+_TYPES = {
+    **dict.fromkeys(("char", "int8"), "i1"),
+    **dict.fromkeys(("uchar", "uint8"), "u1"),
+    **dict.fromkeys(("short", "int16"), "i2"),
+    **dict.fromkeys(("ushort", "uint16"), "u2"),
+    **dict.fromkeys(("int", "int32"), "i4"),
+    **dict.fromkeys(("uint", "uint32"), "u4"),
+    **dict.fromkeys(("float", "float32"), "f4"),
+    **dict.fromkeys(("double", "float64"), "f8"),
+}
+_NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
+_END = re.compile(rb"^[ \t]*end_header[ \t]*\r?\n", re.MULTILINE)
+
+
+@dataclass
+class _Element:
+    name: bytes
+    count: int
+    line: int
+    """In the header."""
+    properties: list[list[bytes]]
+    """The words of each after "property"."""
+
+
+def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
+    end = _END.search(content)
+    assert end is not None  # it could be read
+    lines = content[: end.start()].splitlines()
+    elements = _elements(lines)
+    if not _is_plain(elements, new):
+        plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays)
+        return Rewritten(plain, ["nothing of the file is kept but points and faces"])
+    encoding = next(line.split()[1] for line in lines if line.split()[:1] == [b"format"])
+    if encoding == b"ascii":
+        body = _text_body(content[end.end() :], elements, new)
+    else:
+        order = "<" if b"little" in encoding else ">"
+        body = _binary_body(content[end.end() :], elements, new, order)
+    header = b"\n".join(_header(lines, elements, new))
+    names = {words[-1] for words in elements[0].properties}
+    lost = [] if new.keeps_normals or b"nx" not in names else [LOST_NORMALS]
+    return Rewritten(header + b"\nend_header\n" + body, lost)
+
+
+def _elements(lines: list[bytes]) -> list[_Element]:
+    elements: list[_Element] = []
+    for number, line in enumerate(lines):
+        words = line.split()
+        if words[:1] == [b"element"]:
+            elements.append(_Element(words[1], int(words[2]), number, []))
+        elif words[:1] == [b"property"]:
+            elements[-1].properties.append(words[1:])
+    return elements
+
+
+def _is_plain(elements: list[_Element], new: NewShape) -> bool:
+    """Whether the vertices come first, each of one size, and faces that are added have a place."""
+    vertices, *rest = elements
+    if vertices.name != b"vertex" or any(words[0] == b"list" for words in vertices.properties):
+        return False
+    if not len(new.added_faces):
+        return True
+    is_last = len(rest) == 1 and rest[0].name == b"face"
+    return is_last and [words[0] for words in rest[0].properties] == [b"list"]
+
+
+def _kept(element: _Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
+    """The properties of the vertices that stay, with their columns."""
+    left_out = {name.encode() for name in new.columns()}
+    if not new.keeps_normals:
+        left_out |= {b"nx", b"ny", b"nz"}
+    return [(i, words) for i, words in enumerate(element.properties) if words[1] not in left_out]
+
+
+def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list[bytes]:
+    vertices = elements[0]
+    first, last = vertices.line, vertices.line + 1
+    while last < len(lines) and lines[last].split()[:1] != [b"element"]:
+        last += 1
+    comments = [line for line in lines if line.split()[:1] in ([b"comment"], [b"obj_info"])]
+    lines = [new.with_space(line) if line in comments else line for line in lines]
+    before, after = lines[:first], lines[last:]
+    if space := new.missing_space(comments):
+        before.append(b"comment " + space)
+    inside = [
+        line for line in lines[first:last] if line.split()[:1] in ([b"comment"], [b"obj_info"])
+    ]
+    properties = [
+        b"property double " + words[1]
+        if new.moved and words[1] in (b"x", b"y", b"z")
+        else b"property " + b" ".join(words)
+        for _, words in _kept(vertices, new)
+    ]
+    added = [
+        b"property " + _NAMES[values.dtype.kind] + b" " + name.encode()
+        for name, values in new.columns().items()
+    ]
+    count = b"element vertex %d" % len(new.points)
+    if len(new.added_faces):
+        faces = elements[1]
+        after = [
+            b"element face %d" % (faces.count + len(new.added_faces))
+            if line.split()[:2] == [b"element", b"face"]
+            else line
+            for line in after
+        ]
+    return [*before, count, *inside, *properties, *added, *after]
+
+
+def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
+    vertices = elements[0]
+    rows: list[list[bytes]] = []
+    position = 0
+    while len(rows) < vertices.count:
+        end = body.find(b"\n", position)
+        end = len(body) if end < 0 else end
+        row = body[position:end].split()
+        if row and row[0] not in (b"comment", b"obj_info"):
+            rows.append(row)
+        position = end + 1
+    kept = _kept(vertices, new)
+    names = [words[1] for _, words in kept]
+    made = [[rows[source][i] for i, _ in kept] for source in new.sources.tolist()]
+    if new.moved or len(new.points) > len(rows):
+        _replace(made, names, (b"x", b"y", b"z"), new.points)
+    if new.turn is not None and b"nx" in names:
+        columns = [names.index(name) for name in (b"nx", b"ny", b"nz")]
+        normals = np.array([[float(row[c]) for c in columns] for row in made]).reshape(-1, 3)
+        _replace(made, names, (b"nx", b"ny", b"nz"), new.turned(normals))
+    for values in new.columns().values():
+        for row, text in zip(made, texts(values)):
+            row.append(text)
+    text = b"".join(b" ".join(row) + b"\n" for row in made) + body[position:]
+    if len(new.added_faces):
+        text = text.rstrip() + b"\n"
+        text += b"".join(b"3 %d %d %d\n" % tuple(face) for face in new.added_faces.tolist())
+    return text
+
+
+def _replace(
+    rows: list[list[bytes]], names: list[bytes], chosen: tuple[bytes, ...], values: NDArray[Any]
+) -> None:
+    columns = [names.index(name) for name in chosen]
+    for row, numbers in zip(rows, row_texts(values)):
+        for column, number in zip(columns, numbers):
+            row[column] = number
+
+
+def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: str) -> bytes:
+    vertices = elements[0]
+    fields = [
+        (f"{i}", order + _TYPES[kind.decode()]) for i, (kind, _) in enumerate(vertices.properties)
+    ]
+    table = np.frombuffer(body, fields, vertices.count)
+    kept = _kept(vertices, new)
+    columns: dict[bytes, NDArray[Any]] = {}
+    for i, (_, name) in kept:
+        columns[name] = table[f"{i}"][new.sources]
+    if new.moved:
+        for name, values in zip((b"x", b"y", b"z"), new.points.T):
+            columns[name] = values.astype(order + "f8")
+    if new.turn is not None and b"nx" in columns:
+        names = (b"nx", b"ny", b"nz")
+        normals = np.column_stack([columns[name] for name in names]).astype(float)
+        for name, values in zip(names, new.turned(normals).T):
+            columns[name] = values.astype(columns[name].dtype)
+    kinds = {"f": "f8", "i": "i4", "b": "u1"}
+    for key, values in new.columns().items():
+        columns[key.encode()] = values.astype(order + kinds[values.dtype.kind])
+    made = np.empty(len(new.points), [(str(i), v.dtype) for i, v in enumerate(columns.values())])
+    for i, values in enumerate(columns.values()):
+        made[str(i)] = values
+    return made.tobytes() + body[table.nbytes :] + _binary_faces(elements, new, order)
+
+
+def _binary_faces(elements: list[_Element], new: NewShape, order: str) -> bytes:
+    if not len(new.added_faces):
+        return b""
+    _, length, corner, _ = elements[1].properties[0]
+    row = [
+        ("count", order + _TYPES[length.decode()]),
+        ("corners", order + _TYPES[corner.decode()], (3,)),
+    ]
+    made = np.empty(len(new.added_faces), row)
+    made["count"], made["corners"] = 3, new.added_faces
+    return made.tobytes()

@@ -1,0 +1,64 @@
+"""Writing what an operation has made of a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .. import _core
+from .._core import InvalidParameter
+from ..mirror_operations import Completed, OperationResult
+from ..shape import Shape
+from . import SHAPE_FORMATS, write_whole
+from .same_format import REWRITERS, NewShape
+
+
+def output_suffix(file: Path, operation: str, format_name: str = "input") -> str:
+    """The suffix of what the operation makes of the file.
+
+    With the format "input" it is the file's own, and ``.ply`` where that cannot hold what the
+    operation gives each point, and gives nothing else.
+    """
+    if operation not in _core.operations():
+        return ".summary.json"
+    if format_name != "input":
+        if f".{format_name}" not in SHAPE_FORMATS:
+            allowed = ", ".join(["input", *(name[1:] for name in SHAPE_FORMATS)])
+            raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
+        return f".{format_name}"
+    described = _core.operations()[operation]
+    has_shape = described.moves_points or described.adds_points
+    return file.suffix if has_shape or file.suffix.lower() == ".ply" else ".ply"
+
+
+def save_shape(path: Path, result: OperationResult, shape: Shape, source: Path) -> list[str]:
+    """Writes the result whole or not at all; gives what of the source it does not hold.
+
+    Args:
+        path: in the source's format whatever the source holds is kept; other suffixes are those of
+            ``result.save``.
+        shape: what was read from the source.
+    """
+    suffix = path.suffix.lower()
+    if suffix != source.suffix.lower():
+        result.save(path)
+        return []
+    count = len(result.shape.points)
+    sources = result.sources if isinstance(result, Completed) else np.arange(count)
+    matrix = result.statistics.get("matrix")
+    frame = result.parameters.get("frame")
+    faces = result.shape.faces
+    new = NewShape(
+        points=result.shape.points,
+        faces=np.empty((0, 3), np.int64) if faces is None else faces,
+        old_faces=0 if shape.faces is None else len(shape.faces),
+        sources=sources,
+        moved=not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
+        turn=None if matrix is None else np.asarray(matrix)[:3, :3],
+        space=frame.upper().encode() if frame in ("ras", "lps") else None,
+        arrays=result.arrays,
+    )
+    rewritten = REWRITERS[suffix](source.read_bytes(), new)
+    write_whole(path, rewritten.content)
+    return rewritten.lost

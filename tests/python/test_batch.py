@@ -1,0 +1,210 @@
+"""Many files: on processes, on executors of others, with broken ones among them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import multiprocessing
+import os
+from concurrent.futures import ThreadPoolExecutor
+from itertools import islice
+
+import numpy as np
+import pytest
+from command_line import run
+from symmetric_shapes import difference, mirrored_surface
+
+import symsurf
+
+
+@pytest.fixture
+def files(tmp_path):
+    """Symmetric clouds with their planes, and, third among them, a file that is none."""
+    truths = {}
+    for seed in range(6):
+        path = tmp_path / f"shape{seed}.xyz"
+        if seed == 2:
+            path.write_text("not a cloud")
+            truths[path] = None
+            continue
+        points, truth = mirrored_surface(600, seed)
+        np.savetxt(path, points, fmt="%.17g")
+        truths[path] = points, truth
+    return truths
+
+
+def told(rows):
+    """The rows without what differs from run to run."""
+    return [{name: value for name, value in row.items() if name != "seconds"} for row in rows]
+
+
+def test_a_row_a_file_in_their_order(files):
+    rows = list(symsurf.batch(files, method="plane", unit="mm"))
+    assert [row["file"] for row in rows] == [str(path) for path in files]
+    for row, known in zip(rows, files.values()):
+        if known is None:
+            assert "shape2.xyz" in row["error"] and "score" not in row
+            continue
+        points, truth = known
+        assert row["error"] == "" and row["points"] == len(points) and row["unit"] == "mm"
+        found = symsurf.Plane([row[f"normal_{axis}"] for axis in "xyz"], row["offset"])
+        angle, gap = difference(found, truth, points)
+        assert angle < 1e-6 and gap < 1e-9
+        assert row["verdict"] == "found" and row["kind"] == "plane" and row["paired_share"] == 1
+        assert row["max"] < 1e-9
+
+
+def test_an_operation_with_its_statistics(files):
+    good = [path for path, known in files.items() if known]
+    rows = list(symsurf.batch(good, "asymmetry", method="plane", max_angle=40.0))
+    for path, row in zip(good, rows):
+        statistics = symsurf.asymmetry(
+            path, symsurf.detect(path, "plane"), max_angle=40.0
+        ).statistics
+        for column, name in {"rms": "rms", "p50": "median", "p95": "p95", "max": "maximum"}.items():
+            assert row[column] == statistics[name]
+        assert row["paired_share"] == statistics["matched_share"]
+        assert row["p99"] == statistics["p99"]
+    aligned = list(symsurf.batch(good, "align", method="plane"))
+    matrix = np.reshape(aligned[0]["matrix"], (4, 4))
+    np.testing.assert_allclose(matrix[:3, :3] @ matrix[:3, :3].T, np.eye(3), atol=1e-12)
+
+
+def test_any_number_of_processes_and_any_executor_give_the_same(files):
+    expected = told(symsurf.batch(files, "asymmetry"))
+    assert told(symsurf.batch(files, "asymmetry", jobs=2)) == expected
+    with ThreadPoolExecutor(2) as threads:
+        assert told(symsurf.batch(files, "asymmetry", threads)) == expected
+
+
+def test_dask(files):
+    distributed = pytest.importorskip("distributed", reason="needs Dask: pip install distributed")
+    expected = told(symsurf.batch(files, "asymmetry"))
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as all_,
+        distributed.Client(all_) as client,
+        client.get_executor() as executor,
+    ):
+        assert told(symsurf.batch(files, "asymmetry", executor)) == expected
+        with pytest.raises(symsurf.InvalidParameter, match="max_angle"):
+            list(symsurf.batch(files, "asymmetry", executor, max_angle=1000))
+
+
+def test_a_process_that_is_killed_costs_no_file(files):
+    paths = list(files) * 4
+    expected = told(symsurf.batch(paths))
+    rows = symsurf.batch(paths, jobs=2)
+    first = next(rows)
+    for process in multiprocessing.active_children():
+        process.kill()
+    assert told([first, *rows]) == expected
+
+
+def test_what_is_left_is_dropped_when_the_caller_has_enough(files):
+    rows = symsurf.batch(list(files) * 1000, jobs=2)
+    assert len(list(islice(rows, 2))) == 2
+    del rows  # returns without the other 5998
+    assert not multiprocessing.active_children()
+
+
+def test_output_in_the_format_of_the_file(files, tmp_path):
+    good = [path for path, known in files.items() if known]
+    folder = tmp_path / "made"
+    list(symsurf.batch(good, "align", jobs=2, output=folder))
+    assert {path.name for path in folder.iterdir()} == {path.name for path in good}
+    for path in good:
+        made = symsurf.read(folder / path.name).points
+        np.testing.assert_array_equal(made, symsurf.align(path).shape.points)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"operation": "fold"}, "operation is 'fold'; allowed are detect, asymmetry"),
+        ({"jobs": 0}, "jobs is 0"),
+        ({"jobs": "two"}, "jobs is 'two'"),
+        ({"jobs": 2.0}, "jobs is 2.0"),
+        ({"jobs": True}, "jobs is True"),
+        ({"method": "magic"}, "magic"),
+        ({"speed": 1}, "speed"),
+        ({"jobs": 2, "threads": -1}, "threads is -1"),
+        ({"operation": "align", "axis": "w"}, "axis is w"),
+    ],
+)
+def test_bad_parameters_are_one_error(files, arguments, says):
+    with pytest.raises(symsurf.InvalidParameter, match=says):
+        list(symsurf.batch(files, **arguments))
+
+
+def test_what_is_wrong_is_raised_before_the_work(files, tmp_path):
+    with ThreadPoolExecutor() as executor, pytest.raises(symsurf.InvalidParameter, match="jobs"):
+        symsurf.batch(files, executor=executor, jobs=2)
+    twin = tmp_path / "other" / next(iter(files)).name
+    with pytest.raises(symsurf.InvalidParameter, match="would both be written as shape0"):
+        symsurf.batch([*files, twin], output=tmp_path / "made")
+    assert not (tmp_path / "made").exists()
+
+
+def test_no_files():
+    assert list(symsurf.batch([])) == [] and list(symsurf.batch([], jobs=3)) == []
+
+
+def rows_of(path):
+    return list(csv.DictReader(io.StringIO(path.read_text(errors="surrogateescape"))))
+
+
+def test_table_of_the_command_line(files, tmp_path):
+    done = run("asymmetry", *files, "--jobs", "2", "--unit", "mm", "--table", tmp_path / "t.csv")
+    assert done.returncode == 1
+    assert done.stdout.count("  verdict             found") == 5
+    assert done.stderr.count("\n") == 1 and "shape2.xyz" in done.stderr
+    rows = rows_of(tmp_path / "t.csv")
+    expected = list(symsurf.batch(files, "asymmetry", unit="mm"))
+    assert len(rows) == len(expected)
+    for row, values in zip(rows, expected):
+        for name, value in values.items():
+            if name != "seconds":
+                assert row[name] == str(value)
+        assert set(row) >= {"kind", "volume_index", "matrix", "signed_mean", "seconds", "version"}
+        assert row["version"] == symsurf.__version__
+
+
+def test_names_that_are_no_text(files, tmp_path):
+    """Linux's names are bytes; those that are no UTF-8 stay what they are."""
+    path = os.fsencode(tmp_path) + b"/shape\xff.xyz"
+    os.rename(next(iter(files)), path)
+    name = os.fsdecode(path)
+    gone = name.replace("shape", "gone")
+    done = run(
+        "detect", name, gone, "--jobs", "2", "--table", tmp_path / "t.csv", "--output",
+        tmp_path / "made", errors="surrogateescape",
+    )  # fmt: skip
+    assert done.returncode == 1 and name in done.stdout and "gone" in done.stderr
+    assert [row["file"] for row in rows_of(tmp_path / "t.csv")] == [name, gone]
+    assert os.listdir(os.fsencode(tmp_path / "made")) == [b"shape\xff.summary.json"]
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--jobs", "0"], "jobs is 0"),
+        (["--jobs", "many"], "jobs is 'many'"),
+        (["--table", "table.txt"], "allowed is the suffix .csv"),
+        (["--plot"], "plot is given without output"),
+        (["--output", "made", "--formats", "txt", "--table", "t.csv/none.csv"], "t.csv"),
+    ],
+)
+def test_bad_options_are_one_error(files, tmp_path, words, says):
+    (tmp_path / "t.csv").write_text("in the way")
+    done = run("detect", *files, *words, cwd=tmp_path)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.count(says) == 1 and "Traceback" not in done.stderr
+
+
+def test_the_table_overwrites_no_input(tmp_path):
+    points, _ = mirrored_surface(600, 0)
+    np.savetxt(tmp_path / "cloud.csv", points, delimiter=",")
+    before = (tmp_path / "cloud.csv").read_bytes()
+    done = run("detect", "cloud.csv", "--table", "./cloud.csv", cwd=tmp_path)
+    assert done.returncode == 2 and "is an input" in done.stderr
+    assert (tmp_path / "cloud.csv").read_bytes() == before

@@ -1,0 +1,195 @@
+"""Reports, opened in Chromium as their readers do."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command_line import run, run_here
+
+import symsurf
+
+pyvista = pytest.importorskip("pyvista")
+pytest.importorskip("trame_vtk", reason="needs trame-vtk: pip install 'symsurf[report]'")
+
+# As on a machine without a graphics card; nothing of the browser's own goes to the network.
+BROWSER = [
+    "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--hide-scrollbars", "--virtual-time-budget=20000",
+]  # fmt: skip
+WIDTH, HEIGHT = 1000, 900
+
+
+@pytest.fixture
+def browse(tmp_path):
+    """Opens a page in Chromium: its picture, (height, width, 3)."""
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("there is no chromium")
+
+    def picture_of(page: Path) -> np.ndarray:
+        picture = tmp_path / f"{page.stem}.seen.png"
+        command = [program, *BROWSER, f"--user-data-dir={tmp_path / 'chromium'}"]
+        command += [f"--window-size={WIDTH},{HEIGHT}", f"--screenshot={picture}", page.as_uri()]
+        subprocess.run(command, check=True, capture_output=True, timeout=120)
+        seen = pyvista.read(picture)
+        columns, rows, _ = seen.dimensions
+        return np.array(seen["PNGImage"]).reshape(rows, columns, -1)[::-1, :, :3].astype(int)
+
+    return picture_of
+
+
+@pytest.fixture
+def ball(tmp_path):
+    """A sphere's mesh with a dent on one side of x = 0, in input units of its radius."""
+    mesh = pyvista.Icosphere(radius=1, nsub=4)
+    points = np.array(mesh.points, dtype=float)
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    off = ((points - np.array([0.77, 0.5, 0.4])) ** 2).sum(axis=1) / 0.2
+    points *= (1 - np.where(off < 1, 0.1 * (1 - off) ** 2, 0))[:, None] * (1, 1.3, 0.8)
+    path = tmp_path / "ball.ply"
+    symsurf.straighten(symsurf.Shape(points, mesh.regular_faces), symsurf.Plane((1, 0, 0), 0)).save(
+        path
+    )
+    return path
+
+
+def told(page: str) -> str:
+    """What a page says, without its frames."""
+    return re.sub(r'srcdoc="[^"]*"', "", page)
+
+
+def coloured(picture: np.ndarray) -> int:
+    """How many pixels have a colour."""
+    return int(np.count_nonzero(np.ptp(picture, axis=2) > 25))
+
+
+def test_page_of_a_mesh(ball, browse, tmp_path):
+    page = tmp_path / "made" / "report.html"
+    done = run("report", ball, "--output", page, "--unit", "mm", "--method", "plane")
+    assert done.returncode == 0 and done.stderr == ""
+    assert done.stdout.splitlines()[-1] == str(page) and "ball.ply: found, plane" in done.stdout
+    text = told(page.read_text())
+    asymmetry = symsurf.asymmetry(ball, symsurf.detect(ball, "plane"))
+    for name in ("maximum", "rms", "p95"):
+        value, share = asymmetry.statistics[name], asymmetry.statistics[f"{name}_of_diagonal"]
+        row = f'<td>{name}</td><td class="number">{value:.6g}</td>'
+        assert f'{row}<td class="number">{100 * share:.4g}</td>' in text
+    assert ">mm</th>" in text and "<svg" in text and "max distance" in text
+    picture = browse(page)
+    frame = picture[150:750]
+    # The mirror's blue rim; the dent, red; the bulge it leaves on the other side, blue or red.
+    assert coloured(frame) > 3000
+    assert np.count_nonzero((frame[..., 0] - frame[..., 2]) > 60) > 300
+
+
+def test_the_page_turns(ball, browse, tmp_path):
+    """A drag by the mouse shows another side, a page that is left alone does not change."""
+    from symsurf.drawing import new_plotter
+    from symsurf.operation_plotting import draw
+
+    from symsurf.report.scene import viewer_page
+
+    plotter = new_plotter(off_screen=True)
+    draw(plotter, symsurf.asymmetry(ball))
+    still = viewer_page(plotter)
+    plotter.close()
+    drag = """<script>setTimeout(() => {
+      const canvas = document.querySelector('canvas');
+      const send = (name, x, y, buttons) => canvas.dispatchEvent(new PointerEvent(name, {
+        clientX: x, clientY: y, button: 0, buttons, bubbles: true, pointerId: 1, isPrimary: true,
+        pointerType: 'mouse'}));
+      send('pointerdown', 500, 450, 1);
+      for (let i = 1; i <= 20; ++i) send('pointermove', 500 + 15 * i, 450, 1);
+      send('pointerup', 800, 450, 0);
+    }, 3000)</script>"""
+    pages = {"still": still, "again": still, "turned": still.replace("</body>", drag + "</body>")}
+    seen = {}
+    for name, content in pages.items():
+        (tmp_path / f"{name}.html").write_text(content)
+        seen[name] = browse(tmp_path / f"{name}.html")
+    assert np.array_equal(seen["still"], seen["again"])
+    assert np.count_nonzero(np.abs(seen["still"] - seen["turned"]).max(axis=2) > 25) > 10000
+
+
+def test_a_page_asks_for_nothing(ball, tmp_path):
+    page = tmp_path / "report.html"
+    assert run("report", ball, "--output", page).returncode == 0
+    content = page.read_text()
+    assert "Content-Security-Policy\" content=\"default-src 'none'" in content
+    assert not re.search(r"""\b(src|href)\s*=\s*["']?(https?:)?//""", told(content))
+
+
+def test_pages_of_many(ball, browse, tmp_path):
+    shape = symsurf.read(ball)
+    sides = np.linspace(0, 1, 5)
+    for i, strength in enumerate(sides):
+        even = symsurf.symmetrize(
+            shape, symsurf.Plane((1, 0, 0), 0), side="negative", strength=strength
+        )
+        even.save(tmp_path / f"b & {i}.ply")
+    (tmp_path / "broken.ply").write_text("ply\n")
+    files = [tmp_path / f"b & {i}.ply" for i in range(5)]
+    page = tmp_path / "cohort.html"
+    words = ("--jobs", "2", "--method", "plane", "--table", tmp_path / "t.csv")
+    done = run("report", *files, tmp_path / "broken.ply", "--output", page, *words)
+    assert done.returncode == 1 and done.stderr.count("\n") == 1
+    text = page.read_text()
+    assert "5 of 6 files have a mirror" in text and "end_header" in text
+    rms = [symsurf.asymmetry(file, symsurf.detect(file, "plane")).statistics["rms_of_diagonal"]
+           for file in files]  # fmt: skip
+    row = re.search(r"<td>rms, % of the diagonal</td>(.*?)</tr>", text)
+    figures = [float(value) for value in re.findall(r">([-.\de]+)</td>", row[1])]
+    expected = np.percentile(100 * np.array(rms), (0, 5, 25, 50, 75, 95, 100))
+    np.testing.assert_allclose(figures[:-1], expected, rtol=1e-3, atol=1e-12)
+    assert figures[-1] == 5
+    assert re.findall(r">(\d) of 5</td>", text) == [
+        str(1 + sum(other < own for other in rms)) for own in rms
+    ]
+    for i in range(5):
+        assert f'<a href="cohort_files/b%20%26%20{i}.html">b &amp; {i}.ply</a>' in text
+        assert (tmp_path / "cohort_files" / f"b & {i}.html").exists()
+    assert coloured(browse(page)) > 300
+    assert (tmp_path / "t.csv").read_text().count("\n") == 7
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("report ball.ply --output report.pdf", "allowed is the suffix .html"),
+        ("report ball.ply --output report.html --max-angle 1000", "max_angle"),
+        ("report ball.ply folder/ball.ply --output r.html", "both be written as ball.html"),
+    ],
+)
+def test_what_is_wrong_is_named(ball, line, says, tmp_path):
+    done = run_here(line, tmp_path)
+    assert done.returncode == 2 and says in done.stderr
+    assert not list(tmp_path.glob("**/*.html"))
+
+
+def test_a_shape_without_a_mirror_has_no_page(tmp_path):
+    u = np.random.default_rng(0).normal(size=(2000, 3))
+    u /= np.linalg.norm(u, axis=1, keepdims=True)
+    x, y, z = u.T
+    radius = 1 + 0.4 * np.sin(3 * x + 1) * np.cos(4 * y + 0.5) + 0.3 * np.sin(5 * z + 2 * x)
+    np.savetxt(tmp_path / "none.xyz", u * radius[:, None])
+    done = run_here("report none.xyz --output report.html", tmp_path)
+    assert done.returncode == 1 and "has no mirror" in done.stderr
+    assert not (tmp_path / "report.html").exists()
+
+
+def test_without_the_packages_one_sentence(ball, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "trame_vtk.tools.vtksz2html", None)
+    done = run_here("report ball.ply --output report.html", ball.parent)
+    assert done.returncode == 2
+    assert done.stderr == (
+        "symsurf: reports need PyVista and trame-vtk: pip install 'symsurf[report]'\n"
+    )

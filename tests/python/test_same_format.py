@@ -1,0 +1,263 @@
+"""What an operation makes of a file in that file's own format: all else the file holds stays."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+import pytest
+from command_line import run_here
+from symmetric_shapes import random_rotation
+
+import symsurf
+
+
+@pytest.fixture
+def box():
+    """A box of quadrilaterals with a roof, mirrored in x, in any pose: corners and faces."""
+    corners = [[x, y, z] for z in (0.0, 1.0) for y in (0.0, 2.0) for x in (-1.5, 1.5)]
+    points = np.array([*corners, [0, 0.3, 1.7], [0.0, 1.2, 1.7]])
+    faces = [[0, 2, 3, 1], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    faces += [[4, 5, 8], [7, 6, 9], [4, 8, 9, 6], [5, 7, 9, 8]]
+    rng = np.random.default_rng(3)
+    return points @ random_rotation(rng).T + [3, -2, 5], faces
+
+
+def text(values):
+    return " ".join(repr(value) if isinstance(value, float) else str(value) for value in values)
+
+
+def ply_text(points, faces, normals):
+    rows = [
+        text([*p, i, 10 * i, *n]) for i, (p, n) in enumerate(zip(points.tolist(), normals.tolist()))
+    ]
+    polygons = [text([len(face), *face, i]) for i, face in enumerate(faces)]
+    header = f"""ply
+format ascii 1.0
+comment SPACE=LPS
+obj_info made by hand
+element vertex {len(points)}
+property double x
+property double y
+property double z
+property uchar red
+property float heat
+property float nx
+property float ny
+property float nz
+element face {len(faces)}
+property list uchar int vertex_indices
+property short part
+element edge 1
+property int vertex1
+end_header
+"""
+    return (header + "\n".join([*rows, *polygons, "7"]) + "\n").encode()
+
+
+def ply_binary(points, faces, normals, order):
+    content = ply_text(points, faces, normals)
+    header = content[: content.index(b"end_header\n") + 11]
+    name = {"<": b"binary_little_endian", ">": b"binary_big_endian"}[order]
+    body = b"".join(
+        struct.pack(order + "3dBf3f", *p, i, 10 * i, *n)
+        for i, (p, n) in enumerate(zip(points, normals))
+    )
+    for i, face in enumerate(faces):
+        body += struct.pack(f"{order}B{len(face)}ih", len(face), *face, i)
+    return header.replace(b"ascii", name) + body + struct.pack(order + "i", 7)
+
+
+def obj(points, faces, normals):
+    lines = ["# 3D Slicer output. SPACE=LPS", "mtllib box.mtl", "o box"]
+    lines += [text(["v", *p, 0.5, 0.25, i / 16]) for i, p in enumerate(points.tolist())]
+    lines += ["vt 0.5 0.25", *(text(["vn", *n]) for n in normals.tolist()), "usemtl red", "s off"]
+    lines += [text(["f", *(f"{c + 1}/1/{c + 1}" for c in face)]) for face in faces]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def off(points, faces, normals):
+    rows = [
+        text([*p, *n, i, 0, 255, 255])
+        for i, (p, n) in enumerate(zip(points.tolist(), normals.tolist()))
+    ]
+    polygons = [text([len(face), *face, 255, 0, 0]) for face in faces]
+    return (
+        "\n".join(["CNOFF # SPACE", f"{len(points)} {len(faces)} 0", *rows, *polygons, ""])
+        .replace(" # SPACE", "")
+        .encode()
+    )
+
+
+def csv_text(points, faces, normals):
+    rows = [
+        ",".join(map(repr, [i, *p, *n]))
+        for i, (p, n) in enumerate(zip(points.tolist(), normals.tolist()))
+    ]
+    return "\n".join(["# SPACE=LPS", "id,x,y,z,nx,ny,nz", *rows, ""]).encode()
+
+
+FORMATS = {
+    "text.ply": ply_text,
+    "little.ply": lambda *a: ply_binary(*a, "<"),
+    "big.ply": lambda *a: ply_binary(*a, ">"),
+    "box.obj": obj,
+    "box.off": off,
+    "box.csv": csv_text,
+}
+
+
+@pytest.fixture(params=FORMATS)
+def file(request, box, tmp_path):
+    points, faces = box
+    normals = points - points.mean(axis=0)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    path = tmp_path / request.param
+    path.write_bytes(FORMATS[request.param](points, faces, normals.astype("f4").astype(float)))
+    assert len(symsurf.read(path).points) == len(points)
+    return path
+
+
+def done(line, file):
+    result = run_here(f"{line} {file.name} --method plane --output made", file.parent)
+    assert result.returncode == 0, result.stderr
+    return file.parent / "made" / file.name, result.stderr
+
+
+def test_align_turns_points_and_normals_and_keeps_the_rest(file):
+    made, said = done("align --frame ras", file)
+    before, after = symsurf.read(file), symsurf.read(made)
+    expected = symsurf.align(file, symsurf.detect(file, "plane"), frame="ras")
+    np.testing.assert_array_equal(after.points, expected.shape.points)
+    np.testing.assert_array_equal(after.faces, before.faces)
+    turned = before.normals @ expected.matrix[:3, :3].T
+    np.testing.assert_allclose(after.normals, turned, atol=1e-7)
+    assert said == ""
+    content = made.read_bytes()
+    if made.suffix != ".off":
+        assert b"SPACE=RAS" in content and b"SPACE=LPS" not in content
+
+
+def test_attributes_are_kept(file):
+    made, _ = done("align", file)
+    rows = [lines_of(path.read_bytes()) for path in (file, made)]
+    assert len(rows[0]) == len(rows[1])
+    for old, new in zip(*rows):
+        assert new == old or without_what_turns(file, new) == without_what_turns(file, old)
+
+
+ROW = 3 * 8 + 1 + 4 + 3 * 4  # a vertex in binary
+
+
+def lines_of(content):
+    """The lines of a text; of a binary PLY the header's, a row a vertex, and the rest."""
+    if b"format binary" not in content:
+        return content.split(b"\n")
+    header, _, body = content.partition(b"end_header\n")
+    rows = [body[i * ROW : (i + 1) * ROW] for i in range(10)]
+    return [*header.split(b"\n"), *rows, body[10 * ROW :]]
+
+
+def without_what_turns(file, row):
+    """What stands in the row of a vertex, or of a normal, beside coordinates."""
+    if file.suffix == ".ply" and file.name != "text.ply":
+        return row[24:29] if len(row) == ROW else row
+    words = row.split(b"," if file.suffix == ".csv" else None)
+    kept = {
+        ".ply": slice(3, 5),
+        ".obj": slice(4, None),
+        ".off": slice(6, None),
+        ".csv": slice(0, 1),
+    }
+    is_point = len(words) >= 7 or words[:1] == [b"vn"]
+    return words[kept[file.suffix]] if is_point else row
+
+
+def test_normals_of_a_shape_that_changes_are_left_out_and_named(file):
+    content = file.read_bytes()
+    if file.suffix == ".obj":  # so that there is something to make even
+        lines = content.split(b"\n")
+        lines[3] = b"v " + b" ".join(repr(float(w) + 0.01).encode() for w in lines[3].split()[1:4])
+        file.write_bytes(b"\n".join(lines))
+    made, said = done("symmetrize --side positive", file)
+    before, after = symsurf.read(file), symsurf.read(made)
+    expected = symsurf.symmetrize(file, symsurf.detect(file, "plane"), side="positive")
+    np.testing.assert_array_equal(after.points, expected.shape.points)
+    np.testing.assert_array_equal(after.faces, before.faces)
+    if not np.array_equal(after.points, before.points):
+        assert after.normals is None and "the normals are left out" in said
+    if file.suffix in (".obj", ".off"):
+        assert "holds no paired; PLY and VTP do" in said
+    elif file.suffix == ".ply":
+        assert b"property uchar paired" in made.read_bytes()
+
+
+def test_arrays_go_to_ply(file):
+    result = run_here(f"asymmetry {file.name} --method plane --output made", file.parent)
+    assert result.returncode == 0, result.stderr
+    made = file.parent / "made" / f"{file.stem}.ply"
+    after = symsurf.read(made)
+    np.testing.assert_array_equal(after.points, symsurf.read(file).points)
+    assert b"property double signed" in made.read_bytes()
+    if file.suffix == ".ply":
+        np.testing.assert_array_equal(after.normals, symsurf.read(file).normals)
+
+
+def stl(points, faces, is_text):
+    triangles = [[f[0], f[i], f[i + 1]] for f in faces for i in range(1, len(f) - 1)]
+    if is_text:
+        lines = ["solid box SPACE=LPS"]
+        for triangle in triangles:
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += [text(["vertex", *points[corner].tolist()]) for corner in triangle]
+            lines += ["endloop", "endfacet"]
+        return "\n".join([*lines, "endsolid box", ""]).encode()
+    content = b"3D Slicer output. SPACE=LPS".ljust(80) + struct.pack("<I", len(triangles))
+    for i, triangle in enumerate(triangles):
+        content += struct.pack("<12fH", 0, 0, 0, *points[triangle].ravel(), i)
+    return content
+
+
+@pytest.mark.parametrize("is_text", [True, False])
+def test_stl(box, tmp_path, is_text):
+    path = tmp_path / "box.stl"
+    path.write_bytes(stl(*box, is_text))
+    made, said = done("align --frame ras", path)
+    expected = symsurf.align(path, symsurf.detect(path, "plane"), frame="ras").shape
+    after = symsurf.read(made)
+    corners = expected.points[expected.faces]
+    if is_text:
+        np.testing.assert_array_equal(after.points[after.faces], corners)
+        assert said == "" and made.read_bytes().startswith(b"solid box SPACE=RAS\nfacet normal")
+    else:
+        np.testing.assert_array_equal(after.points[after.faces], corners.astype("f4"))
+        assert "binary STL rounds coordinates to single precision" in said
+        facets = np.frombuffer(made.read_bytes()[84:], "<3f4, <(3,3)f4, <u2")
+        assert facets["f2"].tolist() == list(range(len(facets)))
+        edges = np.diff(facets["f1"], axis=1)
+        assert np.abs(np.einsum("ij,ikj->ik", facets["f0"], edges)).max() < 1e-5
+        assert made.read_bytes()[:80] == b"3D Slicer output. SPACE=RAS".ljust(80)
+
+
+def test_a_frame_is_named_where_the_file_names_none(box, tmp_path):
+    """Slicer takes files that name none for LPS."""
+    points, faces = box
+    for name, content in {
+        "a.obj": obj(points, faces, points),
+        "a.ply": ply_text(points, faces, points),
+    }.items():
+        (tmp_path / name).write_bytes(content.replace(b"SPACE=LPS", b"nothing"))
+        made, _ = done("align --frame ras", tmp_path / name)
+        assert b"SPACE=RAS" in made.read_bytes()
+        symsurf.read(made)
+
+
+def test_vertices_that_are_not_plain_are_named(box, tmp_path):
+    points, _ = box
+    rows = "".join(text([*p, 1, 5]) + "\n" for p in points.tolist())
+    header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz")
+    (tmp_path / "a.ply").write_text(header + "property list uchar int seen\nend_header\n" + rows)
+    made, said = done("align", tmp_path / "a.ply")
+    assert "nothing of the file is kept but points and faces" in said
+    assert len(symsurf.read(made).points) == len(points)
