@@ -14,7 +14,6 @@
 #include "cloud/normals.h"
 #include "cloud/surface_spacing.h"
 #include "mesh/closest_point_on_mesh.h"
-#include "mesh/triangle_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -77,19 +76,18 @@ Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, co
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
 
-void Counterparts::settle(Index i, const Mirror& mirror, const Limits& limits, double cosine,
-                          bool past_rim) {
+void Counterparts::settle(Index i, const Mirror& mirror, const Limits& limits, double cosine) {
   Counterpart& c = all_[i];
   c.agreement = std::isfinite(cosine) ? std::clamp(cosine, 0.0, 1.0) : 1;
   c.place = nowhere;
-  if (past_rim || c.gap > limits.distance || c.agreement < limits.cosine) return;
+  if (c.past_rim || c.gap > limits.distance || c.agreement < limits.cosine) return;
   c.place = mirror.reflect(c.on_surface);
   c.matched = c.place.allFinite();
 }
 
 void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
                               const Limits& limits, const Context& context) {
-  const TriangleMesh mesh(input.points, input.faces, context.stage(0, 0));
+  const TriangleMesh& mesh = mesh_.emplace(input.points, input.faces, context.stage(0, 0));
   const std::vector<bool> is_boundary = mesh.is_boundary();
   normals_ = mesh.vertex_normals();
   // A mirror turns the winding round.
@@ -127,9 +125,8 @@ void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
       }
       normal.stableNormalize();
       const Vector3 gap = image - closest.point;
-      const bool past_rim =
-          on_boundary && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
-      settle(i, mirror, limits, cosine_between(normal, image_normals.row(i).transpose()), past_rim);
+      c.past_rim = on_boundary && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+      settle(i, mirror, limits, cosine_between(normal, image_normals.row(i).transpose()));
     }
   });
   normals_ *= outwards;
@@ -163,9 +160,9 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
       c.gap = std::abs(gap.dot(normal));
       const Vector3 mirrored =
           mirrored_normal(mirror, points[i], image, normals_.row(i).transpose(), step);
+      c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
-      settle(i, mirror, limits, std::abs(normal.dot(mirrored)),
-             along.norm() > rim_of_cloud * spacing_);
+      settle(i, mirror, limits, std::abs(normal.dot(mirrored)));
     }
   });
 }

@@ -2,7 +2,10 @@
 
 #include <symsurf/operation.h>
 
+#include <optional>
 #include <vector>
+
+#include "mesh/triangle_mesh.h"
 
 namespace symsurf {
 
@@ -17,6 +20,7 @@ struct Counterpart {
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
   double gap = 0;                     ///< from the image to the surface, input units
   double agreement = 0;               ///< cosine between the normals there, 0 to 1
+  bool past_rim = false;              ///< the image lies beside the surface, not above it
   bool matched = false;
 };
 
@@ -47,6 +51,9 @@ class Counterparts {
   /// point's share of the area.
   double spacing() const { return spacing_; }
 
+  /// Of a shape with faces.
+  const TriangleMesh& mesh() const { return *mesh_; }
+
   /// Of a mesh that is closed and without faces that a manifold has no room for.
   bool is_watertight() const { return is_watertight_; }
 
@@ -55,9 +62,10 @@ class Counterparts {
                   const Context& context);
   void match_cloud(const OperationInput& input, const Mirror& mirror, const Limits& limits,
                    const Context& context);
-  void settle(Index i, const Mirror& mirror, const Limits& limits, double cosine, bool past_rim);
+  void settle(Index i, const Mirror& mirror, const Limits& limits, double cosine);
 
   std::vector<Counterpart> all_;
+  std::optional<TriangleMesh> mesh_;
   Points images_, normals_;
   double spacing_ = 0;
   Index matched_ = 0;

@@ -13,8 +13,8 @@ namespace {
 
 const std::vector<OperationImplementation>& operation_implementations() {
   static const std::vector<OperationImplementation> all{
-      asymmetry_operation(), correspondences_operation(), align_operation(), symmetrize_operation(),
-      straighten_operation()};
+      asymmetry_operation(), correspondences_operation(), align_operation(),
+      complete_operation(),  symmetrize_operation(),      straighten_operation()};
   return all;
 }
 
