@@ -97,9 +97,6 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   if (nonfinite != result.statistics.end())
     outcome.log.push_back("warning: " + to_string(nonfinite->second) +
                           " vertices are not finite and were left out; they have no partners");
-  const auto warning = result.statistics.find("warning");
-  if (warning != result.statistics.end())
-    outcome.log.push_back("warning: " + to_string(warning->second));
   mark_asymmetry(layer, cloud, result, distances);
   if (result.mirror)
     outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();
