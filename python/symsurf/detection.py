@@ -7,7 +7,7 @@ from collections.abc import Callable
 from numpy.typing import ArrayLike
 
 from . import _core
-from .inputs import as_input, refuses, warn_of_nonfinite
+from .inputs import as_input, refuses, warn
 from .lengths import as_fractions
 from .result import Result
 
@@ -80,7 +80,7 @@ def detect(
     fields = _core.detect(
         shape.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
-    warn_of_nonfinite(fields["statistics"])
+    warn(fields["statistics"])
     return Result.from_fields(fields | {"faces": shape.faces})
 
 
@@ -120,5 +120,5 @@ def match(
     if absolute:
         pair_distance /= _core.diagonal(shape.points, "auto", refuse)
     fields = _core.match(shape.points, mirror, pair_distance, refuse, threads, progress)
-    warn_of_nonfinite(fields["statistics"])
+    warn(fields["statistics"])
     return Result.from_fields(fields | {"mirror": mirror, "faces": shape.faces})

@@ -16,7 +16,8 @@ from .shape import read
 
 
 class InputWarning(UserWarning):
-    """Some of the input was left out, or reads differently from what was perhaps meant."""
+    """Some of the input was left out, reads differently from what was perhaps meant, or is not what
+    the method is for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,19 +93,23 @@ def refuses(nonfinite: str) -> bool:
 def finite_points(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Those of the points, with a warning where others are left out."""
     finite = np.isfinite(points).all(axis=1)
-    warn_of_nonfinite({"nonfinite_points": len(points) - np.count_nonzero(finite)})
+    warn({"nonfinite_points": len(points) - np.count_nonzero(finite)})
     return points if finite.all() else points[finite]
 
 
-def warn_of_nonfinite(statistics: dict[str, Any]) -> None:
-    """An InputWarning with the number of points that were left out, where there are some; it names
-    the line that called the package."""
-    count = statistics.get("nonfinite_points", 0)
-    if count:
-        level, frame = 1, sys._getframe()
-        while frame.f_back and frame.f_globals["__name__"].split(".")[0] == __package__:
-            level, frame = level + 1, frame.f_back
-        warnings.warn(nonfinite_message(count), InputWarning, stacklevel=level)
+def warn(statistics: dict[str, Any]) -> None:
+    """An InputWarning with the number of points that were left out, where there are some, and one
+    with what the method warns of; they name the line that called the package."""
+    messages = []
+    if statistics.get("nonfinite_points", 0):
+        messages.append(nonfinite_message(statistics["nonfinite_points"]))
+    if "warning" in statistics:
+        messages.append(statistics["warning"])
+    level, frame = 1, sys._getframe()
+    while frame.f_back and frame.f_globals["__name__"].split(".")[0] == __package__:
+        level, frame = level + 1, frame.f_back
+    for message in messages:
+        warnings.warn(message, InputWarning, stacklevel=level)
 
 
 def nonfinite_message(count: int) -> str:

@@ -55,7 +55,8 @@ class Result(Summarised, Generic[Kind_co]):
     """Whatever else the method reports, and, where there are some, how many "nonfinite_points" were
     left out as not finite and how many "outliers" as lying far off: they have no partners.
     "surface_samples": how many points were added on the faces. "boundary_points" of a volumetric
-    cloud, where the mirror and the score are those of its boundary: how many it has."""
+    cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
+    the method is not for, which was an ``InputWarning``."""
     seconds: float
     points: NDArray[np.float64] | Any = None
     """(n, 3) the input: the caller's own array where it could be read in place. Of a grid the points

@@ -139,6 +139,8 @@ class MirrorDetection(VTKPythonAlgorithmBase):
         count = result.statistics.get("nonfinite_points")
         if count:
             self._warn(f"{count} points are not finite and were left out; they have no partners")
+        if "warning" in result.statistics:
+            self._warn(result.statistics["warning"])
         return result
 
     def _progress(self, fraction: float) -> bool:

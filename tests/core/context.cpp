@@ -2,6 +2,7 @@
 #include <symsurf/symsurf.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -63,25 +64,37 @@ TEST(Context, ReportsFromZeroToOneNeverBackwardsOnTheCallingThread) {
     }
 }
 
-TEST(Context, CancelsInEveryStage) {
-  constexpr int threads = 2, cancels = 8;
+// The wish comes at a random moment, and is heard at the next report.
+TEST(Context, CancelsAtRandomMoments) {
+  constexpr int threads = 2, cancels = 100;
+  using Clock = std::chrono::steady_clock;
+  RandomCloud random(17);
   for (const LongCall& call : long_calls()) {
-    int reports = 0;
-    call.run(Context([&](double) { return ++reports > 0; }, threads));
-    ASSERT_GT(reports, 1) << call.name;
-    const int tried = std::min(reports, cancels);
-    for (int i = 0; i < tried; ++i) {
-      const int last = 1 + i * reports / tried;
-      int seen = 0;
-      const Context context([&](double) { return ++seen < last; }, threads);
+    const Clock::time_point begin = Clock::now();
+    call.run(Context([](double) { return true; }, threads));
+    const Clock::duration whole = Clock::now() - begin;
+    int cancelled = 0;
+    for (int i = 0; i < cancels; ++i) {
+      const auto wish =
+          Clock::now() + std::chrono::duration_cast<Clock::duration>(random.uniform(0, 1) * whole);
+      bool told = false;
+      const Context context(
+          [&](double) {
+            EXPECT_FALSE(told) << call.name << " reported after it was cancelled";
+            told = Clock::now() >= wish;
+            return !told;
+          },
+          threads);
       try {
         call.run(context);
-        // How many reports there are hangs on the clock.
-        EXPECT_LT(seen, last) << call.name << " went on";
+        // A run that is quicker than the first may be over before.
+        EXPECT_FALSE(told) << call.name << " went on";
       } catch (const Cancelled&) {
-        EXPECT_EQ(seen, last) << call.name << " reported after it was cancelled";
+        EXPECT_TRUE(told) << call.name;
+        ++cancelled;
       }
     }
+    EXPECT_GT(cancelled, 0) << call.name;
   }
 }
 

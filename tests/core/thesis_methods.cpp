@@ -194,5 +194,17 @@ TEST(SphereThesis, ScoresAtMostOne) {
   EXPECT_LE(run(points, "sphere_thesis").score, 1);
 }
 
+TEST(SphereThesis, WarnsOfMorePointsThanItIsFor) {
+  const Points points = RandomCloud(1).box(10'001);
+  const auto detected = [&](Index count) {
+    const Options options{.method = "sphere_thesis", .parameters = {{"sample_size", Index{10}}}};
+    return detect(points.topRows(count), options).statistics;
+  };
+  EXPECT_EQ(detected(10'000).count("warning"), 0u);
+  const Values statistics = detected(10'001);
+  ASSERT_EQ(statistics.count("warning"), 1u);
+  EXPECT_EQ(std::get<std::string>(statistics.at("warning")).find("10001 points given"), 0u);
+}
+
 }  // namespace
 }  // namespace symsurf

@@ -1,7 +1,7 @@
-#include <ctime>
 #include <string_view>
 
 #include "draw.h"
+#include "impatient.h"
 #include "result.h"
 
 namespace symsurf {
@@ -18,11 +18,6 @@ const Method& drawn_method(Source& source) {
   return is_slow(method) && !one_in(source, 256) ? symsurf::method("plane") : method;
 }
 
-// Seconds of the processor: of the others, too, whole searches on some clouds take several.
-double patience(Source& source) { return one_in(source, 8) ? 3 : 0.1; }
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 // What a mirror refuses where it is made is no fault of the points.
 bool is_of_a_mirror(const InvalidInput& error) {
   return std::string_view(error.what()).find(" needs ") != std::string_view::npos;
@@ -30,9 +25,9 @@ bool is_of_a_mirror(const InvalidInput& error) {
 
 void fuzz(Source& source) {
   const Method& method = drawn_method(source);
-  const Points points = cloud(source);
+  const Points points = cloud(source, most_for_searches);
   const bool has_faces = one_in(source, 4), has_normals = one_in(source, 4);
-  Options options{.method = method.name, .parameters = parameters(source, method)};
+  Options options{.method = method.name, .parameters = parameters(source, method.parameters)};
   const Triangles triangles = has_faces ? faces(source, points.rows()) : Triangles(0, 3);
   const Points directions = has_normals ? normals(source, points.rows()) : Points(0, 3);
   options.faces = triangles;
@@ -44,8 +39,7 @@ void fuzz(Source& source) {
   show_rows("points", points);
   show_rows("faces", triangles);
   show_rows("normals", directions);
-  const double end = processor_seconds() + patience(source);
-  const Context context([&](double) { return processor_seconds() < end; }, 1);
+  const Context context = impatient(source);
   runs([&] {
     try {
       expect_sound(detect(points, options, context), points.rows());

@@ -60,9 +60,13 @@ inline Points grid(Index nx, Index ny, Index nz) {
   return points;
 }
 
-inline Points simple_cloud(Source& source) {
-  const auto count = source.ConsumeIntegralInRange<Index>(0, 60);
-  const auto side = [&] { return source.ConsumeIntegralInRange<Index>(1, 6); };
+/// Points of a cloud: most for calls that look at each of them, and for those that search.
+constexpr Index most_points = 400, most_for_searches = 60;
+
+inline Points simple_cloud(Source& source, Index most) {
+  const auto count = source.ConsumeIntegralInRange<Index>(0, std::min<Index>(most, 60));
+  const Index longest = most < 216 ? 4 : 6;
+  const auto side = [&] { return source.ConsumeIntegralInRange<Index>(1, longest); };
   RandomCloud random(source.ConsumeIntegral<std::uint8_t>());
   switch (source.ConsumeIntegralInRange(0, 4)) {
     case 0:
@@ -90,8 +94,7 @@ inline Points stacked(const Points& upper, const Points& lower) {
 }
 
 /// One of what makes clouds hard, done to a cloud that has points.
-inline Points harder(Points points, Source& source) {
-  constexpr Index most = 400;
+inline Points harder(Points points, Source& source, Index most) {
   const Index row = source.ConsumeIntegralInRange<Index>(0, points.rows() - 1);
   const int axis = source.ConsumeIntegralInRange(0, 2);
   switch (source.ConsumeIntegralInRange(0, 9)) {
@@ -127,11 +130,11 @@ inline Points harder(Points points, Source& source) {
   }
 }
 
-/// A small cloud: of up to 6 x 6 x 6 points and then up to four times made harder.
-inline Points cloud(Source& source) {
-  Points points = simple_cloud(source);
+/// A small cloud, of about `most` points at the most, up to four times made harder.
+inline Points cloud(Source& source, Index most = most_points) {
+  Points points = simple_cloud(source, most);
   for (int steps = source.ConsumeIntegralInRange(0, 4); steps > 0 && points.rows() > 0; --steps)
-    points = harder(std::move(points), source);
+    points = harder(std::move(points), source, most);
   return points;
 }
 
@@ -190,10 +193,10 @@ inline Value value_of(const Parameter& parameter, Source& source) {
   }
 }
 
-/// Of a method: each as it is, in its range, or out of it.
-inline Values parameters(Source& source, const Method& method) {
+/// Of a method or an operation: each as it is, in its range, or out of it.
+inline Values parameters(Source& source, const std::vector<Parameter>& described) {
   Values given;
-  for (const Parameter& parameter : method.parameters)
+  for (const Parameter& parameter : described)
     if (one_in(source, 3)) given[parameter.name] = value_of(parameter, source);
   if (one_in(source, 64)) given[source.ConsumeRandomLengthString(8)] = any_value(source);
   return given;

@@ -8,10 +8,13 @@ import socket
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+
+import symsurf
 
 NORMAL = np.array([2.0, -1.0, 0.5]) / np.linalg.norm([2.0, -1.0, 0.5])
 
@@ -52,6 +55,34 @@ def one(run_host: Callable[..., Any]) -> dict[str, Any]:
 def test_processes_agree(run_host: Callable[..., Any], one: dict[str, Any]) -> None:
     for processes, how in [(1, "slabs"), (2, "slabs"), (2, "first_only"), (3, "interleaved")]:
         check_same(run_host(pvbatch(processes), "shared_shape.py", how), one)
+
+
+def test_a_process_without_points(run_host: Callable[..., Any], tmp_path: Path) -> None:
+    """No hang; the result of the whole, or the same error on all."""
+    random = np.random.default_rng(5)
+    x = random.normal(size=(6000, 3))
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    x *= 1 + 0.3 * np.sin(3 * x[:, :1] + x[:, 1:2]) + 0.2 * x[:, 1:2] * x[:, 2:]
+    points = np.vstack([x, x * (-1, 1, 1) + (0.5, 0, 0)])
+    np.save(tmp_path / "points.npy", points)
+    processes = run_host(pvbatch(3), "empty_process.py", tmp_path / "points.npy")
+    whole = {method: symsurf.detect(points, method) for method in ("plane", "sphere")}
+    assert whole["plane"].score == 1
+    for ranks in zip(*processes):
+        (method, name, root), said = ranks[0], [rank[2]["ErrorEvent"] for rank in ranks]
+        warned = [rank[2]["WarningEvent"] for rank in ranks]
+        if name.startswith("nobody"):
+            # The filter's sentence on each process, in which VTK reports it.
+            assert said[0] == said[1] == said[2] and len(said[0]) == 1, (method, name, said)
+            assert "0 points given" in said[0][0] or "0 of 150 points given" in said[0][0]
+            continue
+        assert said == [[], [], []], (method, name)
+        assert len(warned[0]) == (name == "no finite point") and warned[1:] == [[], []]
+        assert sum(rank[2]["pairs"] for rank in ranks) == len(whole[method].pairs)
+        assert ranks[1][2]["pairs"] == 0
+        for rank in ranks:
+            assert rank[2]["score"] == root["score"]
+            assert abs(rank[2]["score"][0] - whole[method].score) < 1e-9
 
 
 @contextmanager

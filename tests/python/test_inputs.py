@@ -96,6 +96,13 @@ def test_every_way_in_warns(tmp_path):
         assert "nonfinite_points" not in symsurf.detect_plane(np.delete(points, 5, 0)).statistics
 
 
+def test_a_method_warns_of_what_it_is_not_for():
+    points, _ = mirrored_surface(10_002, 3)
+    with pytest.warns(symsurf.InputWarning, match="10002 points given; sphere_thesis is for") as w:
+        result = symsurf.detect(points, "sphere_thesis", sample_size=10)
+    assert w[0].filename == __file__ and result.statistics["warning"] == str(w[0].message)
+
+
 def test_pictures_and_files_of_such_results(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     points, _ = mirrored_surface(400, 3)

@@ -196,6 +196,16 @@ TEST(FilterErrors, SamplesAndDamageOfNothingKnown) {
   EXPECT_EQ(damage->GetOutput()->GetNumberOfPoints(), 0);
 }
 
+TEST(FilterErrors, WarnsOfWhatAMethodIsNotFor) {
+  vtkNew<vtkMirrorDetection> filter;
+  filter->SetMethod("sphere_thesis");
+  filter->SetSphereThesisSampleSize(10);
+  filter->SetInputData(polydata_of(mirrored_shape(truth, 5001)));
+  const ErrorListener warnings(filter, vtkCommand::WarningEvent);
+  EXPECT_TRUE(error_of(filter).empty());
+  EXPECT_NE(warnings.message().find("10002 points given; sphere_thesis is for"), std::string::npos);
+}
+
 TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
   symsurf::Points points(203, 3);
   points << symsurf::Points::Constant(2, 3, std::numeric_limits<double>::quiet_NaN()),

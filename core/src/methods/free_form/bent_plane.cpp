@@ -9,6 +9,7 @@
 #include "base/semidefinite_solve.h"
 #include "base/symmetric_eigen.h"
 #include "methods/free_form/hermite_fit.h"
+#include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 
 namespace symsurf::perpendicular {
@@ -225,7 +226,8 @@ std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& cont
 
 BentPlane laid_on(const SearchCloud& search, const Plane& plane) {
   const Vector3 point = plane.foot(search.centroid) - search.centroid;
-  return {search, point / search.diagonal, plane.normal()};
+  return {search, search.axes.transpose() * point / search.diagonal,
+          search.axes.transpose() * plane.normal()};
 }
 
 void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& plane) {
@@ -255,6 +257,24 @@ bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b
 }
 
 }  // namespace
+
+bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
+                      std::vector<GrownSurface>& surfaces, const Context& context) {
+  const PointTree tree(cloud.points, context.stage(0, 0.5));
+  const NearestPoints points(cloud.points, tree, context);
+  const Surfels surfels(cloud, patches, context.stage(0.5, 1));
+  std::vector<UnitPlane> planes = exact_planes(cloud, points, surfels);
+  planes.resize(std::min(planes.size(), most_bent));
+  for (const UnitPlane& plane : planes) {
+    GrownSurface surface;
+    surface.mirror = laid_on(search, in_input_units(plane, cloud.frame)).free_form();
+    match(search, bent_foot_precision, surface);
+    surface.exact = surface.bent = true;
+    surface.support = 1;
+    surfaces.push_back(std::move(surface));
+  }
+  return !planes.empty();
+}
 
 void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context) {

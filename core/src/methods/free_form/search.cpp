@@ -223,7 +223,10 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
       std::any_of(search.surfaces.begin(), search.surfaces.end(), [](const GrownSurface& surface) {
         return surface.support > (surface.exact ? enough_exact : enough_inexact);
       });
-  if (!found) bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.75, 0.85));
+  const bool thinned = search.cloud.size() < cloud.points.size();
+  if (!found && !(thinned && lay_exact_planes(cloud, search.cloud, search.surfaces,
+                                              context.stage(0.75, 0.77))))
+    bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.77, 0.85));
   search.surfaces = assemble(search.cloud, std::move(search.surfaces), context.stage(0.85, 1));
   return search;
 }

@@ -92,12 +92,32 @@ std::vector<Index> thinned(PointsView points, Index most, const Context& context
   return taken;
 }
 
-Points unit_frame(const Cloud& cloud, const std::vector<Index>& rows) {
-  const Vector3 centre = centroid_of(cloud.points);
-  Points out(static_cast<Index>(rows.size()), 3);
-  for (Index i = 0; i < out.rows(); ++i)
-    out.row(i) = ((cloud.points[rows[i]] - centre) / cloud.diagonal).transpose();
-  return out;
+// To that share of the diagonal coordinates are rounded: far above the rounding of doubles, and far
+// below what tells an exact partner from others.
+constexpr double quantum = 0x1p-30;
+
+Points rounded(Points rows) { return (rows.array() / quantum).round() * quantum; }
+
+Matrix3 right_handed(Matrix3 axes) {
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  return axes;
+}
+
+// By x, then y, then z.
+std::vector<std::int32_t> ascending(const Points& points, const Context& context) {
+  std::vector<std::int32_t> order(points.rows());
+  std::iota(order.begin(), order.end(), 0);
+  const auto digits = [&](std::int32_t i, int axis) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(points(i, axis) / quantum) +
+                                      (std::int64_t{1} << 31));
+  };
+  std::vector<std::uint64_t> keys(points.rows());
+  for (Index i = 0; i < points.rows(); ++i) keys[i] = digits(order[i], 2);
+  radix_sort(keys, order, context);
+  for (Index i = 0; i < points.rows(); ++i)
+    keys[i] = digits(order[i], 0) << 32 | digits(order[i], 1);
+  radix_sort(keys, order, context);
+  return order;
 }
 
 // The point of a quadratic fit nearest along the plane's normal to x, and the fit's normal there
@@ -117,18 +137,39 @@ void jet(const Points& points, const std::vector<Neighbour>& around, Vector3& x,
 
 }  // namespace
 
-SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
-    : SearchCloud(cloud, thinned(cloud.points, most_points, context.stage(0, 0.1)), context) {}
+SearchCloud::Posed::Posed(const Cloud& cloud, const Context& context)
+    : axes(right_handed(cloud.frame.axes)) {
+  points.resize(cloud.points.size(), 3);
+  interruptible_for(context, points.rows(), [&](Index i) {
+    points.row(i) = (axes.transpose() * (cloud.points[i] - cloud.frame.centroid) / cloud.frame.size)
+                        .transpose();
+  });
+  points = rounded(std::move(points));
+  order = ascending(points, context);
+  points = chosen_rows(points, order);
+}
 
-SearchCloud::SearchCloud(const Cloud& cloud, const std::vector<Index>& rows, const Context& context)
-    : SurfacePoints(unit_frame(cloud, rows), context.stage(0.1, 1), ring + 1),
+SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
+    : SearchCloud(cloud, Posed(cloud, context.stage(0, 0.05)), most_points, context) {}
+
+SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, Index most_points,
+                         const Context& context)
+    : SearchCloud(cloud, posed, thinned(posed.points, most_points, context.stage(0.05, 0.1)),
+                  context) {}
+
+SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const std::vector<Index>& rows,
+                         const Context& context)
+    : SurfacePoints(chosen_rows(posed.points, rows), context.stage(0.1, 1), ring + 1),
       context(context),
-      centroid(centroid_of(cloud.points)),
-      diagonal(cloud.diagonal),
+      centroid(cloud.frame.centroid),
+      axes(posed.axes),
+      diagonal(cloud.frame.size),
       given_normals_(!cloud.normals.empty()) {
   spacing = std::max(spacing, least_spacing);
-  for (Index i = 0; given_normals_ && i < size(); ++i)
-    normals.row(i) = cloud.normals[rows[i]].normalized().transpose();
+  if (!given_normals_) return;
+  for (Index i = 0; i < size(); ++i)
+    normals.row(i) = cloud.normals[posed.order[rows[i]]].normalized().transpose() * axes;
+  normals = rounded(std::move(normals));
 }
 
 bool SearchCloud::noisy() const { return noise > noticeable * spacing; }

@@ -36,9 +36,9 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
 void pair_points(Result& result, const Cloud& cloud, PointTree tree, const SearchCloud& searched,
                  const GrownSurface& surface, double pair_distance, const Context& context) {
   // Farther off there are only mere neighbours.
-  const double limit = std::min(pair_distance, reach(surface) * searched.spacing);
-  add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit * cloud.diagonal,
-            context.stage(0, 0.6));
+  const double limit = std::min(pair_distance * cloud.diagonal,
+                                reach(surface) * searched.spacing * searched.diagonal);
+  add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit, context.stage(0, 0.6));
   if (!surface.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.6, 1));
   drop_false_pairs(result, cloud, surface.exact);
@@ -47,7 +47,7 @@ void pair_points(Result& result, const Cloud& cloud, PointTree tree, const Searc
 }  // namespace
 
 std::shared_ptr<Mirror> in_input_units(const Mirror& mirror, const SearchCloud& searched) {
-  return mirror.transformed(searched.diagonal, Matrix3::Identity(), searched.centroid);
+  return mirror.transformed(searched.diagonal, searched.axes, searched.centroid);
 }
 
 void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
@@ -18,6 +19,7 @@ namespace symsurf {
 namespace {
 
 constexpr double support_of_alpha = 2.6;
+constexpr Index most_points = 10'000;  // or a look at each of them, a thousand times, takes long
 
 // Where phi ends: alpha = 15 / l_avg of the set scored.
 double support(PointsView points) {
@@ -189,6 +191,10 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
                        {"candidates", simplified.rows() * (simplified.rows() - 1) *
                                           static_cast<Index>(radii.size())},
                        {"evaluations", static_cast<Index>(evaluations)}};
+  if (cloud.points.size() > most_points)
+    result.statistics["warning"] =
+        std::to_string(cloud.points.size()) + " points given; sphere_thesis is for up to " +
+        std::to_string(most_points) + ": the method sphere finds spheres of more, and sooner";
   return result;
 }
 

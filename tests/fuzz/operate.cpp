@@ -1,0 +1,70 @@
+#include "draw.h"
+#include "impatient.h"
+#include "result.h"
+
+namespace symsurf {
+namespace {
+
+Eigen::VectorXd mask(Source& source, Index points) {
+  Eigen::VectorXd values(one_in(source, 8) ? points + 1 : points);
+  for (double& each : values) each = source.ConsumeIntegralInRange(0, 4) / 4.0;
+  if (values.size() > 0 && one_in(source, 8)) values[0] = extreme(source);
+  return values;
+}
+
+void expect_sources(const std::vector<Index>& sources, Index rows, Index of) {
+  if (sources.empty()) return;
+  expect(static_cast<Index>(sources.size()) == rows, "each row has a source, or none has");
+  for (const Index source : sources)
+    expect(source >= 0 && source < of, "sources are rows of the input");
+}
+
+// What a description promises of every result.
+void expect_as_described(const OperationResult& result, const Operation& operation,
+                         const Points& points, const Triangles& faces) {
+  const Index rows = result.points.rows();
+  expect(operation.adds_points ? rows >= points.rows() : rows == points.rows(), "a row a point");
+  expect(operation.adds_points ? result.faces.rows() >= faces.rows()
+                               : result.faces.rows() == faces.rows(),
+         "faces stay");
+  expect(result.points.allFinite(), "points are finite");
+  if (!operation.moves_points)
+    expect(result.points.topRows(points.rows()) == points, "points stay where they are");
+  for (const Index corner : result.faces.reshaped())
+    expect(corner >= 0 && corner < rows, "a face's corner is a point");
+  expect_sources(result.point_sources, rows, points.rows());
+  expect_sources(result.face_sources, result.faces.rows(), faces.rows());
+  expect(result.arrays.size() == operation.arrays.size(), "no array but those described");
+  for (const PointArray& array : operation.arrays) {
+    const auto found = result.arrays.find(array.name);
+    expect(found != result.arrays.end(), "arrays that are described are there");
+    expect(found->second.rows() == rows && found->second.cols() == array.components,
+           "arrays have a row a point");
+  }
+}
+
+void fuzz(Source& source) {
+  const Operation& operation = one_of(operations(), source);
+  const Points points = cloud(source, most_for_searches);
+  const Triangles triangles = one_in(source, 2) ? faces(source, points.rows()) : Triangles(0, 3);
+  OperationInput input{points, triangles};
+  if (one_in(source, operation.takes_mask ? 2 : 16)) input.mask = mask(source, points.rows());
+  const Values given = parameters(source, operation.parameters);
+  show("operation", '"' + operation.name + '"');
+  show("parameters", given);
+  show_rows("points", points);
+  show_rows("faces", triangles);
+  show_rows("mask", input.mask);
+  const std::shared_ptr<Mirror> mirror = drawn_mirror(source);
+  expect_as_described(operate(operation.name, input, *mirror, given, impatient(source)), operation,
+                      points, triangles);
+}
+
+}  // namespace
+}  // namespace symsurf
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  symsurf::Source source(data, size);
+  symsurf::runs([&] { symsurf::fuzz(source); });
+  return 0;
+}
