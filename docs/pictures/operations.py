@@ -78,8 +78,8 @@ def without(shape, lost):
 
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
-    image = Image.open(path).convert("RGB").resize((800, 600), Image.Resampling.LANCZOS)
-    image.quantize(255).save(path, optimize=True)
+    image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
+    image.save(path, optimize=True)
 
 
 def main(folder):

@@ -5,7 +5,7 @@
 >>> result.mirror, result.score, result.verdict
 """
 
-from . import detectors, metrics, mirror_operations, synthetic
+from . import detectors, metrics, synthetic
 from ._core import (
     Cancelled,
     Cylinder,
@@ -32,13 +32,27 @@ from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
-from .mirror_operations import *  # one for each in operations(), and what it gives
+from .mirror_operations import (
+    Alignment,
+    Asymmetry,
+    Completed,
+    Correspondences,
+    OperationResult,
+    Straightened,
+    Symmetrized,
+    functions,
+)
+from .mirror_operations.functions import *  # one for each in operations()
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape, read
 
 __all__ = [
+    "Alignment",
+    "Asymmetry",
     "Cancelled",
+    "Completed",
+    "Correspondences",
     "Cylinder",
     "FreeForm",
     "HeightField",
@@ -48,13 +62,16 @@ __all__ = [
     "Method",
     "Mirror",
     "Operation",
+    "OperationResult",
     "Parameter",
     "Plane",
     "Quadric",
     "Result",
     "Shape",
     "Sphere",
+    "Straightened",
     "SurfaceMirror",
+    "Symmetrized",
     "__version__",
     "batch",
     "bend",
@@ -70,4 +87,5 @@ __all__ = [
     "straight_mirror",
     "synthetic",
 ]
-__all__ += detectors.__all__ + mirror_operations.__all__
+__all__ += detectors.__all__
+__all__ += functions.__all__

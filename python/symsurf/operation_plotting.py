@@ -151,7 +151,7 @@ def _draw_object(
 
 def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
     """Some of the points that mirror each other, two of each colour."""
-    seen = 80
+    seen = 50
     points = result.shape.points
     pairs = np.column_stack([np.arange(len(points)), result.index])
     pairs = pairs[(result.index > pairs[:, 0]) & np.isfinite(points).all(axis=1)]
@@ -165,7 +165,7 @@ def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
         clim=(0, 9),
         show_scalar_bar=False,
         render_points_as_spheres=True,
-        point_size=14,
+        point_size=22,
     )
 
 

@@ -72,3 +72,28 @@ def test_operations_find_the_mirror_first_and_refuse_grids() -> None:
     assert mesh.symmetry.asymmetry()["distance"].max() < 1e-5
     with pytest.raises(symsurf.InvalidInput, match="ImageData has none"):
         pyvista.ImageData(dimensions=(3, 3, 3)).symmetry.align()
+
+
+def test_complete_carries_attributes_to_what_it_adds() -> None:
+    whole = pyvista.Icosphere(radius=1, nsub=4)
+    whole["height"] = whole.points[:, 2]
+    whole.cell_data["level"] = whole.cell_centers().points[:, 2]
+    lost = (whole.points[:, 0] > 0.2) & (whole.points[:, 2] > -0.3)
+    broken = whole.remove_points(lost)[0]
+    broken.symmetry.result = symsurf.match(broken, symsurf.Plane((1, 0, 0), 0))
+    made = broken.symmetry.complete()
+    assert isinstance(made, pyvista.PolyData)
+    added = np.asarray(made["origin"]) > 0
+    assert added.sum() > 0.5 * lost.sum() and not added[: broken.n_points].any()
+    np.testing.assert_array_equal(made.points[: broken.n_points], broken.points)
+    # The height is what the mirror leaves alone: of an image it is that of its source.
+    np.testing.assert_allclose(made["height"], made.points[:, 2], atol=0.01)
+    middle = made.cell_centers().points[:, 2]
+    np.testing.assert_allclose(made.cell_data["level"], middle, atol=0.2)
+    assert made.field_data["added_points"][0] == added.sum()
+    cloud = pyvista.PolyData(broken.points)
+    cloud["height"] = broken["height"]
+    cloud.symmetry.result = broken.symmetry.result
+    filled = cloud.symmetry.complete()
+    np.testing.assert_allclose(filled["height"], filled.points[:, 2], atol=0.05)
+    assert filled.n_points > cloud.n_points

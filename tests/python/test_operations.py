@@ -280,3 +280,34 @@ def test_commands_name_what_is_wrong(ball, tmp_path):
         done = run_here(line, tmp_path)
         assert done.returncode == status
         assert says in done.stderr
+
+
+def test_completion_is_the_shape_that_was_lost(ball):
+    """And leaves what is there, and tells the one from the other."""
+    points = ball[0].points / np.linalg.norm(ball[0].points, axis=1, keepdims=True)
+    lost = (points[:, 0] > 0.2) & (points[:, 1] > -0.3)
+    faces = (np.cumsum(~lost) - 1)[ball[0].faces[~lost[ball[0].faces].any(axis=1)]]
+    broken = symsurf.Shape(points[~lost], faces)
+    result = symsurf.complete(broken, PLANE)
+    count = len(broken.points)
+    np.testing.assert_array_equal(result.shape.points[:count], broken.points)
+    np.testing.assert_array_equal(result.shape.faces[: len(faces)], faces)
+    assert (result.origin[:count] == 0).all() and (result.origin[count:] > 0).all()
+    np.testing.assert_array_equal(result.sources[:count], np.arange(count))
+    added = result.shape.points[count:]
+    images = PLANE.reflect(broken.points[result.sources[count:]])
+    np.testing.assert_allclose(added, images, atol=0.01)
+    np.testing.assert_allclose(np.linalg.norm(added, axis=1), 1, atol=0.005)
+    assert len(result.face_sources) == len(result.shape.faces)
+    # The patch is what was added: the same triangles, numbered anew.
+    patch = result.patch
+    np.testing.assert_array_equal(
+        patch.points[patch.faces], result.shape.points[result.shape.faces[len(faces) :]]
+    )
+    assert set(np.unique(patch.faces)) == set(range(len(patch.points)))
+    cloud = symsurf.complete(broken.points, PLANE)
+    assert cloud.shape.faces is None and cloud.patch.faces is None
+    np.testing.assert_array_equal(cloud.patch.points, cloud.shape.points[count:])
+    whole = symsurf.complete(symsurf.Shape(points, ball[0].faces), PLANE)
+    assert len(whole.shape.points) == len(points) and not whole.origin.any()
+    assert len(whole.patch.points) == 0
