@@ -91,4 +91,20 @@ LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_norm
   return cloud;
 }
 
+Eigen::VectorXd read_mask(const MeshModel& layer, const LayerCloud& cloud, bool only_selected,
+                          bool by_quality) {
+  if (!only_selected && !by_quality) return {};
+  const CMeshO& mesh = layer.cm;
+  const auto count = static_cast<Index>(cloud.vertex.size());
+  Eigen::VectorXd mask = Eigen::VectorXd::Ones(count);
+  if (only_selected) {
+    const std::vector<char> selected = selected_vertices(mesh);
+    for (Index i = 0; i < count; ++i) mask[i] = selected[cloud.vertex[i]] ? 1 : 0;
+    if (mask.isZero(0)) throw InvalidInput("the layer " + quoted(layer) + " has nothing selected");
+  }
+  if (by_quality)
+    for (Index i = 0; i < count; ++i) mask[i] *= mesh.vert[cloud.vertex[i]].cQ();
+  return mask;
+}
+
 }  // namespace symsurf::meshlab

@@ -18,6 +18,11 @@ struct LayerCloud {
   Triangles faces;          ///< between the rows; none unless asked for
 };
 
+/// A row as MeshLab's vertices have it.
+inline Point3m to_point(const Points& points, Index row) {
+  return Point3m(points(row, 0), points(row, 1), points(row, 2));
+}
+
 /// The layer that filters work on. Throws InvalidInput where the document has none.
 MeshModel& current_layer(MeshDocument& document);
 
@@ -30,5 +35,11 @@ double layer_diagonal(const MeshModel* layer);
 /// whose normals are all zero, which is how MeshLab says that there are none.
 LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals,
                       bool with_faces = false);
+
+/// How far each row of the cloud may move, 0 to 1: only what is selected, or by the vertices'
+/// quality, or both; empty for neither.
+/// Throws InvalidInput for a layer without a selection, where that is asked for.
+Eigen::VectorXd read_mask(const MeshModel& layer, const LayerCloud& cloud, bool only_selected,
+                          bool by_quality);
 
 }  // namespace symsurf::meshlab

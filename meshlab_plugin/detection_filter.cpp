@@ -9,6 +9,7 @@
 #include "parameter_dialog.h"
 #include "result_layers.h"
 #include "returned_values.h"
+#include "vertex_marks.h"
 
 namespace symsurf::meshlab {
 
@@ -41,12 +42,12 @@ const std::vector<Parameter>& common_parameters() {
 
 std::string DetectionFilter::info() const {
   return method_.summary +
-         "<br>The mirror and the surface points (midpoints of the pairs) become new layers. On the "
-         "current layer each vertex gets its residual, the distance from its image to its partner, "
-         "as quality with a colour ramp, and the attributes <i>partner</i> and <i>side</i>; "
+         "<br>The mirror and the surface points (midpoints of the pairs) become new layers, in the "
+         "place of those that this filter left for the current layer before. On the current layer "
+         "each vertex gets its residual, the distance from its image to its partner, as quality, "
+         "coloured from blue, none, to red, and the attributes <i>partner</i> and <i>side</i>; "
          "vertices without a partner are grey. The log has the verdict and its reason, the score, "
-         "0 "
-         "(no symmetry) to 1 (exact), and the mirror's numbers, in the layer's own coordinates.";
+         "0 (no symmetry) to 1 (exact), and the mirror's numbers, in the layer's own coordinates.";
 }
 
 FilterPlugin::FilterClass DetectionFilter::menus() const {
@@ -97,12 +98,13 @@ Outcome DetectionFilter::apply(const RichParameterList& parameters, MeshDocument
   if (nonfinite != result.statistics.end())
     outcome.log.push_back("warning: " + to_string(nonfinite->second) +
                           " vertices are not finite and were left out; they have no partners");
-  mark_asymmetry(layer, cloud, result, distances);
-  if (result.mirror)
-    outcome.values["mirror_layer"] = add_mirror_layer(document, layer, result.mirror, mesh).id();
-  outcome.values["surface_points_layer"] = add_surface_points_layer(document, layer, result).id();
+  mark_residuals(layer, cloud, result, distances);
+  ResultLayers layers(document, layer, python_name());
+  if (result.mirror) outcome.values["mirror_layer"] = layers.add_mirror(result.mirror, mesh).id();
+  if (result.surface_points.rows() > 0)
+    outcome.values["surface_points_layer"] = layers.add_surface_points(result).id();
   for (std::size_t i = 0; i < candidate_meshes.size(); ++i)
-    add_candidate_layer(document, layer, i + 1, result.candidates[i], candidate_meshes[i]);
+    layers.add_candidate(i + 1, result.candidates[i], candidate_meshes[i]);
   return outcome;
 }
 

@@ -4,6 +4,7 @@
 #include <symsurf/errors.h>
 
 #include "detection_filter.h"
+#include "operation_filter.h"
 #include "reflection_filter.h"
 #include "sample_filter.h"
 
@@ -16,6 +17,8 @@ std::vector<std::unique_ptr<Filter>> all_filters() {
   std::vector<std::unique_ptr<Filter>> filters;
   for (const Method& method : methods())
     filters.push_back(std::make_unique<DetectionFilter>(method));
+  for (const Operation& operation : operations())
+    filters.push_back(std::make_unique<OperationFilter>(operation));
   filters.push_back(std::make_unique<ReflectionFilter>());
   filters.push_back(std::make_unique<SampleFilter>());
   return filters;

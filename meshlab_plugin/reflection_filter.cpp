@@ -5,7 +5,7 @@
 #include <vcg/complex/algorithms/clean.h>
 
 #include "cloud_conversion.h"
-#include "result_layers.h"
+#include "mirror_layer.h"
 
 namespace symsurf::meshlab {
 
@@ -13,29 +13,12 @@ namespace {
 
 using Allocator = vcg::tri::Allocator<CMeshO>;
 
-constexpr const char* mirror_layer = "mirror_layer";
-
 // The layer of the mirror last found, which is the one most people mean.
 int default_mirror_layer(const MeshDocument& document) {
   int id = document.mm() ? document.mm()->id() : 0;
   for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
     if (is_mirror_layer(*it)) id = it->id();
   return id;
-}
-
-const MeshModel& chosen_layer(const MeshDocument& document, int id) {
-  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it) {
-    if (it->id() == id) return *it;
-  }
-  throw InvalidParameter("there is no layer " + std::to_string(id) + " to take the mirror from");
-}
-
-std::shared_ptr<const Mirror> mirror_in(const MeshModel& layer) {
-  if (auto mirror = mirror_of(layer)) return mirror;
-  throw InvalidParameter(
-      "the layer '" + layer.label().toStdString() +
-      "' holds no mirror: its vertices lie neither on a plane nor on a sphere, and a curved mirror "
-      "must be as its filter left it; find the mirror again, or choose another layer");
 }
 
 // Images keep no normals where faces do not give new ones: all zero says so to MeshLab.
@@ -83,9 +66,9 @@ FilterPlugin::FilterClass ReflectionFilter::menus() const {
 
 RichParameterList ReflectionFilter::parameters(const MeshDocument& document) const {
   RichParameterList dialog;
-  dialog.addParam(RichMesh(mirror_layer, default_mirror_layer(document), &document, "Mirror layer",
-                           "A layer made by one of the mirror filters, or any layer whose vertices "
-                           "lie on a plane or a sphere."));
+  add_mirror_choice(dialog, document, default_mirror_layer(document),
+                    "A layer made by one of the mirror filters, or any layer whose vertices lie on "
+                    "a plane or a sphere.");
   return dialog;
 }
 
@@ -93,8 +76,7 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
                                 const Context::Progress& progress) const {
   const Context context(progress);
   MeshModel& layer = current_layer(document);
-  const MeshModel& mirror =
-      chosen_layer(document, static_cast<int>(parameters.getMeshId(mirror_layer)));
+  const MeshModel& mirror = chosen_mirror_layer(parameters, document);
   const std::shared_ptr<const Mirror> over = mirror_in(mirror);
   context.report(0);
   const Points points = in_coordinates_of(mirror, layer, read_cloud(layer, false, false).points);
@@ -109,7 +91,7 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
   context.report(1);
 
   // The copy has no deleted vertices, so that its rows are those of the packed points.
-  MeshModel& image = *document.addNewMesh(layer.cm, "Reflection", false);
+  MeshModel& image = *document.addNewMesh(layer.cm, "Reflection");
   image.cm.Tr = mirror.cm.Tr;
   for (Index i = 0; i < images.rows(); ++i)
     image.cm.vert[i].P() = Point3m(images(i, 0), images(i, 1), images(i, 2));

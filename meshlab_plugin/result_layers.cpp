@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "result_layers.h"
 
-#include <symsurf/mirror_through.h>
-
-#include <algorithm>
+#include "cloud_conversion.h"
+#include "mirror_layer.h"
+#include "vertex_marks.h"
 
 namespace symsurf::meshlab {
 
@@ -11,99 +11,92 @@ namespace {
 
 using Allocator = vcg::tri::Allocator<CMeshO>;
 
-// The mirror, and the vertices drawn for it: when they are moved it is no longer theirs.
-struct DrawnMirror {
-  std::shared_ptr<const Mirror> mirror;
-  Points vertices;
+// Which filter left a layer, for which other, under what name.
+struct Origin {
+  int input = -1;
+  std::string filter;
+  QString label;
 };
 
-constexpr const char* mirror_layer_name = "Mirror";
-constexpr const char* mirror_attribute = "symsurf mirror";
-constexpr int marked = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
+constexpr const char* origin_attribute = "symsurf origin";
 
-// Residuals below this share of the diagonal are rounding, which is not worth a colour.
-constexpr double least_ramp = 1e-6;
-
-Point3m point(const Points& points, Index row) {
-  return Point3m(points(row, 0), points(row, 1), points(row, 2));
+const Origin* origin_of(const MeshModel& layer) {
+  auto origin = Allocator::FindPerMeshAttribute<Origin>(layer.cm, origin_attribute);
+  return Allocator::IsValidHandle(layer.cm, origin) ? &origin() : nullptr;
 }
 
-MeshModel& add_layer(MeshDocument& document, const Matrix44m& transform, const QString& name,
-                     const Points& points) {
-  MeshModel& layer = *document.addNewMesh("", name, false);
-  layer.cm.Tr = transform;
-  auto vertex = Allocator::AddVertices(layer.cm, points.rows());
-  for (Index i = 0; i < points.rows(); ++i, ++vertex) vertex->P() = point(points, i);
-  return layer;
+void set_vertices(CMeshO& mesh, const Points& points) {
+  auto vertex = Allocator::AddVertices(mesh, points.rows());
+  for (Index i = 0; i < points.rows(); ++i, ++vertex) vertex->P() = to_point(points, i);
 }
-
-void colour_by_residual(MeshModel& layer, const Eigen::VectorXd& residuals) {
-  const double largest = residuals.size() > 0 ? residuals.maxCoeff() : 0;
-  const double top = std::max(largest, least_ramp * layer_diagonal(&layer));
-  vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm, 0, top);
-  layer.updateDataMask(marked);
-}
-
-bool is_as_drawn(const CMeshO& mesh, const Points& vertices) {
-  if (mesh.vn != vertices.rows() || mesh.vert.size() != static_cast<std::size_t>(mesh.vn))
-    return false;
-  for (Index i = 0; i < vertices.rows(); ++i)
-    if (mesh.vert[i].cP() != point(vertices, i)) return false;
-  return true;
-}
-
-MeshModel& add_drawn_mirror(MeshDocument& document, const MeshModel& input, const QString& name,
-                            std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
-  MeshModel& layer = add_layer(document, input.cm.Tr, name, mesh.vertices);
-  auto face = Allocator::AddFaces(layer.cm, mesh.triangles.rows());
-  for (Index i = 0; i < mesh.triangles.rows(); ++i, ++face)
-    for (int corner = 0; corner < 3; ++corner)
-      face->V(corner) = &layer.cm.vert[mesh.triangles(i, corner)];
-  Allocator::AddPerMeshAttribute<DrawnMirror>(layer.cm, mirror_attribute)() = {std::move(mirror),
-                                                                               mesh.vertices};
-  layer.updateBoxAndNormals();
-  return layer;
-}
-
-double sign(double x) { return (x > 0) - (x < 0); }
 
 }  // namespace
 
-MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
-                            std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
-  return add_drawn_mirror(document, input, mirror_layer_name, std::move(mirror), mesh);
+ResultLayers::ResultLayers(MeshDocument& document, const MeshModel& input, std::string filter)
+    : document_(document), input_(input), filter_(std::move(filter)) {
+  std::vector<int> earlier;
+  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it) {
+    const Origin* origin = origin_of(*it);
+    if (origin && origin->input == input.id() && origin->filter == filter_ &&
+        origin->label == it->label())
+      earlier.push_back(it->id());
+  }
+  for (const int id : earlier) document.delMesh(id);
+  if (!earlier.empty()) document.setCurrentMesh(input.id());
 }
 
-MeshModel& add_candidate_layer(MeshDocument& document, const MeshModel& input, std::size_t rank,
-                               const Result& candidate, const Mesh& mesh) {
-  const QString name =
-      QString("Candidate mirror %1, score %2").arg(rank).arg(candidate.score, 0, 'f', 2);
-  return add_drawn_mirror(document, input, name, candidate.mirror, mesh);
-}
-
-std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer) {
-  auto drawn = Allocator::FindPerMeshAttribute<DrawnMirror>(layer.cm, mirror_attribute);
-  if (Allocator::IsValidHandle(layer.cm, drawn) && is_as_drawn(layer.cm, drawn().vertices))
-    return drawn().mirror;
-  if (layer.cm.vn == 0) return nullptr;
-  return mirror_through(read_cloud(layer, false, false).points);
-}
-
-bool is_mirror_layer(const MeshModel& layer) {
-  return layer.label().startsWith(mirror_layer_name) && layer.cm.fn > 0;
-}
-
-MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,
-                                    const Result& result) {
-  MeshModel& layer = add_layer(document, input.cm.Tr, "Surface points", result.surface_points);
-  for (Index i = 0; i < result.residuals.size(); ++i) layer.cm.vert[i].Q() = result.residuals[i];
-  layer.updateBoxAndNormals();
-  colour_by_residual(layer, result.residuals);
+MeshModel& ResultLayers::add(const QString& name) {
+  MeshModel& layer = *document_.addNewMesh("", name, false);
+  layer.cm.Tr = input_.cm.Tr;
+  Allocator::AddPerMeshAttribute<Origin>(layer.cm, origin_attribute)() = {input_.id(), filter_,
+                                                                          layer.label()};
   return layer;
 }
 
+MeshModel& ResultLayers::add_mirror(std::shared_ptr<const Mirror> mirror, const Mesh& mesh) {
+  MeshModel& layer = add(mirror_layer_name);
+  draw_mirror(layer, std::move(mirror), mesh);
+  return layer;
+}
+
+MeshModel& ResultLayers::add_candidate(std::size_t rank, const Result& candidate,
+                                       const Mesh& mesh) {
+  MeshModel& layer =
+      add(QString("Candidate mirror %1, score %2").arg(rank).arg(candidate.score, 0, 'f', 2));
+  draw_mirror(layer, candidate.mirror, mesh);
+  return layer;
+}
+
+MeshModel& ResultLayers::add_surface_points(const Result& result) {
+  MeshModel& layer = add("Surface points");
+  set_vertices(layer.cm, result.surface_points);
+  for (Index i = 0; i < result.residuals.size(); ++i) layer.cm.vert[i].Q() = result.residuals[i];
+  layer.updateBoxAndNormals();
+  colour_by_residual(layer, result.residuals);
+  if (result.mirror) document_.setVisible(layer.id(), false);
+  return layer;
+}
+
+bool is_result_of(const MeshModel& layer, const MeshModel& input) {
+  const Origin* origin = origin_of(layer);
+  return origin && origin->input == input.id();
+}
+
+const MeshModel* last_mirror_layer(const MeshDocument& document, const MeshModel& input) {
+  const MeshModel* last = nullptr;
+  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
+    if (is_mirror_layer(*it) && is_result_of(*it, input)) last = &*it;
+  return last;
+}
+
+void move_results(MeshDocument& document, const MeshModel& input, const Matrix4& rigid) {
+  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
+    if (is_result_of(*it, input) && it->cm.Tr == input.cm.Tr) move_layer(*it, rigid);
+}
+
 MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample) {
-  MeshModel& layer = add_layer(document, Matrix44m::Identity(), "Sample", sample.points);
+  MeshModel& layer = *document.addNewMesh("", "Sample", false);
+  set_vertices(layer.cm, sample.points);
   auto partner = Allocator::GetPerVertexAttribute<Scalarm>(layer.cm, "partner");
   for (Index i = 0; i < sample.points.rows(); ++i) partner[i] = -1;
   for (Index i = 0; i < sample.pairs.rows(); ++i) {
@@ -112,28 +105,6 @@ MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample) {
   }
   layer.updateBoxAndNormals();
   return layer;
-}
-
-void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result,
-                    const Eigen::VectorXd& distances) {
-  CMeshO& mesh = layer.cm;
-  auto partner = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
-  auto side = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "side");
-  for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
-    mesh.vert[i].Q() = -1;
-    partner[i] = -1;
-    side[i] = 0;
-  }
-  for (Index i = 0; i < result.pairs.rows(); ++i) {
-    const int vertex = cloud.vertex[result.pairs(i, 0)];
-    mesh.vert[vertex].Q() = result.residuals[i];
-    partner[vertex] = cloud.vertex[result.pairs(i, 1)];
-  }
-  for (Index i = 0; i < distances.size(); ++i)
-    if (cloud.points.row(i).allFinite()) side[cloud.vertex[i]] = sign(distances[i]);
-  colour_by_residual(layer, result.residuals);
-  for (CVertexO& vertex : mesh.vert)
-    if (vertex.Q() < 0) vertex.C() = vcg::Color4b::Gray;
 }
 
 }  // namespace symsurf::meshlab

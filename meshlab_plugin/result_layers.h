@@ -5,42 +5,48 @@
 #include <symsurf/synthetic.h>
 
 #include <memory>
+#include <string>
 
-#include "cloud_conversion.h"
 #include "meshlab_host.h"
 
 namespace symsurf::meshlab {
 
-/// Adds the layer "Mirror": the mirror's triangles, placed like `input`, and the mirror itself for
-/// mirror_of(). The numbers are the mirror's until somebody moves a vertex.
-MeshModel& add_mirror_layer(MeshDocument& document, const MeshModel& input,
-                            std::shared_ptr<const Mirror> mirror, const Mesh& mesh);
+/// The layers that a filter leaves beside its input, placed like it. They take the place of those
+/// that it left for the same input before, but for layers that somebody gave another name. The
+/// input is, or becomes where layers are removed, the current layer.
+class ResultLayers {
+ public:
+  ResultLayers(MeshDocument& document, const MeshModel& input, std::string filter);
 
-/// Adds a layer like "Candidate mirror 1, score 0.98" for another mirror of the result, which
-/// mirror_of() gives back as it does the best one.
-MeshModel& add_candidate_layer(MeshDocument& document, const MeshModel& input, std::size_t rank,
-                               const Result& candidate, const Mesh& mesh);
+  /// Adds the layer "Mirror", which mirror_of() reads.
+  MeshModel& add_mirror(std::shared_ptr<const Mirror> mirror, const Mesh& mesh);
 
-/// The mirror that add_mirror_layer() left in a layer. In any other layer, such as one that was
-/// saved and read again, the plane or the sphere that its vertices lie on, or null.
-std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer);
+  /// Adds a layer like "Candidate mirror 1, score 0.98" for another mirror of the result, which
+  /// mirror_of() gives back as it does the best one.
+  MeshModel& add_candidate(std::size_t rank, const Result& candidate, const Mesh& mesh);
 
-/// Whether it looks like a layer of add_mirror_layer(), the one to offer first.
-bool is_mirror_layer(const MeshModel& layer);
+  /// Adds the layer "Surface points": the result's, with their residuals as quality. Hidden where
+  /// there is a mirror to see.
+  MeshModel& add_surface_points(const Result& result);
 
-/// Adds the layer "Surface points": the result's, with their residuals as quality.
-MeshModel& add_surface_points_layer(MeshDocument& document, const MeshModel& input,
-                                    const Result& result);
+ private:
+  MeshModel& add(const QString& name);
+
+  MeshDocument& document_;
+  const MeshModel& input_;
+  std::string filter_;
+};
+
+/// Whether a filter left the layer beside that input.
+bool is_result_of(const MeshModel& layer, const MeshModel& input);
+
+/// The layer of the mirror last found for the input; null where there is none.
+const MeshModel* last_mirror_layer(const MeshDocument& document, const MeshModel& input);
+
+/// Moves what filters left beside the input along with it.
+void move_results(MeshDocument& document, const MeshModel& input, const Matrix4& rigid);
 
 /// Adds the layer "Sample": the points, each with its partner as attribute "partner", or -1.
 MeshModel& add_sample_layer(MeshDocument& document, const Sample& sample);
-
-/// Marks each vertex of the layer: quality = residual, with MeshLab's colour ramp from 0 to the
-/// largest; attribute "partner" = the vertex its image falls on; attribute "side" = -1, 0 or 1, the
-/// side of the mirror it is on. Vertices without a partner, and those not looked at, are grey with
-/// quality and partner -1. `distances`: the points' from the mirror, signed; empty without a
-/// mirror.
-void mark_asymmetry(MeshModel& layer, const LayerCloud& cloud, const Result& result,
-                    const Eigen::VectorXd& distances);
 
 }  // namespace symsurf::meshlab

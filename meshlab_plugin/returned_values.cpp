@@ -78,10 +78,21 @@ struct ToVariant {
 
 std::optional<QVariant> to_variant(const Value& value) { return std::visit(ToVariant{}, value); }
 
-std::map<std::string, QVariant> returned_values(const Result& result) {
+std::map<std::string, QVariant> returned_values(const Values& values) {
   std::map<std::string, QVariant> returned;
-  for (const auto& [name, value] : figures(result))
+  for (const auto& [name, value] : values)
     if (const auto variant = to_variant(value)) returned.emplace(name, *variant);
+  return returned;
+}
+
+std::vector<std::string> logged_values(const Values& values) {
+  std::vector<std::string> lines;
+  for (const auto& [name, value] : values) lines.push_back(name + ": " + logged(value));
+  return lines;
+}
+
+std::map<std::string, QVariant> returned_values(const Result& result) {
+  std::map<std::string, QVariant> returned = returned_values(figures(result));
   // The same shape for any number of candidates: three normals are no 3 x 3 matrix.
   for (const auto& [name, value] : candidate_values(result))
     returned.emplace(name, row_by_row(std::get<Eigen::MatrixXd>(value)));
@@ -89,11 +100,9 @@ std::map<std::string, QVariant> returned_values(const Result& result) {
 }
 
 std::vector<std::string> logged_values(const Result& result) {
-  std::vector<std::string> lines;
   Values all = figures(result);
   all.merge(candidate_values(result));
-  for (const auto& [name, value] : all) lines.push_back(name + ": " + logged(value));
-  return lines;
+  return logged_values(all);
 }
 
 }  // namespace symsurf::meshlab

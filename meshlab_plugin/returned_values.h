@@ -15,6 +15,12 @@ namespace symsurf::meshlab {
 /// A figure in a type that MeshLab passes on to pymeshlab; none for text, which it cannot pass.
 std::optional<QVariant> to_variant(const Value& value);
 
+/// Figures by name, those that MeshLab passes on.
+std::map<std::string, QVariant> returned_values(const Values& values);
+
+/// The same for the log, a line each, text included.
+std::vector<std::string> logged_values(const Values& values);
+
 /// The result's figures: score, found (the verdict), pairs and candidates (their numbers), seconds,
 /// the mirror's own numbers, of a plane also its reflection matrix, the method's statistics, and
 /// the candidates' scores, of planes also their normals and offsets, as vectors.

@@ -118,8 +118,8 @@ Outcome SampleFilter::apply(const RichParameterList& parameters, MeshDocument& d
   context.report(1);
 
   MeshModel& layer = add_sample_layer(document, sample);
-  MeshModel& mirror = add_mirror_layer(document, layer, sample.truth, mesh);
   document.setCurrentMesh(layer.id());
+  MeshModel& mirror = ResultLayers(document, layer, python_name()).add_mirror(sample.truth, mesh);
   Outcome outcome;
   for (const auto& [name, value] : sample.truth->numbers()) {
     outcome.log.push_back(name + ": " + to_string(value));

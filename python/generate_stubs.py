@@ -1,5 +1,5 @@
 """Writes the type stubs of what only exists at run time: the compiled module, and the functions
-made from the descriptions of the methods.
+made from the descriptions of methods and operations.
 
 Usage: generate_stubs.py BUILT STUBS. BUILT is the folder that holds the built package.
 """
@@ -11,43 +11,62 @@ import sys
 import textwrap
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import ModuleType
 
 import pybind11_stubgen
 
 
 def compiled_stub() -> str:
     with TemporaryDirectory() as folder:
-        pybind11_stubgen.main(["symsurf._core", "-o", folder, "--exit-code"])
-        return (Path(folder) / "symsurf" / "_core.pyi").read_text()
+        variable = ["--ignore-unresolved-names", "T"]  # a mesh's own type, for Mirror.reflect
+        pybind11_stubgen.main(["symsurf._core", "-o", folder, "--exit-code", *variable])
+        stub = (Path(folder) / "symsurf" / "_core.pyi").read_text()
+    return stub.replace("\n__all__", '\nT = typing.TypeVar("T")\n\n__all__', 1)
 
 
 def detectors_stub() -> str:
     from symsurf import detectors
 
-    functions = [getattr(detectors, name) for name in detectors.__all__]
-    lines = [
+    return _functions_stub(
+        detectors,
         "from numpy.typing import ArrayLike",
         "",
+        "from ._core import Cylinder, FreeForm, HeightField, Mirror, Plane, Quadric, Sphere",
         "from .detection import Progress",
         "from .result import Result",
+    )
+
+
+def operations_stub() -> str:
+    from symsurf.mirror_operations import functions
+
+    return _functions_stub(
+        functions,
+        "from numpy.typing import ArrayLike",
         "",
-        f"__all__ = {detectors.__all__}",
-    ]
-    for function in functions:
+        "from .._core import Mirror",
+        "from ..detection import Progress",
+        "from ..result import Result",
+        "from .results import *",
+    )
+
+
+def _functions_stub(module: ModuleType, *imports: str) -> str:
+    lines = [*imports, "", f"__all__ = {module.__all__}"]
+    for function in (getattr(module, name) for name in module.__all__):
         lines += ["", *_declaration(function.__name__, inspect.signature(function))]
         lines += textwrap.indent(f'"""{inspect.getdoc(function)}\n"""', "    ").splitlines()
     return "\n".join(lines) + "\n"
 
 
 def _declaration(name: str, signature: inspect.Signature) -> list[str]:
-    points, *keywords = signature.parameters.values()
-    return [
-        f"def {name}(",
-        f"    {points.name}: {points.annotation},",
-        "    *,",
-        *(f"    {word.name}: {word.annotation} = {word.default!r}," for word in keywords),
-        f") -> {signature.return_annotation}:",
-    ]
+    lines = [f"def {name}("]
+    for word in signature.parameters.values():
+        if word.kind is word.KEYWORD_ONLY and "    *," not in lines:
+            lines.append("    *,")
+        default = "" if word.default is word.empty else f" = {word.default!r}"
+        lines.append(f"    {word.name}: {word.annotation}{default},")
+    return [*lines, f") -> {signature.return_annotation}:"]
 
 
 def main(built: str, stubs: str) -> None:
@@ -56,6 +75,8 @@ def main(built: str, stubs: str) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "_core.pyi").write_text(compiled_stub())
     (folder / "detectors.pyi").write_text(detectors_stub())
+    (folder / "mirror_operations").mkdir(exist_ok=True)
+    (folder / "mirror_operations" / "functions.pyi").write_text(operations_stub())
 
 
 if __name__ == "__main__":

@@ -41,11 +41,14 @@ py::object as_doubles(const py::array& array, const std::string& what) {
 
 }  // namespace
 
+bool has_points(py::handle object) {
+  return !py::hasattr(object, "__array__") &&
+         (py::hasattr(object, "points") || py::hasattr(object, "vertices"));
+}
+
 py::object points_of(py::handle object) {
-  if (!py::hasattr(object, "__array__"))
-    for (const char* attribute : {"points", "vertices"})
-      if (py::hasattr(object, attribute)) return object.attr(attribute);
-  return py::reinterpret_borrow<py::object>(object);
+  if (!has_points(object)) return py::reinterpret_borrow<py::object>(object);
+  return object.attr(py::hasattr(object, "points") ? "points" : "vertices");
 }
 
 Rows rows_from(py::handle object, const char* what) {

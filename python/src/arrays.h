@@ -24,6 +24,9 @@ struct Rows {
 struct PointsArgument : Rows {};
 struct NormalsArgument : Rows {};
 
+/// Points that are no mesh or data set.
+struct BarePointsArgument : Rows {};
+
 struct VectorArgument {
   Vector3 vector;
 };
@@ -42,6 +45,9 @@ Rows rows_from(py::handle object, const char* what);
 
 /// Throws InvalidInput naming the shape given, unless that is three numbers.
 VectorArgument vector_from(py::handle object);
+
+/// Whether it has points or vertices, and is no array itself.
+bool has_points(py::handle object);
 
 /// The object's points: those of a data set (`.points`) or a mesh (`.vertices`), else the object.
 py::object points_of(py::handle object);
@@ -84,6 +90,16 @@ struct type_caster<symsurf::python::PointsArgument>
     : array_like_caster<symsurf::python::PointsArgument> {
   bool load(handle source, bool) {
     value = {symsurf::python::rows_from(symsurf::python::points_of(source), "points")};
+    return true;
+  }
+};
+
+template <>
+struct type_caster<symsurf::python::BarePointsArgument>
+    : array_like_caster<symsurf::python::BarePointsArgument> {
+  bool load(handle source, bool) {
+    if (symsurf::python::has_points(source)) return false;
+    value = {symsurf::python::rows_from(source, "points")};
     return true;
   }
 };

@@ -44,6 +44,14 @@ py::dict match_fields(const PointsArgument& points, const Mirror& mirror, double
       points);
 }
 
+double diagonal_of(const PointsArgument& points, const std::string& method_name,
+                   bool refuse_nonfinite) {
+  Options options;
+  options.method = method_name;
+  options.refuse_nonfinite = refuse_nonfinite;
+  return without_gil([&] { return diagonal(points, options); });
+}
+
 }  // namespace
 
 void bind_detection(py::module_& module) {
@@ -53,6 +61,9 @@ void bind_detection(py::module_& module) {
   module.def("match", &match_fields, py::arg("points"), py::arg("mirror"), py::arg("pair_distance"),
              py::arg("refuse_nonfinite"), py::arg("threads"), py::arg("progress"),
              "The fields of symsurf.Result.");
+  module.def("diagonal", &diagonal_of, py::arg("points"), py::arg("method"),
+             py::arg("refuse_nonfinite"),
+             "What detect takes parameters of the unit 'diagonal' as fractions of.");
 }
 
 }  // namespace symsurf::python

@@ -18,6 +18,8 @@ void bind_methods(py::module_& module) {
           "default", [](const Parameter& p) { return to_python(p.default_value); },
           "In the parameter's type; a direction or position of (0, 0, 0) means: not given.")
       .def_property_readonly("range", &Parameter::range, "What is allowed, as text.")
+      .def_property_readonly("allowed", &Parameter::allowed,
+                             "The range with its unit: '[0, 1] of the diagonal'.")
       .def_readonly("minimum", &Parameter::minimum, "Least value allowed; numbers only.")
       .def_readonly("maximum", &Parameter::maximum, "Greatest value allowed; numbers only.")
       .def_readonly("choices", &Parameter::choices, "What is allowed; choices only.")

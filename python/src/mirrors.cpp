@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 #include <symsurf/bend.h>
 #include <symsurf/cylinder.h>
 #include <symsurf/free_form.h>
@@ -21,6 +22,7 @@ namespace symsurf::python {
 
 namespace {
 
+using AnyMesh = py::typing::TypeVar<"T">;
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 // "Plane(normal=(0, 0, 1), offset=-2)": the class and the numbers that define the mirror.
@@ -56,6 +58,16 @@ py::tuple reduce(const Mirror& mirror) {
       py::make_tuple(std::string(mirror.kind()), to_python(mirror.numbers()), footprint(mirror)));
 }
 
+// Of mirrors that are equal the same: 0 and -0 are.
+py::ssize_t hash(const Mirror& mirror) {
+  const py::object rows = py::module_::import("numpy").attr("ravel");
+  py::list parts;
+  parts.append(std::string(mirror.kind()));
+  for (const auto& [name, value] : mirror.numbers())
+    parts.append(py::tuple(rows(to_python(value)).attr("tolist")()));
+  return py::hash(py::tuple(parts));
+}
+
 void bind_mirror(py::module_& module) {
   py::class_<Mirror, std::shared_ptr<Mirror>>(
       module, "Mirror",
@@ -67,10 +79,20 @@ void bind_mirror(py::module_& module) {
           "The numbers that define the mirror, by name.")
       .def(
           "reflect",
-          [](const Mirror& m, const PointsArgument& points) {
+          [](const Mirror& m, const BarePointsArgument& points) {
             return owned_array(m.reflect(PointsView(points)));
           },
           py::arg("points"), "The images of points (n, 3); NaN where a point has none.")
+      .def(
+          "reflect",
+          [](const py::object& self, const AnyMesh& mesh) -> AnyMesh {
+            return py::module_::import("symsurf.reflection").attr("reflected")(mesh, self);
+          },
+          py::arg("mesh"),
+          "The image of a Shape, a PyVista or a trimesh mesh: one of the same kind, its faces\n"
+          "turned round, so that what was outside is. Without normals, which would no longer fit.\n"
+          "Of another object with points or vertices their images (n, 3). Raises InvalidInput for\n"
+          "a data set whose cells are not all points, lines and flat faces.")
       .def(
           "project",
           [](const Mirror& m, const PointsArgument& points) {
@@ -84,12 +106,25 @@ void bind_mirror(py::module_& module) {
           },
           py::arg("points"),
           "Distances (n,) of points (n, 3) from their feet, signed by side; NaN without a foot.")
+      .def_property_readonly("footprint", &footprint,
+                             "Points (k, 3) that stand for the object in which the mirror was "
+                             "found; None for a mirror\n"
+                             "made by hand.")
       .def("mesh", &mesh, py::arg("points") = py::none(), py::arg("resolution") = 32,
            "Triangles over the part of the mirror that lies inside an object.\n\n"
            "points: the object (n, 3); without it, the one the mirror was found in.\n"
            "resolution: cells along the longer side.\n"
            "Returns vertices (v, 3) and triangles (t, 3). Raises InvalidInput for a mirror made\n"
            "by hand when no points are given, InvalidParameter for a resolution below 1.")
+      .def(
+          "__eq__",
+          [](const Mirror& m, const py::object& other) {
+            return py::isinstance<Mirror>(other) && m == other.cast<const Mirror&>();
+          },
+          py::arg("other"),
+          "Whether the kind and all numbers are the same, to the last bit; the objects that the\n"
+          "mirrors were found in may differ.")
+      .def("__hash__", &hash)
       .def("__reduce__", &reduce)
       .def("__repr__", &repr);
 }
@@ -126,7 +161,18 @@ void bind_mirrors(py::module_& module) {
            py::arg("normal"), py::arg("offset"))
       .def_property_readonly(
           "matrix", [](const Plane& p) { return owned_array(RowMajor4(p.matrix())); },
-          "The reflection (4, 4) on homogeneous columns (x, y, z, 1).");
+          "The reflection (4, 4) on homogeneous columns (x, y, z, 1).")
+      .def_property_readonly(
+          "origin", [](const Plane& p) { return owned_array(Vector3(p.origin())); },
+          "The plane's point (3,) closest to the origin of the coordinates.")
+      .def_property_readonly(
+          "axes",
+          [](const Plane& p) {
+            return owned_array(Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(p.axes()));
+          },
+          "A right-handed frame (3, 3), a unit vector a row: two within the plane, then the\n"
+          "normal. The first is orthogonal to the coordinate axis that the normal leans towards\n"
+          "least; of equal ones to the first.");
 
   bind_kind<Sphere>(
       module, "Sphere",

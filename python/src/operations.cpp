@@ -45,6 +45,7 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
     if (found != result.arrays.end()) arrays[py::str(array.name)] = typed(found->second, array);
   }
   py::dict fields;
+  fields["given"] = points.array;
   fields["points"] = owned_array(std::move(result.points));
   fields["faces"] = owned_array(std::move(result.faces));
   fields["point_sources"] = indices(result.point_sources);

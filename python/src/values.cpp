@@ -89,7 +89,7 @@ Values values_from(const py::dict& arguments, const std::vector<Parameter>& desc
                                    [&](const Parameter& p) { return p.name == name; });
       if (it != described.end())
         throw InvalidParameter(name + " is " + shown(object) + "; allowed is " +
-                               std::string(to_string(it->type)) + " " + it->range());
+                               std::string(to_string(it->type)) + " " + it->allowed());
       value = shown(object);  // the core refuses the name
     }
     values[name] = *std::move(value);

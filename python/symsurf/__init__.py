@@ -5,7 +5,7 @@
 >>> result.mirror, result.score, result.verdict
 """
 
-from . import detectors, metrics, synthetic
+from . import detectors, metrics, mirror_operations, synthetic
 from ._core import (
     Cancelled,
     Cylinder,
@@ -32,27 +32,13 @@ from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
-from .mirror_operations import (
-    Alignment,
-    Asymmetry,
-    Correspondences,
-    Straightened,
-    Symmetrized,
-    align,
-    asymmetry,
-    correspondences,
-    straighten,
-    symmetrize,
-)
+from .mirror_operations import *  # one for each in operations(), and what it gives
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape, read
 
 __all__ = [
-    "Alignment",
-    "Asymmetry",
     "Cancelled",
-    "Correspondences",
     "Cylinder",
     "FreeForm",
     "HeightField",
@@ -68,15 +54,10 @@ __all__ = [
     "Result",
     "Shape",
     "Sphere",
-    "Straightened",
     "SurfaceMirror",
-    "Symmetrized",
     "__version__",
-    "align",
-    "asymmetry",
     "batch",
     "bend",
-    "correspondences",
     "detect",
     "downsample",
     "estimate_normals",
@@ -87,8 +68,6 @@ __all__ = [
     "operations",
     "read",
     "straight_mirror",
-    "straighten",
-    "symmetrize",
     "synthetic",
 ]
-__all__ += detectors.__all__
+__all__ += detectors.__all__ + mirror_operations.__all__

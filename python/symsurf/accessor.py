@@ -15,10 +15,12 @@ from typing import Any
 
 import numpy as np
 import pyvista
+from numpy.typing import NDArray
 
 from . import mirror_operations
 from ._core import InvalidInput
 from .detection import detect
+from .mirror_operations import OperationResult
 from .result import Result
 
 __all__ = ["Symmetry"]
@@ -65,6 +67,19 @@ class Symmetry:
         """A copy turned by ``symsurf.align``; ``field_data["matrix"]`` has the turn."""
         return self._operated("align", options)
 
+    def complete(self, **options: Any) -> pyvista.PolyData:
+        """The surface of triangles, or the points, with what ``symsurf.complete`` adds: the point
+        array "origin" says which is which. What is added has the attributes that its counterpart
+        has."""
+        result = self._result("complete", options)
+        made = result.shape.to_pyvista()
+        _carry(self._mesh.point_data, made.point_data, result.sources)
+        if result.given.faces is not None:
+            triangles = self._mesh.triangulate()
+            if triangles.n_cells == len(result.given.faces):  # neither lines nor vertices beside
+                _carry(triangles.cell_data, made.cell_data, result.face_sources)
+        return _with_arrays(made, result)
+
     def symmetrize(self, **options: Any) -> pyvista.DataSet:
         """A copy made symmetric by ``symsurf.symmetrize``."""
         return self._operated("symmetrize", options)
@@ -74,16 +89,32 @@ class Symmetry:
         return self._operated("straighten", options)
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
+        result = self._result(name, options)
+        made = self._mesh.copy()
+        made.points = result.shape.points
+        return _with_arrays(made, result)
+
+    def _result(self, name: str, options: dict[str, Any]) -> Any:
         if isinstance(self._mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
             raise InvalidInput(
                 f"{name} takes points that it may move; {type(self._mesh).__name__} has none: give a "
                 "surface of it, such as contour()"
             )
-        result = getattr(mirror_operations, name)(self._mesh, self.result, **options)
-        made = self._mesh.copy()
-        made.points = result.shape.points
-        for array, values in result.arrays.items():
-            made.point_data[array] = values
-        for figure, value in result.statistics.items():
-            made.field_data[figure] = np.atleast_1d(value)
-        return made
+        return getattr(mirror_operations, name)(self._mesh, self.result, **options)
+
+
+def _with_arrays(made: pyvista.DataSet, result: OperationResult) -> pyvista.DataSet:
+    for array, values in result.arrays.items():
+        made.point_data[array] = values
+    for figure, value in result.statistics.items():
+        made.field_data[figure] = np.atleast_1d(value)
+    return made
+
+
+def _carry(
+    before: pyvista.DataSetAttributes, after: pyvista.DataSetAttributes, sources: NDArray[np.int64]
+) -> None:
+    """Gives each row the attributes of its source; normals, which would be wrong, to none."""
+    for name, values in before.items():
+        if name != before.active_normals_name:
+            after[name] = np.asarray(values)[sources]

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .inputs import as_input, refuses, warn_of_nonfinite
+from .lengths import as_fractions
 from .result import Result
 
 Progress = Callable[[float], "bool | None"]
@@ -23,11 +24,12 @@ def detect(
     nonfinite: str = "skip",
     threshold: float | None = None,
     scalars: str | None = None,
+    absolute: bool = False,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
-) -> Result:
+) -> Result[_core.Mirror]:
     """Finds the mirror of a point set, a mesh or a mask.
 
     Args:
@@ -49,6 +51,9 @@ def detect(
         threshold: of a grid, the number that the scalars of the points to take are above. A mask of
             booleans or of two whole numbers needs none.
         scalars: the name of the grid's scalars; without it the active ones.
+        absolute: True: parameters that are lengths (those of the unit "diagonal") are in input
+            units, in place of fractions of the diagonal of the bounding box. ``Result.parameters``
+            has them as fractions.
         seed: of the methods that draw at random; [0, 2^64).
         threads: 0 means as many as the machine has. The result does not depend on it.
         progress: called with the fraction done, on this thread; returning False cancels.
@@ -67,6 +72,11 @@ def detect(
     refuse = refuses(nonfinite)
     shape = as_input(points, faces, threshold, scalars)
     used = shape.faces if use_faces else None
+    if absolute and method in _core.methods():
+        described = _core.methods()[method].parameters
+        parameters = as_fractions(
+            parameters, described, lambda: _core.diagonal(shape.points, method, refuse)
+        )
     fields = _core.detect(
         shape.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
@@ -80,9 +90,10 @@ def match(
     pair_distance: float = 0.05,
     *,
     nonfinite: str = "skip",
+    absolute: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
-) -> Result:
+) -> Result[_core.Mirror]:
     """Pairs every point with the input point nearest to its image over a known mirror.
 
     How a mirror found elsewhere, or one of ``Result.candidates``, fits a point set. Points far off
@@ -92,6 +103,7 @@ def match(
         points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
+        absolute: True: ``pair_distance`` is in input units.
         nonfinite, threads, progress: as for ``detect``.
 
     Returns:
@@ -105,6 +117,8 @@ def match(
         raise _core.InvalidInput(f"mirror is of type {type(mirror).__name__}; allowed is a Mirror")
     refuse = refuses(nonfinite)
     shape = as_input(points)
+    if absolute:
+        pair_distance /= _core.diagonal(shape.points, "auto", refuse)
     fields = _core.match(shape.points, mirror, pair_distance, refuse, threads, progress)
     warn_of_nonfinite(fields["statistics"])
     return Result.from_fields(fields | {"mirror": mirror, "faces": shape.faces})

@@ -7,19 +7,10 @@ import textwrap
 from collections.abc import Callable
 from typing import Any
 
-from ._core import Method, Parameter, methods
-from .descriptions import allowed
+from ._core import Method, methods
+from .descriptions import argument_text, keyword, name_function, parameter_texts
 from .detection import detect
 from .result import Result
-
-_TYPES = {
-    "boolean": "bool",
-    "integer": "int",
-    "real": "float",
-    "choice": "str",
-    "direction": "ArrayLike",
-    "position": "ArrayLike",
-}
 
 # What every detector takes beside its method's parameters.
 _OPTIONS = {
@@ -28,55 +19,44 @@ _OPTIONS = {
     if parameter.kind is inspect.Parameter.KEYWORD_ONLY
 }
 
-
-def _keyword(parameter: Parameter) -> inspect.Parameter:
-    default = parameter.default
-    if parameter.type in ("direction", "position"):
-        default = tuple(default.tolist())
-    return inspect.Parameter(
-        parameter.name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=default,
-        annotation=_TYPES[parameter.type],
-    )
+# The class of the mirrors that a method finds, where that is always the same.
+_MIRRORS = {
+    "plane": "Plane",
+    "sphere": "Sphere",
+    "cylinder": "Cylinder",
+    "quadric": "Quadric",
+    "fixed_direction": "HeightField",
+    "perpendicular": "FreeForm",
+    "sphere_thesis": "Sphere",
+}
 
 
 def _signature(method: Method) -> inspect.Signature:
     points = inspect.signature(detect).parameters["points"]
-    own = [_keyword(parameter) for parameter in method.parameters]
-    return inspect.Signature([points, *own, *_OPTIONS.values()], return_annotation="Result")
+    own = [keyword(parameter) for parameter in method.parameters]
+    found = f"Result[{_MIRRORS.get(method.name, 'Mirror')}]"
+    return inspect.Signature([points, *own, *_OPTIONS.values()], return_annotation=found)
 
 
-def _paragraph(text: str, indent: int = 0) -> str:
-    first = " " * indent
-    return textwrap.fill(text, 96, initial_indent=first, subsequent_indent=first + "    ")
-
-
-def _docstring(method: Method) -> str:
-    lines = [textwrap.fill(method.summary, 96), "", "Args:"]
+def _documentation(method: Method) -> list[str]:
     least = f"at least {method.minimum_points} finite points"
-    lines.append(f"    points: {least}, or a mesh, as ``detect`` takes them.")
-    for parameter in method.parameters:
-        text = f"{parameter.name}: {parameter.doc} Allowed: {allowed(parameter)}."
-        lines.append(_paragraph(text, 4))
-    lines.append(_paragraph(f"{', '.join(_OPTIONS)}: as for ``detect``.", 4))
-    return "\n".join(lines)
+    return [
+        textwrap.fill(method.summary, 96),
+        "",
+        "Args:",
+        f"    points: {least}, or a mesh, as ``detect`` takes them.",
+        *parameter_texts(method.parameters),
+        argument_text(f"{', '.join(_OPTIONS)}: as for ``detect``."),
+    ]
 
 
 def _detector(method: Method) -> Callable[..., Result]:
-    signature = _signature(method)
-
     def detector(points: Any, **options: Any) -> Result:
         return detect(points, method.name, **options)
 
-    detector.__name__ = detector.__qualname__ = f"detect_{method.name}"
-    detector.__module__ = __name__
-    detector.__doc__ = _docstring(method)
-    detector.__signature__ = signature  # type: ignore[attr-defined]
-    detector.__annotations__ = {
-        name: parameter.annotation for name, parameter in signature.parameters.items()
-    } | {"return": signature.return_annotation}
-    return detector
+    return name_function(
+        detector, f"detect_{method.name}", __name__, _signature(method), _documentation(method)
+    )
 
 
 __all__ = [f"detect_{name}" for name in methods()]

@@ -7,12 +7,23 @@ from typing import Any
 import numpy as np
 import pyvista
 from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkReverseSense
 
 from ._core import InvalidInput, InvalidParameter
 
 _FLAT_CELLS = {
     int(kind)
     for kind in (pyvista.CellType.TRIANGLE, pyvista.CellType.QUAD, pyvista.CellType.POLYGON)
+}
+_THIN_CELLS = {
+    int(kind)
+    for kind in (
+        pyvista.CellType.VERTEX,
+        pyvista.CellType.POLY_VERTEX,
+        pyvista.CellType.LINE,
+        pyvista.CellType.POLY_LINE,
+    )
 }
 
 
@@ -32,6 +43,84 @@ def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     if mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
         return None
     return np.asarray(mesh.triangulate().regular_faces).astype(np.int64)
+
+
+def shape_of(
+    mesh: pyvista.DataSet,
+) -> tuple[NDArray[np.float64], NDArray[np.int64] | None, NDArray[np.float64] | None]:
+    """Points, triangles and point normals of a data set; None for those that it has not."""
+    if not isinstance(mesh, pyvista.DataSet):
+        raise InvalidInput(
+            f"mesh is of type {type(mesh).__name__}; allowed is a data set of PyVista"
+        )
+    normals = mesh.point_data.active_normals
+    return (
+        np.array(mesh.points, dtype=np.float64),
+        faces_of(mesh),
+        None if normals is None else np.array(normals, dtype=np.float64),
+    )
+
+
+def poly_data(
+    points: NDArray[np.float64],
+    faces: NDArray[np.int64] | None,
+    normals: NDArray[np.float64] | None = None,
+) -> pyvista.PolyData:
+    """A mesh of triangles, or of vertices where there are none."""
+    if faces is None or not len(faces):
+        mesh = pyvista.PolyData(np.array(points))
+    else:
+        mesh = pyvista.PolyData.from_regular_faces(np.array(points), faces)
+    if normals is not None:
+        mesh.point_data.active_normals = np.array(normals)
+    return mesh
+
+
+def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyvista.DataSet:
+    """A copy at these points, without normals, the corners of each face the other way round.
+
+    Raises InvalidInput for a data set with other cells than points, lines and flat faces.
+    """
+    if isinstance(mesh, pyvista.PolyData):
+        reverse = vtkReverseSense()
+        # A strip of an even number of triangles is wound alike from both ends.
+        reverse.SetInputData(mesh.triangulate() if mesh.n_strips else mesh)
+        reverse.ReverseCellsOn()
+        reverse.ReverseNormalsOff()
+        reverse.Update()
+        made = pyvista.wrap(reverse.GetOutput())
+    elif isinstance(mesh, pyvista.UnstructuredGrid) and _is_flat(mesh):
+        made = pyvista.UnstructuredGrid(
+            _backwards(mesh.cells, vtk_to_numpy(mesh.GetCells().GetOffsetsArray())),
+            mesh.celltypes,
+            np.asarray(mesh.points),
+        )
+        made.copy_attributes(mesh)
+    else:
+        raise InvalidInput(
+            f"the cells of this {type(mesh).__name__} cannot be turned round; give a surface of it, "
+            "such as extract_surface()"
+        )
+    made.points = points
+    for data in (made.point_data, made.cell_data):
+        if data.active_normals_name is not None:
+            del data[data.active_normals_name]
+    return made
+
+
+def _is_flat(grid: pyvista.UnstructuredGrid) -> bool:
+    return set(np.unique(grid.celltypes).tolist()) <= _FLAT_CELLS | _THIN_CELLS
+
+
+def _backwards(cells: NDArray[np.int64], offset: NDArray[np.int64]) -> NDArray[np.int64]:
+    """VTK's list of cells, each its number of corners and these, with the corners backwards."""
+    sizes = np.diff(offset)
+    first = offset[:-1] + np.arange(len(sizes)) + 1  # behind the number of corners
+    rows = np.repeat(2 * first + sizes - 1, sizes)
+    corners = np.delete(np.arange(len(cells)), first - 1)
+    turned = np.array(cells)
+    turned[corners] = cells[rows - corners]
+    return turned
 
 
 def is_grid(data: pyvista.DataSet) -> bool:

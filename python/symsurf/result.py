@@ -3,29 +3,40 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import Mirror
+from .summary import Summarised, percent
 
 if TYPE_CHECKING:
     from pyvista import Plotter
+    from typing_extensions import TypeVar  # where ``Result`` alone is one of any mirror
 
     from .shape import Shape
 
+    Kind_co = TypeVar("Kind_co", bound=Mirror, default=Mirror, covariant=True)
+else:
+    from typing import TypeVar
+
+    Kind_co = TypeVar("Kind_co", bound=Mirror, covariant=True)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result:
-    """What a detection found. No symmetry is a result too: one with a low score."""
+class Result(Summarised, Generic[Kind_co]):
+    """What a detection found. No symmetry is a result too: one with a low score.
+
+    ``detect_plane`` gives a ``Result[Plane]``, and so on.
+    """
 
     method: str
     """The method that found it."""
-    mirror: Mirror | None
-    """None where none is found, and for methods that find surface points only."""
+    mirror: Kind_co | Any
+    """A ``Mirror``; None where none is found, and for methods that find surface points only."""
     surface_points: NDArray[np.float64]
     """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
     ``quadric`` and ``fixed_direction`` project them onto it. Input units."""
@@ -35,7 +46,7 @@ class Result:
     """(m,) distances from the image to the partner; input units."""
     score: float
     """0: no symmetry, 1: exact. The share of the shape that the mirror maps onto it."""
-    candidates: list[Result]
+    candidates: list[Result[Kind_co]]
     """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
     theirs."""
     parameters: dict[str, Any]
@@ -46,9 +57,9 @@ class Result:
     "surface_samples": how many points were added on the faces. "boundary_points" of a volumetric
     cloud, where the mirror and the score are those of its boundary: how many it has."""
     seconds: float
-    points: NDArray[np.float64] | None = None
+    points: NDArray[np.float64] | Any = None
     """(n, 3) the input: the caller's own array where it could be read in place. Of a grid the points
-    that were chosen, which ``pairs`` are indices into."""
+    that were chosen, which ``pairs`` are indices into. None of a candidate and of what ``load`` has read."""
     faces: NDArray[np.int64] | None = None
     """(m, 3) the triangles between them; None for a bare cloud."""
 
@@ -71,7 +82,7 @@ class Result:
         words["score"] = f"{self.score:.3f}"
         if self.points is not None:
             count, paired = len(self.points), len(self.pairs)
-            words["paired"] = f"{_percent(paired, count)} of {count} points"
+            words["paired"] = f"{percent(paired / count if count else 0)} of {count} points"
         if len(self.residuals):
             words["median residual"] = f"{np.median(self.residuals):.3g}"
         words["method"] = self.method
@@ -80,16 +91,6 @@ class Result:
     def __repr__(self) -> str:
         words = [f"{name}: {text}" for name, text in self.summary.items() if name != "reason"]
         return f"Result({', '.join(words)})"
-
-    def __str__(self) -> str:
-        return "\n".join(f"{name:<16} {text}" for name, text in self.summary.items())
-
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>"
-            for name, text in self.summary.items()
-        )
-        return f"<table>{rows}</table>"
 
     @classmethod
     def from_fields(cls, fields: dict[str, Any]) -> Result:
@@ -100,7 +101,8 @@ class Result:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the result, in the format of the suffix.
 
-        ``.json``: everything but ``points``; of a candidate its method, mirror and score. ``.vtp``:
+        ``.json``: everything but ``points`` and ``faces``, for ``load``; of a candidate its method,
+        mirror and score. ``.vtp``:
         mirror, surface points, pairs and residuals for VTK and ParaView. ``.ply``: surface points
         with residuals as quality. ``.txt``: comment lines starting with ``#``, then the surface
         points, x,y,z a line; a sphere as its centre, then its radius.
@@ -112,12 +114,26 @@ class Result:
 
         save(self, path)
 
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Result[Mirror]:
+        """What ``save`` has written as ``.json``, to the last digit, without ``points`` and ``faces``.
+
+        Raises InvalidParameter for another suffix, InvalidInput, naming the file, for one that is
+        missing, broken or no result.
+        """
+        from .saving.json_loading import load
+
+        return load(path)
+
     def plot(
         self,
         path: str | os.PathLike[str] | None = None,
         *,
         shape: Shape | None = None,
         points: ArrayLike | None = None,
+        clim: float | None = None,
+        camera: Sequence[float] | Any = None,
+        score: bool = True,
     ) -> Plotter:
         """Draws the object coloured by residual, its mirror translucent, and the verdict above;
         needs PyVista.
@@ -126,13 +142,12 @@ class Result:
             path: a PNG to write off-screen, whole or not at all; without it a window opens.
             shape: another object with as many points, with its faces.
             points: its points (n, 3) alone; without both, the points and faces of the detection.
+            clim: the residual, above 0 and in % of the diagonal, that the colours end at; without
+                it what 98 % of the residuals stay below, at least 0.1.
+            camera: a direction (3,) to look from, so that all is seen, or what PyVista takes for
+                ``Plotter.camera_position``, such as "xy"; without it across the mirror, from above.
+            score: False: without verdict and score above.
         """
         from .plotting import plot
 
-        return plot(self, path, shape=shape, points=points)
-
-
-def _percent(part: int, whole: int) -> str:
-    """Never 100 % of less than all."""
-    share = np.floor(1000 * part / whole) / 10 if whole else 0.0
-    return f"{share:g} %"
+        return plot(self, path, shape=shape, points=points, clim=clim, camera=camera, score=score)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
 from ._core import InvalidInput
+
+if TYPE_CHECKING:
+    import pyvista
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +31,23 @@ class Shape:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"
         normals = "no normals" if self.normals is None else "normals"
         return f"Shape({len(self.points)} points, {faces}, {normals})"
+
+    @classmethod
+    def from_pyvista(cls, mesh: pyvista.DataSet) -> Shape:
+        """The points of a data set, the faces of its flat cells as triangles, its point normals.
+
+        Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
+        """
+        from .grids import shape_of
+
+        return cls(*shape_of(mesh))
+
+    def to_pyvista(self) -> pyvista.PolyData:
+        """The faces, or the points of a bare cloud as vertices, in double precision; the normals are
+        the active ones. ``from_pyvista`` makes the same shape of it. Needs PyVista."""
+        from .grids import poly_data
+
+        return poly_data(self.points, self.faces, self.normals)
 
 
 def read(path: str | os.PathLike[str]) -> Shape:

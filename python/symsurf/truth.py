@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ._core import InvalidInput, Mirror, make_mirror
 from .saving import write_whole
 from .saving.json_format import mirror_record
+from .saving.json_loading import mirror_from
 from .saving.points_format import write_points
 
 
@@ -58,16 +59,10 @@ def read_truth(path: Path) -> Truth:
     """Raises InvalidInput, naming the file, for one that is missing or broken."""
     try:
         record = json.loads(path.read_text())
-        numbers = {name: _value(value) for name, value in record["mirror"].items()}
-        kind = numbers.pop("kind")
         pairs = np.array(record["pairs"], dtype=np.int64).reshape(-1, 2)
-        return Truth(make_mirror(kind, numbers), pairs)
+        return Truth(mirror_from(record["mirror"]), pairs)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InvalidInput(f"{path}: not the truth of a sample ({error})") from error
-
-
-def _value(value: Any) -> Any:
-    return np.array(value, dtype=float) if isinstance(value, list) else value
 
 
 def _rotated(mirror: Mirror, rotation: NDArray[np.float64]) -> Mirror:

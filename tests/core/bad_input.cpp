@@ -119,7 +119,7 @@ TEST(BadInput, UnknownMethodOrParameter) {
   expect_error<InvalidParameter>("there is no method 'plan'",
                                  [&] { detect(points, {.method = "plan"}); });
   for (const Method& method : methods()) {
-    const std::string error = "method '" + method.name + "' has no parameter 'colour'; it has";
+    const std::string error = "'" + method.name + "' has no parameter 'colour'; it has";
     expect_error<InvalidParameter>(error, [&] {
       detect(points, {.method = method.name, .parameters = {{"colour", 1.0}}});
     });

@@ -44,16 +44,16 @@ TEST(Parameter, RefusesTheRestNamingItselfTheValueAndTheRange) {
   };
   const Case cases[] = {
       {boolean, Index{1}, "closed is 1; allowed is boolean true | false"},
-      {integer, Index{0}, "count is 0; allowed is integer [1, 100]"},
-      {integer, Index{101}, "count is 101; allowed is integer [1, 100]"},
-      {integer, 5.0, "count is 5; allowed is integer [1, 100]"},
+      {integer, Index{0}, "count is 0; allowed is integer [1, 100] points"},
+      {integer, Index{101}, "count is 101; allowed is integer [1, 100] points"},
+      {integer, 5.0, "count is 5; allowed is integer [1, 100] points"},
       {real, -0.1, "share is -0.1; allowed is real [0, 1]"},
       {real, 1.1, "share is 1.1; allowed is real [0, 1]"},
       {real, Index{2}, "share is 2; allowed is real [0, 1]"},
       {real, nan, "share is nan; allowed is real [0, 1]"},
       {real, std::string("half"), "share is half; allowed is real [0, 1]"},
       {real, true, "share is true; allowed is real [0, 1]"},
-      {open, -1.0, "length is -1; allowed is real [0, inf)"},
+      {open, -1.0, "length is -1; allowed is real [0, inf) of the diagonal"},
       {choice, std::string("guess"), "kind is guess; allowed is choice regression | pca"},
       {choice, Index{0}, "kind is 0; allowed is choice regression | pca"},
       {direction, 1.0, "axis is 1; allowed is direction 3 finite numbers"},
@@ -81,11 +81,11 @@ TEST(ParameterValues, AreTheDefaultsButForWhatIsGiven) {
 }
 
 TEST(ParameterValues, RefuseNamesThereAreNotListingThoseThereAre) {
-  expect_error<InvalidParameter>("method 'test' has no parameter 'counts'; it has count, share",
+  expect_error<InvalidParameter>("'test' has no parameter 'counts'; it has count, share",
                                  [] {
                                    ParameterValues("test", {integer, real}, {{"counts", Index{7}}});
                                  });
-  expect_error<InvalidParameter>("method 'test' has no parameter 'count'; it has none", [] {
+  expect_error<InvalidParameter>("'test' has no parameter 'count'; it has none", [] {
     ParameterValues("test", {}, {{"count", Index{7}}});
   });
   expect_error<InvalidParameter>("count is 0", [] {

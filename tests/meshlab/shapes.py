@@ -74,5 +74,13 @@ def lump_cloud(seed: int = 0) -> Shape:
     return shape
 
 
+def box(seed: int) -> Shape:
+    """A box of three lengths, with a plane of symmetry along each: the first is the shape's."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)], float)
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = [face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))]
+    return Shape(corners, np.array(faces), seed)
+
+
 SHAPES = {"cloud": cloud, "mesh": mesh}
 SURFACES = {"cloud": lump_cloud, "mesh": lump}

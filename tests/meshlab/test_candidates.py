@@ -5,17 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
-from shapes import Shape
+from shapes import Shape, box
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
-
-CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)], float)
-SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-FACES = np.array([face for a, b, c, d in SIDES for face in ((a, b, c), (a, c, d))])
-
-
-def box(seed: int) -> Shape:
-    return Shape(CORNERS, FACES, seed)
 
 
 def prism(seed: int, sides: int) -> Shape:
@@ -81,6 +73,7 @@ def test_the_layer_can_be_reflected_over_a_candidate():
         chosen = {} if layer is None else {"mirror_layer": layer}
         reflected = mesh_set.apply_filter("apply_mirror_reflection", **chosen)["reflection_layer"]
         points = mesh_set[reflected].vertex_matrix()
+        mesh_set.set_current_mesh(0)
         assert np.allclose(points, over.reflect(shape.points), rtol=0, atol=1e-9)
 
 

@@ -49,7 +49,7 @@ def test_errors_are_symsurfs() -> None:
         pyvista.Line(resolution=1).symmetry.detect("plane")
 
 
-@pytest.mark.parametrize("name", symsurf.operations())
+@pytest.mark.parametrize("name", sorted(set(symsurf.operations()) - {"complete"}))
 def test_operations_give_meshes_with_arrays(name: str) -> None:
     mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
     mesh["height"] = mesh.points[:, 2]

@@ -23,6 +23,7 @@ OPTIONS = [
     "nonfinite",
     "threshold",
     "scalars",
+    "absolute",
     "seed",
     "threads",
     "progress",

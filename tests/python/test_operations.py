@@ -1,7 +1,10 @@
 """What is done with a mirror, from Python."""
 
+import ast
 import dataclasses
+import inspect
 import json
+from importlib import resources
 
 import numpy as np
 import pytest
@@ -14,9 +17,11 @@ RESULTS = {
     "asymmetry": symsurf.Asymmetry,
     "correspondences": symsurf.Correspondences,
     "align": symsurf.Alignment,
+    "complete": symsurf.Completed,
     "symmetrize": symsurf.Symmetrized,
     "straighten": symsurf.Straightened,
 }
+RESULTS = {name: RESULTS[name] for name in symsurf.operations()}
 PLANE = symsurf.Plane((1, 0, 0), 0)
 
 
@@ -31,13 +36,32 @@ def ball():
     return symsurf.Shape(points * (1 - depth)[:, None], mesh.regular_faces), depth
 
 
-def test_each_has_a_function_and_a_result_as_described():
-    assert list(symsurf.operations()) == list(RESULTS)
-    for name, operation in symsurf.operations().items():
-        assert operation.summary and operation.title
-        fields = {each.name for each in dataclasses.fields(RESULTS[name])}
-        assert {array.name for array in operation.arrays} <= fields
-        assert getattr(symsurf, name).__doc__
+@pytest.mark.parametrize("name", RESULTS)
+def test_each_has_a_function_and_a_result_as_described(name):
+    operation, function = symsurf.operations()[name], getattr(symsurf, name)
+    assert operation.summary and operation.title
+    fields = {each.name for each in dataclasses.fields(RESULTS[name])}
+    assert {array.name for array in operation.arrays} <= fields
+    assert RESULTS[name].operation == name
+    shown = inspect.signature(function).parameters
+    assert list(shown)[:2] == ["shape", "result"]
+    assert ("mask" in shown) == operation.takes_mask
+    documentation = " ".join(function.__doc__.split())
+    assert operation.summary in documentation
+    for parameter in operation.parameters:
+        default = shown[parameter.name].default
+        np.testing.assert_array_equal(default, parameter.default)
+        sentence = f"{parameter.name}: {parameter.doc} Allowed: {parameter.allowed}."
+        assert sentence in documentation
+    assert all(f"{word}:" in documentation or f"{word}," in documentation for word in shown)
+    stubs = ast.parse(str_of("mirror_operations/functions.pyi"))
+    (stub,) = (node for node in stubs.body if getattr(node, "name", "") == name)
+    assert [each.arg for each in stub.args.args + stub.args.kwonlyargs] == list(shown)
+    assert ast.unparse(stub.returns) == RESULTS[name].__name__
+
+
+def str_of(file):
+    return (resources.files("symsurf") / file).read_text()
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -134,6 +158,63 @@ def test_a_mask_must_fit(ball):
     for mask in (np.ones(3), np.ones((len(depth), 2)), 2 * np.ones(len(depth)), "all"):
         with pytest.raises(symsurf.InvalidInput, match="mask"):
             symsurf.symmetrize(shape, PLANE, mask=mask)
+
+
+def test_a_mirror_in_another_unit_is_named(ball):
+    shape, _ = ball
+    placed = symsurf.Shape(shape.points + (50, 0, 0), shape.faces)
+    mirror = symsurf.Plane((1, 0, 0), -50)
+    in_millimetres = symsurf.Shape(1000 * placed.points, shape.faces)
+    for name in RESULTS:
+        getattr(symsurf, name)(placed, mirror)
+        with pytest.raises(symsurf.InvalidInput, match="diagonals away .* unit"):
+            getattr(symsurf, name)(in_millimetres, mirror)
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_what_it_says_of_itself(name, ball):
+    shape, _ = ball
+    result = getattr(symsurf, name)(shape, PLANE)
+    assert repr(result).startswith(f"{RESULTS[name].__name__}(Shape({len(result.shape.points)} ")
+    text, table = str(result), result._repr_html_()
+    for each in ("operation", name, "plane", *result.summary, *result.summary.values()):
+        assert each.split("\n")[0] in text
+    assert table.count("<tr>") == len(result.summary)
+    for figure in result.statistics:
+        assert figure.removesuffix("_of_diagonal").replace("_", " ") in text
+
+
+def test_lengths_are_told_with_their_share(ball):
+    shape, _ = ball
+    result = symsurf.asymmetry(shape, PLANE)
+    share = 100 * result.statistics["rms_of_diagonal"]
+    assert f"({share:.3g} % of the diagonal)" in result.summary["rms"]
+
+
+@pytest.mark.parametrize("name", RESULTS)
+@pytest.mark.parametrize("is_mesh", [True, False], ids=["mesh", "cloud"])
+def test_tables_have_a_row_a_point(name, is_mesh, ball, tmp_path):
+    shape, _ = ball
+    result = getattr(symsurf, name)(shape if is_mesh else shape.points, PLANE)
+    result.save(tmp_path / "table.npy")
+    rows = np.load(tmp_path / "table.npy")
+    assert list(rows.dtype.names or ()) == list(result.arrays)
+    result.save(tmp_path / "table.csv")
+    first, *lines = (tmp_path / "table.csv").read_text().splitlines()
+    result.save(tmp_path / "table.json")
+    record = json.loads((tmp_path / "table.json").read_text())
+    assert record["operation"] == name and record["mirror"]["kind"] == "plane"
+    assert set(record["statistics"]) == set(result.statistics)
+    if not result.arrays:
+        assert not lines
+        return
+    table = np.array([line.split(",") for line in lines], float)
+    columns = [each.reshape(len(table), -1) for each in result.arrays.values()]
+    np.testing.assert_array_equal(table, np.hstack(columns).astype(float))
+    assert len(first.split(",")) == table.shape[1]
+    for array, values in result.arrays.items():
+        np.testing.assert_array_equal(rows[array], values)
+        np.testing.assert_array_equal(np.array(record["arrays"][array], values.dtype), values)
 
 
 def test_a_shape_without_a_mirror_is_an_error_that_says_why():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -153,3 +154,102 @@ def test_without_pyvista(result, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(ImportError, match=r"symsurf\[plot\]"):
         result.plot("never.png")
+
+
+def share_of(picture, colour, near=40):
+    """How much of the picture has about that hue: light changes the brightness."""
+    unit = np.array(colour) / np.linalg.norm(colour)
+    lengths = np.linalg.norm(picture, axis=1)
+    alike = (picture @ unit) > np.cos(np.radians(8)) * lengths
+    return (alike & (lengths > near) & (np.ptp(picture, axis=1) > 25)).mean()
+
+
+def test_the_end_of_the_colours(result, tmp_path):
+    """Residuals of one percent are dark where the colours end there, light where they go further."""
+    noisy = result.points + 0.02 * np.random.default_rng(0).normal(size=result.points.shape)
+    shown = symsurf.match(noisy, result.mirror)
+    darkness = []
+    for clim in (0.5, 50):
+        shown.plot(tmp_path / "noisy.png", clim=clim)
+        picture = pixels(tmp_path / "noisy.png")
+        picture = picture[(picture != BACKGROUND).any(axis=1)]
+        darkness.append((picture[:, 1] < 100).mean())
+    assert darkness[0] > darkness[1] + 0.05
+
+
+def test_the_camera_and_no_score(result, tmp_path):
+    views = {"default": None, "direction": (1, 0, 0), "other": (0, 1, 0), "name": "xy"}
+    pictures = {}
+    for name, camera in views.items():
+        result.plot(tmp_path / "view.png", camera=camera, score=False)
+        pictures[name] = pixels(tmp_path / "view.png")
+        top = pictures[name].reshape(900, 1200, 3)[:30]
+        assert (top == BACKGROUND).all()
+        assert (pictures[name] != BACKGROUND).any(axis=1).mean() > 0.05
+    for one, other in pairwise(pictures):
+        assert (pictures[one] != pictures[other]).any(axis=1).mean() > 0.02
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"clim": 0}, "clim is 0; allowed is a number"),
+        ({"clim": "1"}, "clim is '1'"),
+        ({"camera": (0, 0, 0)}, "camera is .0, 0, 0"),
+        ({"camera": "from above"}, "camera is 'from above'"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(result, options, says, tmp_path):
+    pytest.importorskip("pyvista")
+    with pytest.raises(symsurf.InvalidParameter, match=says):
+        result.plot(tmp_path / "never.png", **options)
+    with pytest.raises(symsurf.InvalidParameter, match=says):
+        symsurf.align(result.points, result).plot(tmp_path / "never.png", **options)
+    assert not (tmp_path / "never.png").exists()
+
+
+@pytest.mark.parametrize("name", symsurf.operations())
+@pytest.mark.parametrize("is_mesh", [True, False], ids=["mesh", "cloud"])
+def test_pictures_of_operations(name, is_mesh, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Icosphere(radius=1, nsub=4)
+    points = np.array(mesh.points, dtype=float) * (0.8, 1, 1.3)
+    shape = symsurf.Shape(points, mesh.regular_faces if is_mesh else None)
+    made = getattr(symsurf, name)(shape, symsurf.Plane((1, 0, 0), 0))
+    made.plot(tmp_path / "picture.png", camera=(1, -1, 0.5))
+    picture = pixels(tmp_path / "picture.png")
+    assert 0.1 < (picture != BACKGROUND).any(axis=1).mean() < 0.9
+    assert bluish(picture) > 0.01
+    edges = picture.reshape(900, 1200, 3)
+    assert (edges[:, [0, -1]] == BACKGROUND).all()
+
+
+def test_asymmetry_is_red_and_blue_alike(tmp_path):
+    """A dent is red where it is, and blue on the other side; seen along the mirror, as large."""
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Icosphere(radius=1, nsub=5)
+    points = np.array(mesh.points, dtype=float)
+    away = np.linalg.norm(points - (0.6, -0.8, 0), axis=1) / 0.4
+    dented = points * (1 - 0.05 * np.exp(-(away**2)))[:, None]
+    for shape in (dented, dented * (-1, 1, 1)):
+        asymmetry = symsurf.asymmetry(shape, symsurf.Plane((1, 0, 0), 0), faces=mesh.regular_faces)
+        asymmetry.plot(tmp_path / "dent.png", camera=(0, -1, 0))
+        picture = pixels(tmp_path / "dent.png").reshape(900, 1200, 3)[100:780]
+        sides = [half.reshape(-1, 3) for half in np.split(picture, 2, axis=1)]
+        red = [share_of(half, (0xA8, 0x32, 0x44)) for half in sides]
+        blue = [share_of(half, (0x2F, 0x5F, 0xB0)) for half in sides]
+        dent = int(shape is dented)  # on the right, as x points there
+        assert red[dent] > 0.01 and red[1 - dent] < 0.1 * red[dent]
+        assert blue[1 - dent] > 0.01
+        assert asymmetry.signed[np.abs(asymmetry.signed).argmax()] != 0
+
+
+def test_straightening_shows_before_and_after(tmp_path):
+    pytest.importorskip("pyvista")
+    points, _ = mirrored_surface(900, 0)
+    bent = symsurf.bend(points, symsurf.Cylinder((-3, 0, 0), (0, 1, 0), 3), back=True)
+    mirror = symsurf.detect_cylinder(bent).mirror
+    symsurf.straighten(bent, mirror).plot(tmp_path / "both.png")
+    picture = pixels(tmp_path / "both.png").reshape(900, 1200, 3)
+    for half in np.split(picture, 2, axis=1):
+        assert 0.02 < (half.reshape(-1, 3) != BACKGROUND).any(axis=1).mean() < 0.9

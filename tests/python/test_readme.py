@@ -63,6 +63,26 @@ def test_examples_of_the_methods_pages_find_the_mirror(page, tmp_path):
     assert "found" in output_of(example, tmp_path)
 
 
+OPERATIONS = {name: ROOT / f"docs/operations/{name}.md" for name in symsurf.operations()}
+
+
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_examples_of_the_operations_pages_print_what_they_say(name, tmp_path):
+    (example,) = examples("python", OPERATIONS[name].read_text())
+    said = re.findall(r"^print\(.*\)  # (.*)$", example, re.MULTILINE)
+    assert said and output_of(example, tmp_path).splitlines() == said
+
+
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_operations_pages_have_pictures_and_parameters(name):
+    page = OPERATIONS[name].read_text()
+    for picture in re.findall(r"\]\((\S+\.png)\)", page):
+        assert (OPERATIONS[name].parent / picture).is_file()
+    assert f"../images/operations/{name}.png" in page
+    for parameter in symsurf.operations()[name].parameters:
+        assert f"`{parameter.name}`" in page.split("**Parameters.**")[1]
+
+
 def command_lines() -> list[str]:
     lines = "".join(examples("console")).splitlines()
     return [line[2:] for line in lines if line.startswith("$ symsurf ")]
@@ -90,6 +110,6 @@ def test_table_of_methods():
 def test_table_of_operations():
     page = (ROOT / "docs/operations.md").read_text()
     rows = re.findall(r"^\| `\w+` \| .* \|$", page, re.MULTILINE)
-    assert rows[:5] == [
+    assert rows[: len(OPERATIONS)] == [
         f"| `{each.name}` | {each.summary} |" for each in symsurf.operations().values()
     ]

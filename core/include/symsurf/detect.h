@@ -38,4 +38,10 @@ struct Options {
 /// InvalidParameter (unknown method or parameter, value out of range) and Cancelled.
 Result detect(PointsView points, const Options& options = {}, const Context& context = {});
 
+/// The length of which `detect`, run alike, takes parameters of the unit "diagonal" as fractions:
+/// the diagonal of the axis-aligned bounding box of the points, without those that the method
+/// leaves out as not finite or as outliers. `match` takes that of the method "auto". Of one
+/// process's points; throws as detect does.
+double diagonal(PointsView points, const Options& options = {}, const Context& context = {});
+
 }  // namespace symsurf

@@ -58,6 +58,10 @@ class Mirror {
   /// The numbers that define the mirror, by their public names ("normal", "offset").
   virtual Values numbers() const = 0;
 
+  /// Whether the other is of the same kind and has the same numbers, to the last bit; footprints
+  /// may differ.
+  bool operator==(const Mirror& other) const;
+
   /// The mirror after x -> scale * rotation * x + translation.
   virtual std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
                                               const Vector3& translation) const = 0;

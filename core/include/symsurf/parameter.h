@@ -36,6 +36,8 @@ struct Parameter {
 
   /// "[0, 1]", "[1, inf)", "regression | pca", "true | false" or "3 numbers".
   std::string range() const;
+  /// The range with its unit: "[0, 1] of the diagonal", "[0, 90] degrees".
+  std::string allowed() const;
 
   /// The value in this parameter's type (an integer will do for a real).
   /// Throws InvalidParameter naming the parameter, what was given and what is allowed.

@@ -13,6 +13,12 @@ class Plane final : public Mirror {
 
   const Vector3& normal() const { return normal_; }
   double offset() const { return offset_; }
+  /// The plane's point closest to the origin of the coordinates.
+  Vector3 origin() const { return -offset_ * normal_; }
+  /// A right-handed frame, a unit vector a row: two within the plane, then the normal. The first is
+  /// orthogonal to the coordinate axis that the normal leans towards least; of equal ones the
+  /// first.
+  Matrix3 axes() const;
 
   /// The reflection as a 4 x 4 matrix on homogeneous columns (x, y, z, 1).
   Matrix4 matrix() const;

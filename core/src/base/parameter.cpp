@@ -117,10 +117,14 @@ std::string Parameter::range() const {
   }
 }
 
+std::string Parameter::allowed() const {
+  return range() + (unit.empty() ? "" : unit == "diagonal" ? " of the diagonal" : " " + unit);
+}
+
 Value Parameter::checked(const Value& value) const {
   const auto fail = [&]() -> Value {
     throw InvalidParameter(name + " is " + to_string(value) + "; allowed is " +
-                           std::string(to_string(type)) + " " + range());
+                           std::string(to_string(type)) + " " + allowed());
   };
   const auto within = [&](double v) { return v >= minimum && v <= maximum; };
   switch (type) {
@@ -161,7 +165,7 @@ ParameterValues::ParameterValues(std::string_view owner, const std::vector<Param
   }
   for (const auto& [name, value] : given)
     if (!values_.count(name))
-      throw InvalidParameter("method '" + std::string(owner) + "' has no parameter '" + name +
+      throw InvalidParameter("'" + std::string(owner) + "' has no parameter '" + name +
                              "'; it has " + (names.empty() ? "none" : join(names, ", ")));
 }
 

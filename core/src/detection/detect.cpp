@@ -114,4 +114,20 @@ Result detect(PointsView points, const Options& options, const Context& context)
   return result;
 }
 
+double diagonal(PointsView points, const Options& options, const Context& context) {
+  const MethodImplementation& method = implementation(options.method);
+  double found = 0;
+  MethodImplementation measuring;  // in place of the method
+  measuring.name = method.name;
+  measuring.minimum_points = method.minimum_points;
+  measuring.preprocessing = Preprocessing::none();
+  measuring.preprocessing.remove_outliers = method.preprocessing.remove_outliers;
+  measuring.run = [&found](const Cloud& cloud, const ParameterValues&, const Context&) {
+    found = cloud.diagonal;
+    return Result{};
+  };
+  run_pipeline(measuring, {}, cloud_of(points, {}, options), options.refuse_nonfinite, context);
+  return found;
+}
+
 }  // namespace symsurf

@@ -1,8 +1,10 @@
 #include <symsurf/errors.h>
 #include <symsurf/mirror.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <variant>
 
 #include "base/parallel.h"
 #include "cloud/cloud.h"
@@ -21,6 +23,14 @@ Points each(PointsView points, const Context& context, const Function& function)
     for (Index i = begin; i < end; ++i) out.row(i) = function(points[i]).transpose();
   });
   return out;
+}
+
+// Eigen compares matrices of one size only.
+bool are_equal(const Value& a, const Value& b) {
+  const auto* one = std::get_if<Eigen::MatrixXd>(&a);
+  const auto* other = std::get_if<Eigen::MatrixXd>(&b);
+  if (one && other && (one->rows() != other->rows() || one->cols() != other->cols())) return false;
+  return a == b;
 }
 
 }  // namespace
@@ -45,6 +55,15 @@ Eigen::VectorXd Mirror::signed_distance(PointsView points, const Context& contex
     for (Index i = begin; i < end; ++i) out[i] = signed_distance(points[i]);
   });
   return out;
+}
+
+bool Mirror::operator==(const Mirror& other) const {
+  if (kind() != other.kind()) return false;
+  const Values own = numbers(), others = other.numbers();
+  return std::equal(own.begin(), own.end(), others.begin(), others.end(),
+                    [](const auto& a, const auto& b) {
+                      return a.first == b.first && are_equal(a.second, b.second);
+                    });
 }
 
 Mesh Mirror::mesh(PointsView object, int resolution) const {

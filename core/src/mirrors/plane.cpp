@@ -27,6 +27,12 @@ Matrix4 Plane::matrix() const {
   return m;
 }
 
+Matrix3 Plane::axes() const {
+  Matrix3 rows;
+  rows << orthogonal_to(normal_).transpose(), normal_.transpose();
+  return rows;
+}
+
 Values Plane::numbers() const { return {{"normal", normal_}, {"offset", offset_}}; }
 
 std::unique_ptr<Mirror> Plane::transformed(double scale, const Matrix3& rotation,

@@ -68,7 +68,8 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   Eigen::VectorXd distance(count), outward(count), lateral(count), matched(count);
   for (Index i = 0; i < count; ++i) {
     const Counterpart& counterpart = counterparts[i];
-    const Vector3 x = points[i], to_place = counterpart.place - x;
+    const Vector3 x = points[i];
+    const Vector3 to_place = (counterpart.matched ? counterpart.place : Counterpart::nowhere) - x;
     const Vector3 from_mirror = x - counterparts.image(i);  // twice as far
     vector.row(i) = to_place.transpose();
     distance[i] = to_place.norm();
@@ -98,7 +99,7 @@ OperationImplementation asymmetry_operation() {
   operation.title = "Mirror asymmetry";
   operation.summary =
       "Measures for each point how far it is from where the other side says it should be: the "
-      "mirror image of the closest point on the surface to its own image.";
+      "closest point of the mirrored surface.";
   operation.parameters = {max_distance(), max_angle()};
   operation.arrays = {
       {"vector", ParameterType::Real, 3,

@@ -14,7 +14,6 @@
 #include "cloud/normals.h"
 #include "cloud/surface_spacing.h"
 #include "mesh/closest_point_on_mesh.h"
-#include "mesh/triangle_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -26,7 +25,6 @@ constexpr double corner = 1e-9;       // a barycentric weight below this is roun
 constexpr double rim_of_mesh = 0.1;   // of the face's longest edge: how far past it is on it still
 constexpr double rim_of_cloud = 1.5;  // spacings: inside a surface the nearest point is nearer
 constexpr Index neighbours = 10;      // that a cloud's normals are estimated from
-const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 void require_images(const Points& images, std::string_view kind) {
   const Index count = images.rowwise().sum().array().isFinite().count();
@@ -72,24 +70,20 @@ Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, co
   if (input.faces.empty())
     match_cloud(input, mirror, limits, rest);
   else
-    match_mesh(input, mirror, limits, rest);
+    match_mesh(input, limits, rest);
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
 
-void Counterparts::settle(Index i, const Mirror& mirror, const Limits& limits, double cosine,
-                          bool past_rim) {
+void Counterparts::settle(Index i, const Limits& limits, double cosine) {
   Counterpart& c = all_[i];
   c.agreement = std::isfinite(cosine) ? std::clamp(cosine, 0.0, 1.0) : 1;
-  c.place = nowhere;
-  if (past_rim || c.gap > limits.distance || c.agreement < limits.cosine) return;
-  c.place = mirror.reflect(c.on_surface);
-  c.matched = c.place.allFinite();
+  c.matched = !c.past_rim && c.gap <= limits.distance && c.agreement >= limits.cosine;
 }
 
-void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
-                              const Limits& limits, const Context& context) {
-  const TriangleMesh mesh(input.points, input.faces, context.stage(0, 0));
+void Counterparts::match_mesh(const OperationInput& input, const Limits& limits,
+                              const Context& context) {
+  const TriangleMesh& mesh = mesh_.emplace(input.points, input.faces, context.stage(0, 0));
   const std::vector<bool> is_boundary = mesh.is_boundary();
   normals_ = mesh.vertex_normals();
   // A mirror turns the winding round.
@@ -98,38 +92,38 @@ void Counterparts::match_mesh(const OperationInput& input, const Mirror& mirror,
   is_watertight_ = is_closed && mesh.refused().total() == 0;
   const double outwards = is_closed && volume_of(input.points, input.faces) < 0 ? -1 : 1;
 
-  const ClosestPointOnMesh surface(input.points, input.faces, context.stage(0, 0.2));
+  const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
   parallel_for(context.stage(0.2, 1), input.points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Counterpart& c = all_[i];
-      c.place = c.on_surface = nowhere;
-      const Vector3 image = images_.row(i).transpose();
-      const ClosestPoint closest = surface(image);
+      const Vector3 x = input.points[i];
+      const ClosestPoint closest = mirrored(x);
       if (closest.face < 0) continue;
       const Index* corners = input.faces[closest.face];
       c.face = closest.face;
       c.weights = closest.weights;
-      c.on_surface = closest.point;
+      c.place = closest.point;
       c.gap = std::sqrt(closest.squared_distance);
+      c.on_surface = Vector3::Zero();
       Vector3 normal = Vector3::Zero();
-      bool on_boundary = true;
+      c.on_rim = true;
       double longest = 0, nearest = std::numeric_limits<double>::infinity();
       for (int k = 0; k < 3; ++k) {
-        const Vector3 x = input.points[corners[k]];
-        normal += closest.weights[k] * normals_.row(corners[k]).transpose();
-        on_boundary = on_boundary && (closest.weights[k] < corner || is_boundary[corners[k]]);
-        longest = std::max(longest, (input.points[corners[(k + 1) % 3]] - x).norm());
-        const double squared = (x - image).squaredNorm();
+        const Vector3 y = image(corners[k]);
+        c.on_surface += closest.weights[k] * input.points[corners[k]];
+        normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
+        c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
+        longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
+        const double squared = (y - x).squaredNorm();
         if (squared < nearest) {
           nearest = squared;
           c.nearest = corners[k];
         }
       }
       normal.stableNormalize();
-      const Vector3 gap = image - closest.point;
-      const bool past_rim =
-          on_boundary && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
-      settle(i, mirror, limits, cosine_between(normal, image_normals.row(i).transpose()), past_rim);
+      const Vector3 gap = x - closest.point;
+      c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+      settle(i, limits, cosine_between(normal, normals_.row(i).transpose()));
     }
   });
   normals_ *= outwards;
@@ -149,23 +143,23 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
   spacing_ = surface_spacing(points, tree);
   const double step = 1e-2 * spacing_;
 
-  parallel_for(context.stage(0.3, 1), points.size(), grain, [&](Index begin, Index end) {
+  const PointTree mirrored(images_, context.stage(0.3, 0.4));
+  parallel_for(context.stage(0.4, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Counterpart& c = all_[i];
-      c.place = c.on_surface = nowhere;
-      const Vector3 image = images_.row(i).transpose();
-      const Neighbour near = tree.nearest(image);
-      if (near.index < 0) continue;
-      const Vector3 normal = normals_.row(near.index).transpose(), gap = image - points[near.index];
+      const Vector3 x = points[i];
+      c.nearest = mirrored.nearest(x).index;
+      if (c.nearest < 0) continue;
+      const Vector3 y = image(c.nearest), gap = x - y;
+      const Vector3 normal =
+          mirrored_normal(mirror, points[c.nearest], y, normals_.row(c.nearest).transpose(), step);
       const Vector3 along = gap - gap.dot(normal) * normal;
-      c.nearest = near.index;
-      c.on_surface = points[near.index] + along;
+      c.place = y + along;
+      c.on_surface = mirror.reflect(c.place);
       c.gap = std::abs(gap.dot(normal));
-      const Vector3 mirrored =
-          mirrored_normal(mirror, points[i], image, normals_.row(i).transpose(), step);
+      c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
-      settle(i, mirror, limits, std::abs(normal.dot(mirrored)),
-             along.norm() > rim_of_cloud * spacing_);
+      settle(i, limits, std::abs(normal.dot(normals_.row(i).transpose())));
     }
   });
 }

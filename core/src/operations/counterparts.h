@@ -2,30 +2,38 @@
 
 #include <symsurf/operation.h>
 
+#include <limits>
+#include <optional>
 #include <vector>
+
+#include "mesh/triangle_mesh.h"
 
 namespace symsurf {
 
-/// Where the other side of a shape says that one of its points should be: the mirror image of the
-/// point of the surface that is closest to the point's own image.
+/// Where the other side of a shape says that one of its points should be: the point closest to it
+/// of the mirrored surface, that is of the faces between the images of their corners.
 struct Counterpart {
-  Vector3 place;       ///< NaN where nothing mirrors the point
-  Vector3 on_surface;  ///< the closest point of the surface to the image
-  Index nearest = -1;  ///< a point of the input: of a cloud the closest to the image, of a mesh the
-                       ///< closest corner of the face
-  Index face = -1;     ///< of a mesh, that the closest point lies on
+  Vector3 place = nowhere;       ///< that point; NaN where there is none
+  Vector3 on_surface = nowhere;  ///< what it is the image of
+  Index nearest = -1;  ///< a point of the input: of a cloud the one whose image is closest, of a
+                       ///< mesh the corner of the face whose image is
+  Index face = -1;                    ///< of a mesh, whose image the place lies on
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
-  double gap = 0;                     ///< from the image to the surface, input units
+  double gap = 0;                     ///< from the point to the mirrored surface, input units
   double agreement = 0;               ///< cosine between the normals there, 0 to 1
+  bool on_rim = false;                ///< the place is on a boundary of the mirrored mesh
+  bool past_rim = false;              ///< the point lies beside the mirrored surface, not above it
+  /// Not past a rim, nor farther away or turned by more than allowed.
   bool matched = false;
+
+  static inline const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
-/// Of all points of a shape. A point has none where its image lies past a rim of the surface or
-/// farther from it than allowed, or where the normals disagree.
+/// Of all points of a shape.
 class Counterparts {
  public:
   struct Limits {
-    double distance;  ///< from the image to the surface, input units
+    double distance;  ///< from a point to the mirrored surface, input units
     double cosine;    ///< between the normals
   };
 
@@ -47,17 +55,20 @@ class Counterparts {
   /// point's share of the area.
   double spacing() const { return spacing_; }
 
+  /// Of a shape with faces.
+  const TriangleMesh& mesh() const { return *mesh_; }
+
   /// Of a mesh that is closed and without faces that a manifold has no room for.
   bool is_watertight() const { return is_watertight_; }
 
  private:
-  void match_mesh(const OperationInput& input, const Mirror& mirror, const Limits& limits,
-                  const Context& context);
+  void match_mesh(const OperationInput& input, const Limits& limits, const Context& context);
   void match_cloud(const OperationInput& input, const Mirror& mirror, const Limits& limits,
                    const Context& context);
-  void settle(Index i, const Mirror& mirror, const Limits& limits, double cosine, bool past_rim);
+  void settle(Index i, const Limits& limits, double cosine);
 
   std::vector<Counterpart> all_;
+  std::optional<TriangleMesh> mesh_;
   Points images_, normals_;
   double spacing_ = 0;
   Index matched_ = 0;

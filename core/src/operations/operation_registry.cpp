@@ -3,9 +3,11 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cloud/cloud.h"
 #include "mesh/triangle_mesh.h"
+#include "operations/counterparts.h"
 
 namespace symsurf {
 
@@ -13,8 +15,8 @@ namespace {
 
 const std::vector<OperationImplementation>& operation_implementations() {
   static const std::vector<OperationImplementation> all{
-      asymmetry_operation(), correspondences_operation(), align_operation(), symmetrize_operation(),
-      straighten_operation()};
+      asymmetry_operation(), correspondences_operation(), align_operation(),
+      complete_operation(),  symmetrize_operation(),      straighten_operation()};
   return all;
 }
 
@@ -39,6 +41,18 @@ void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index
                          "; allowed is 0 to 1");
 }
 
+// Whether the mirror is that of another unit or pose. Where one point is farther from it than this,
+// none is near.
+void require_near(PointsView points, const Mirror& mirror) {
+  constexpr double farthest = 10;  // diagonals: a mirror between two objects is nearer
+  const double distance = std::abs(mirror.signed_distance(points[0]));
+  const double diagonal = diagonal_of(points);
+  if (distance > farthest * diagonal)
+    throw InvalidInput("the points lie " + to_string(Value(distance / diagonal)) +
+                       " diagonals away from this " + std::string(mirror.kind()) +
+                       "; the mirror is to be in the unit and the pose of the points");
+}
+
 }  // namespace
 
 const std::vector<Operation>& operations() {
@@ -56,6 +70,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   require_points(input.points);
   require_corners(input.faces, input.points.size());
   require_mask(operation, input.mask, input.points.size());
+  require_near(input.points, mirror);
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();

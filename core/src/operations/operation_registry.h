@@ -14,6 +14,7 @@ struct OperationImplementation : Operation {
 OperationImplementation asymmetry_operation();
 OperationImplementation correspondences_operation();
 OperationImplementation align_operation();
+OperationImplementation complete_operation();
 OperationImplementation symmetrize_operation();
 OperationImplementation straighten_operation();
 

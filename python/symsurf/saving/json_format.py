@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._core import Mirror
 from ..result import Result
+
+if TYPE_CHECKING:
+    from ..mirror_operations import OperationResult
 
 
 def json_bytes(result: Result) -> bytes:
@@ -26,7 +29,19 @@ def record(result: Result) -> dict[str, Any]:
         "pairs": plain(result.pairs),
         "residuals": plain(result.residuals),
         "surface_points": plain(result.surface_points),
+        "footprint": None if result.mirror is None else plain(result.mirror.footprint),
     }
+
+
+def operation_bytes(result: OperationResult) -> bytes:
+    whole = {
+        "operation": result.operation,
+        "mirror": mirror_record(result.mirror),
+        "parameters": plain(result.parameters),
+        "statistics": plain(result.statistics),
+        "arrays": plain(result.arrays),
+    }
+    return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
 
 
 def summary(result: Result) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..result import Result
 from ..shape import Shape
+from .table_format import columns_of
 from .text_format import figures
 
 _TYPES = {"f": ("double", "<f8"), "i": ("int", "<i4"), "b": ("uchar", "u1")}
@@ -31,14 +32,7 @@ def ply_bytes(result: Result) -> bytes:
 
 def shape_ply_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
     """A shape with arrays of its points as properties. Arrays are (n,) or (n, 3); of these the properties end in _x, _y and _z."""
-    columns = dict(zip("xyz", shape.points.T, strict=True))
-    for name, values in arrays.items():
-        if values.ndim == 1:
-            columns[name] = values
-        else:
-            columns |= {
-                f"{name}_{axis}": column for axis, column in zip("xyz", values.T, strict=True)
-            }
+    columns = dict(zip("xyz", shape.points.T, strict=True)) | columns_of(arrays)
     faces = np.empty((0, 3), np.int64) if shape.faces is None else shape.faces
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(shape.points)}"]
     header += [f"property {_TYPES[v.dtype.kind][0]} {name}" for name, v in columns.items()]

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+
+#include <vector>
+
+namespace symsurf {
+
+/// Triangles that join two chains of points, which run side by side: of all strips the one whose
+/// cross edges are shortest in sum (Fuchs, Kedem and Uselton, 1977, for the search). Each triangle
+/// has one edge of a chain, of `left` from first to last, of `right` from last to first. Of closed
+/// chains the last point is the first again. Takes time and bytes by the product of their lengths.
+Triangles strip_between(PointsView points, const std::vector<Index>& left,
+                        const std::vector<Index>& right, const Context& context = {});
+
+}  // namespace symsurf

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/math.h"
+#include "base/parallel.h"
+#include "operations/counterparts.h"
+#include "operations/missing_points.h"
+#include "operations/operation_registry.h"
+#include "operations/seam.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index shift_neighbours = 16;  // that the shift of a point is the mean of
+constexpr double touching = 4;          // spacings: less than two rows of faces of each rim
+
+enum Origin { original, mirrored, at_seam };
+
+// The images of what is missing, their points behind those of the input.
+class Completion {
+ public:
+  Completion(const OperationInput& input, const Counterparts& counterparts,
+             const std::vector<bool>& missing)
+      : input_(input), counterparts_(counterparts), missing_(missing) {
+    if (input.faces.empty()) {
+      for (Index i = 0; i < input.points.size(); ++i)
+        if (missing[i]) sources_.push_back(i);
+      return;
+    }
+    added_.meets_mesh.assign(input.points.size(), false);
+    for (Index f = 0; f < input.faces.size(); ++f) {
+      const Index* corner = input.faces[f];
+      const int lost = missing[corner[0]] + missing[corner[1]] + missing[corner[2]];
+      if (lost == 3) faces_.push_back(f);
+      if (lost == 1 || lost == 2)
+        for (int c = 0; c < 3; ++c) added_.meets_mesh[corner[c]] = true;
+    }
+  }
+
+  // Leaves out the parts whose rim the shape does not surround.
+  void keep_holes() {
+    std::vector<Index> part(input_.points.size());
+    std::iota(part.begin(), part.end(), 0);
+    const auto root = [&](Index i) {
+      while (part[i] != i) i = part[i] = part[part[i]];
+      return i;
+    };
+    Triangles kept(static_cast<Index>(faces_.size()), 3);
+    for (Index k = 0; k < kept.rows(); ++k) {
+      const Index* corner = input_.faces[faces_[k]];
+      kept.row(k) << corner[0], corner[1], corner[2];
+      for (int c = 0; c < 2; ++c) part[root(corner[c])] = root(corner[c + 1]);
+    }
+    std::vector<bool> is_open(input_.points.size(), false);
+    const std::vector<bool> is_rim = TriangleMesh(input_.points, kept).is_boundary();
+    for (const Index f : faces_)
+      for (int c = 0; c < 3; ++c) {
+        const Index i = input_.faces[f][c];
+        if (is_rim[i] && !added_.meets_mesh[i]) is_open[root(i)] = true;
+      }
+    std::erase_if(faces_, [&](Index f) { return is_open[root(input_.faces[f][0])]; });
+  }
+
+  // Appends the points, bent to meet the shape over `reach`, and the faces, turned round.
+  void append_to(OperationResult& result, double reach, const Context& context) {
+    const Index first = input_.points.size();
+    if (!faces_.empty()) {
+      std::vector<Index> number(first, -1);
+      for (const Index f : faces_)
+        for (int c = 0; c < 3; ++c) number[input_.faces[f][c]] = 0;
+      for (Index i = 0; i < first; ++i)
+        if (number[i] == 0) {
+          number[i] = first + static_cast<Index>(sources_.size());
+          sources_.push_back(i);
+        }
+      added_.faces.resize(static_cast<Index>(faces_.size()), 3);
+      for (Index k = 0; k < added_.faces.rows(); ++k) {
+        const Index* corner = input_.faces[faces_[k]];
+        added_.faces.row(k) << number[corner[2]], number[corner[1]], number[corner[0]];
+      }
+    }
+    added_.first = first;
+    result.points.conservativeResize(first + static_cast<Index>(sources_.size()), 3);
+    for (std::size_t k = 0; k < sources_.size(); ++k)
+      result.points.row(first + static_cast<Index>(k)) =
+          counterparts_.image(sources_[k]).transpose();
+    if (reach > 0 && !sources_.empty()) bend(result.points, reach, context);
+    append_faces(result, added_.faces, faces_);
+  }
+
+  // Joins the added faces to the rims of the shape; the corners there.
+  std::vector<bool> close_seam(OperationResult& result, const Context& context) {
+    std::vector<bool> joined(result.points.rows(), false);
+    std::vector<bool> meets(sources_.size());
+    for (std::size_t k = 0; k < sources_.size(); ++k) meets[k] = added_.meets_mesh[sources_[k]];
+    added_.meets_mesh = meets;
+    std::vector<bool> fillable(input_.points.size());
+    for (std::size_t i = 0; i < fillable.size(); ++i) {
+      const Counterpart& c = counterparts_[static_cast<Index>(i)];
+      fillable[i] = c.matched && !c.on_rim;
+    }
+    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_, fillable,
+                                        touching * counterparts_.spacing(), context);
+    std::vector<Index> face_at(input_.points.size(), 0);
+    for (Index f = 0; f < input_.faces.size(); ++f)
+      for (int c = 0; c < 3; ++c) face_at[input_.faces[f][c]] = f;
+    std::vector<Index> sources;
+    for (const auto& corner : seam.rowwise()) {
+      const Index i = corner[0];
+      sources.push_back(face_at[i < added_.first ? i : sources_[i - added_.first]]);
+      for (const Index j : corner) joined[j] = true;
+    }
+    append_faces(result, seam, sources);
+    return joined;
+  }
+
+  const std::vector<Index>& sources() const { return sources_; }
+
+ private:
+  static constexpr Index grain = 512;  // points; some ten microseconds each
+
+  static void append_faces(OperationResult& result, const Triangles& faces,
+                           const std::vector<Index>& sources) {
+    const Index before = result.faces.rows();
+    result.faces.conservativeResize(before + faces.rows(), 3);
+    result.faces.bottomRows(faces.rows()) = faces;
+    result.face_sources.insert(result.face_sources.end(), sources.begin(), sources.end());
+  }
+
+  // Where the sides differ the images end beside the shape. They are shifted as the images next to
+  // them lie off it: modified Shepard weights (Franke and Nielson, 1980), fading to 0 over `reach`.
+  void bend(Points& points, double reach, const Context& context) const {
+    std::vector<Vector3> images, shifts;
+    for (Index i = 0; i < input_.points.size(); ++i) {
+      const Counterpart& c = counterparts_[i];
+      if (!c.matched || missing_[i]) continue;
+      images.push_back(counterparts_.image(i));
+      shifts.push_back(c.on_surface - images.back());
+    }
+    if (images.empty()) return;
+    const Points known = rows_of(images);
+    const PointTree tree(known, context);
+    parallel_for(context, static_cast<Index>(sources_.size()), grain, [&](Index begin, Index end) {
+      std::vector<Neighbour> near;
+      for (Index k = begin; k < end; ++k) {
+        auto x = points.row(added_.first + k);
+        tree.nearest(x.transpose(), shift_neighbours, near);
+        const double distance = std::sqrt(near.front().squared_distance);
+        const double fade = biweight(distance / reach);
+        if (fade == 0) continue;
+        const double radius = std::sqrt(near.back().squared_distance);
+        Vector3 sum = Vector3::Zero();
+        double weights = 0;
+        for (const Neighbour& n : near) {
+          const double d = std::max(std::sqrt(n.squared_distance), 1e-9 * radius);
+          const double root = (radius - d) / (radius * d);
+          sum += root * root * shifts[n.index];
+          weights += root * root;
+        }
+        if (weights > 0) x += (fade / weights * sum).transpose();
+      }
+    });
+  }
+
+  const OperationInput& input_;
+  const Counterparts& counterparts_;
+  const std::vector<bool>& missing_;
+  std::vector<Index> faces_;    // of the input, whose images are added
+  std::vector<Index> sources_;  // of the added points
+  AddedPart added_;
+};
+
+void run_complete(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
+                  const Context& context, OperationResult& result) {
+  const Counterparts::Limits limits = limits_of(values, input.points);
+  const Counterparts counterparts(input, mirror, limits, context.stage(0, 0.6));
+  const std::vector<bool> missing =
+      missing_points(input, counterparts, limits.distance, context.stage(0.6, 0.7));
+  const Index points = input.points.size(), faces = input.faces.size();
+  result.point_sources.resize(points);
+  result.face_sources.resize(faces);
+  std::iota(result.point_sources.begin(), result.point_sources.end(), 0);
+  std::iota(result.face_sources.begin(), result.face_sources.end(), 0);
+
+  Completion completion(input, counterparts, missing);
+  if (values.choice("fill") == "holes") completion.keep_holes();
+  completion.append_to(result, values.real("blend") * diagonal_of(input.points),
+                       context.stage(0.7, 0.9));
+  result.point_sources.insert(result.point_sources.end(), completion.sources().begin(),
+                              completion.sources().end());
+  const Index patch = result.faces.rows() - faces;
+  Eigen::VectorXd origin = Eigen::VectorXd::Constant(result.points.rows(), mirrored);
+  origin.head(points).setConstant(original);
+  if (values.boolean("close_seam") && faces > 0) {
+    const std::vector<bool> joined = completion.close_seam(result, context.stage(0.9, 1));
+    for (Index i = points; i < result.points.rows(); ++i)
+      if (joined[i]) origin[i] = at_seam;
+  }
+  result.arrays = {{"origin", origin}};
+  result.statistics["added_points"] = result.points.rows() - points;
+  result.statistics["added_faces"] = patch;
+  result.statistics["seam_faces"] = result.faces.rows() - faces - patch;
+}
+
+}  // namespace
+
+OperationImplementation complete_operation() {
+  OperationImplementation operation;
+  operation.name = "complete";
+  operation.title = "Mirror completion";
+  operation.summary =
+      "Adds what is missing on one side: the images of the points and faces that the other side "
+      "has "
+      "there.";
+  operation.parameters = {
+      Parameter::choice("fill", "all", {"all", "holes"},
+                        "What to add: all that is missing, or of a mesh only what the shape "
+                        "surrounds."),
+      Parameter::boolean("close_seam", true,
+                         "Join the added faces to the rims of the shape by more faces."),
+      Parameter::real("blend", 0.05, 0, 1, "diagonal",
+                      "From the rim as far as this, what is added is bent to meet the shape; 0: it "
+                      "is the exact image."),
+      max_distance(), max_angle()};
+  operation.arrays = {{"origin", ParameterType::Integer, 1,
+                       "0: a point of the input; 1: an image; 2: an image at the seam."}};
+  operation.adds_points = true;
+  operation.run = run_complete;
+  return operation;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mirror_layer.h"
+
+#include <symsurf/errors.h>
+#include <symsurf/mirror_through.h>
+
+#include <Eigen/Geometry>
+
+#include "cloud_conversion.h"
+
+namespace symsurf::meshlab {
+
+namespace {
+
+using Allocator = vcg::tri::Allocator<CMeshO>;
+
+// The mirror, and the vertices drawn for it: when they are moved it is no longer theirs.
+struct DrawnMirror {
+  std::shared_ptr<const Mirror> mirror;
+  Points vertices;
+  std::shared_ptr<const Mirror> bent;
+};
+
+constexpr const char* drawn_mirror = "symsurf mirror";
+constexpr const char* mirror_layer = "mirror_layer";
+
+// How much the scales of a transform along the axes may differ: single precision, some products of
+// matrices long.
+constexpr double equal_scales = 1e-5;
+
+// Null where there is none, or its vertices are no longer those drawn.
+const DrawnMirror* drawn_in(const MeshModel& layer) {
+  const CMeshO& mesh = layer.cm;
+  auto drawn = Allocator::FindPerMeshAttribute<DrawnMirror>(mesh, drawn_mirror);
+  if (!Allocator::IsValidHandle(mesh, drawn)) return nullptr;
+  const Points& vertices = drawn().vertices;
+  if (mesh.vn != vertices.rows() || mesh.vert.size() != static_cast<std::size_t>(mesh.vn))
+    return nullptr;
+  for (Index i = 0; i < vertices.rows(); ++i)
+    if (mesh.vert[i].cP() != to_point(vertices, i)) return nullptr;
+  return &drawn();
+}
+
+Eigen::Affine3d affine(const Matrix44m& matrix) {
+  Matrix4 entries;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) entries(row, column) = matrix[row][column];
+  return Eigen::Affine3d(entries);
+}
+
+Points moved(const Eigen::Affine3d& transform, const Points& points) {
+  return (points * transform.linear().transpose()).rowwise() + transform.translation().transpose();
+}
+
+// With what it is laid out over when a shape is straightened.
+std::shared_ptr<const Mirror> moved(const Mirror& mirror, double scale, const Matrix3& rotation,
+                                    const Vector3& shift) {
+  std::shared_ptr<Mirror> result = mirror.transformed(scale, rotation, shift);
+  if (const PointsView footprint = mirror.footprint(); !footprint.empty()) {
+    Eigen::Affine3d transform(scale * rotation);
+    transform.translation() = shift;
+    result->set_footprint(std::make_shared<Points>(moved(transform, footprint.matrix())));
+  }
+  return result;
+}
+
+}  // namespace
+
+void draw_mirror(MeshModel& layer, std::shared_ptr<const Mirror> mirror, const Mesh& mesh,
+                 std::shared_ptr<const Mirror> bent) {
+  CMeshO& drawn = layer.cm;
+  drawn.Clear();
+  auto vertex = Allocator::AddVertices(drawn, mesh.vertices.rows());
+  for (Index i = 0; i < mesh.vertices.rows(); ++i, ++vertex)
+    vertex->P() = to_point(mesh.vertices, i);
+  auto face = Allocator::AddFaces(drawn, mesh.triangles.rows());
+  for (Index i = 0; i < mesh.triangles.rows(); ++i, ++face)
+    for (int corner = 0; corner < 3; ++corner)
+      face->V(corner) = &drawn.vert[mesh.triangles(i, corner)];
+  Allocator::GetPerMeshAttribute<DrawnMirror>(drawn, drawn_mirror)() = {
+      std::move(mirror), mesh.vertices, std::move(bent)};
+  layer.updateBoxAndNormals();
+}
+
+std::shared_ptr<const Mirror> mirror_of(const MeshModel& layer) {
+  if (const DrawnMirror* drawn = drawn_in(layer)) return drawn->mirror;
+  if (layer.cm.vn == 0) return nullptr;
+  return mirror_through(read_cloud(layer, false, false).points);
+}
+
+std::shared_ptr<const Mirror> mirror_in(const MeshModel& layer) {
+  if (auto mirror = mirror_of(layer)) return mirror;
+  throw InvalidParameter(
+      "the layer '" + layer.label().toStdString() +
+      "' holds no mirror: its vertices lie neither on a plane nor on a sphere, and a curved mirror "
+      "must be as its filter left it; find the mirror again, or choose another layer");
+}
+
+std::shared_ptr<const Mirror> mirror_beside(const MeshModel& layer, const MeshModel& holder) {
+  std::shared_ptr<const Mirror> mirror = mirror_in(holder);
+  if (holder.cm.Tr == layer.cm.Tr) return mirror;
+  const Eigen::Affine3d between = affine(layer.cm.Tr).inverse() * affine(holder.cm.Tr);
+  Matrix3 rotation = Matrix3::Zero(), scaling = Matrix3::Zero();
+  if (between.matrix().allFinite()) between.computeRotationScaling(&rotation, &scaling);
+  const double scale = scaling.trace() / 3;
+  if (!(scale > 0) || (scaling - scale * Matrix3::Identity()).norm() > equal_scales * scale)
+    throw InvalidParameter(
+        "the transforms of the layers '" + layer.label().toStdString() + "' and '" +
+        holder.label().toStdString() +
+        "' differ by more than a turn, a shift and a scaling; freeze them first");
+  return moved(*mirror, scale, rotation, between.translation());
+}
+
+std::shared_ptr<const Mirror> bent_mirror_of(const MeshModel& layer) {
+  const DrawnMirror* drawn = drawn_in(layer);
+  return drawn ? drawn->bent : nullptr;
+}
+
+void move_layer(MeshModel& layer, const Matrix4& rigid) {
+  const Eigen::Affine3d transform(rigid);
+  Points points = read_cloud(layer, false, false).points;
+  if (const DrawnMirror* drawn = drawn_in(layer)) {
+    const auto along = [&](const std::shared_ptr<const Mirror>& mirror) {
+      return mirror ? moved(*mirror, 1, transform.linear(), transform.translation()) : nullptr;
+    };
+    points = drawn->vertices;
+    Allocator::GetPerMeshAttribute<DrawnMirror>(layer.cm, drawn_mirror)() = {
+        along(drawn->mirror), moved(transform, points), along(drawn->bent)};
+  }
+  Allocator::CompactEveryVector(layer.cm);
+  points = moved(transform, points);
+  for (Index i = 0; i < points.rows(); ++i) layer.cm.vert[i].P() = to_point(points, i);
+  layer.updateBoxAndNormals();
+}
+
+bool is_mirror_layer(const MeshModel& layer) {
+  return layer.label().startsWith(mirror_layer_name) && layer.cm.fn > 0;
+}
+
+void add_mirror_choice(RichParameterList& dialog, const MeshDocument& document, int default_layer,
+                       const QString& tooltip) {
+  dialog.addParam(RichMesh(mirror_layer, default_layer, &document, "Mirror layer", tooltip));
+}
+
+MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& document) {
+  const auto id = static_cast<int>(dialog.getMeshId(mirror_layer));
+  for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
+    if (it->id() == id) return *it;
+  throw InvalidParameter("there is no layer " + std::to_string(id) + " to take the mirror from");
+}
+
+}  // namespace symsurf::meshlab

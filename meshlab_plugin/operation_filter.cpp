@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "operation_filter.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include "changed_layer.h"
+#include "mirror_layer.h"
+#include "operation_mirror.h"
+#include "parameter_dialog.h"
+#include "result_layers.h"
+#include "returned_values.h"
+#include "vertex_marks.h"
+
+namespace symsurf::meshlab {
+
+namespace {
+
+// Of the time that both take, finding the mirror takes so much.
+constexpr double finding = 0.7;
+
+}  // namespace
+
+// "Mirror alignment" is apply_mirror_alignment.
+std::string OperationFilter::python_name() const {
+  std::string name = operation_.title;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
+    return letter == ' ' ? '_' : static_cast<char>(std::tolower(letter));
+  });
+  return (changes_shape() ? "apply_" : "compute_") + name;
+}
+
+std::string OperationFilter::info() const {
+  std::string text = operation_.summary +
+                     "<br>The mirror is that of the <i>Mirror layer</i>. Where this is the current "
+                     "layer itself, or <i>Find mirror</i> is on, it is found first, as <i>Mirror "
+                     "auto</i> does, and becomes a new layer.";
+  if (operation_.moves_points)
+    text += "<br>The vertices of the current layer are moved; the layers of its mirror go along.";
+  if (operation_.adds_points)
+    text +=
+        "<br>What is added to the current layer is then what is selected; its vertices and "
+        "faces stay as they are.";
+  if (!operation_.arrays.empty()) text += "<br>Attributes of the vertices:";
+  for (const PointArray& array : operation_.arrays)
+    text += "<br><i>" + array.name + "</i>: " + array.doc;
+  return text;
+}
+
+FilterPlugin::FilterClass OperationFilter::menus() const {
+  if (operation_.adds_points) return FilterPlugin::Remeshing;
+  if (operation_.moves_points)
+    return FilterPlugin::FilterClass(FilterPlugin::Normal | FilterPlugin::Smoothing);
+  return FilterPlugin::Quality;
+}
+
+// With MM_VERTNUMBER among them MeshLab offers no preview, which could not take layers back.
+int OperationFilter::changes() const {
+  int changed = MeshModel::MM_VERTNUMBER;
+  if (!changes_shape()) return changed | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
+  changed |= MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
+             MeshModel::MM_VERTFLAGSELECT;
+  if (operation_.adds_points) changed |= MeshModel::MM_FACENUMBER | MeshModel::MM_FACEFLAGSELECT;
+  return changed;
+}
+
+// What a host of layers, selections and qualities asks beside the operation's own parameters.
+std::vector<Parameter> OperationFilter::own_parameters() const {
+  std::vector<Parameter> described{Parameter::boolean(
+      "find_mirror", false, "Find the mirror first, whatever layer is chosen for it.")};
+  if (operation_.takes_mask) {
+    described.push_back(Parameter::boolean(
+        "only_selected", false, "Move only selected vertices and the corners of selected faces."));
+    described.push_back(Parameter::boolean(
+        "weigh_by_quality", false,
+        "Move each vertex by the share of the way that its quality is, 0 to 1."));
+  }
+  described.push_back(Parameter::integer(
+      "threads", 0, 0, std::numeric_limits<int>::max(), "",
+      "To compute with, 0: as many as the machine has; the result is the same."));
+  return described;
+}
+
+RichParameterList OperationFilter::parameters(const MeshDocument& document) const {
+  RichParameterList dialog;
+  const MeshModel* layer = document.mm();
+  const double diagonal = layer_diagonal(layer);
+  const MeshModel* mirror = layer ? last_mirror_layer(document, *layer) : nullptr;
+  if (!mirror) mirror = layer;
+  add_mirror_choice(dialog, document, mirror ? mirror->id() : 0,
+                    "A layer made by one of the mirror filters, or any layer whose vertices lie on "
+                    "a plane or a sphere. The current layer itself: its mirror is found first.");
+  add_parameters(dialog, operation_.parameters, diagonal);
+  add_parameters(dialog, own_parameters(), diagonal);
+  return dialog;
+}
+
+Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument& document,
+                               const Context::Progress& progress) const {
+  MeshModel& layer = current_layer(document);
+  const double diagonal = layer_diagonal(&layer);
+  const ParameterValues own(operation_.name, own_parameters(),
+                            read_parameters(parameters, own_parameters(), diagonal));
+  // Read in full before a mirror is searched for, which may take long.
+  const Values values =
+      ParameterValues(operation_.name, operation_.parameters,
+                      read_parameters(parameters, operation_.parameters, diagonal))
+          .all();
+  MeshModel& holder = chosen_mirror_layer(parameters, document);
+  const LayerCloud cloud = read_cloud(layer, false, false, true);
+  OperationInput input{cloud.points, cloud.faces};
+  if (operation_.takes_mask)
+    input.mask =
+        read_mask(layer, cloud, own.boolean("only_selected"), own.boolean("weigh_by_quality"));
+
+  const Context context(progress, static_cast<int>(own.integer("threads")));
+  const bool is_found_first = own.boolean("find_mirror") || &holder == &layer;
+  const OperationMirror mirror = is_found_first ? OperationMirror(cloud, context.stage(0, finding))
+                                                : OperationMirror(layer, holder, values);
+  const OperationResult result = operate(operation_.name, input, *mirror, values,
+                                         context.stage(is_found_first ? finding : 0, 1));
+
+  Outcome outcome{returned_values(result.statistics), logged_values(result.statistics)};
+  if (!mirror.log().empty()) outcome.log.insert(outcome.log.begin(), mirror.log());
+  outcome.values["mirror_layer"] = mirror.place(document, layer, result).id();
+  // Rows of the result are vertices then.
+  vcg::tri::Allocator<CMeshO>::CompactEveryVector(layer.cm);
+  if (changes_shape())
+    change_layer(layer, result);
+  else
+    show_as_quality(layer, result);
+  add_attributes(layer, result);
+  return outcome;
+}
+
+}  // namespace symsurf::meshlab

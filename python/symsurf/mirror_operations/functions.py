@@ -1,0 +1,72 @@
+"""The operations as functions, made from their own descriptions."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from collections.abc import Callable
+from typing import Any
+
+from .._core import Operation, operations
+from ..descriptions import argument_text, keyword, name_function, parameter_texts
+from .operate import operate
+from .results import RESULTS, OperationResult
+
+_ARGUMENTS = inspect.signature(operate).parameters
+
+_DOCUMENTED = {
+    "shape": "points, a mesh or a file, as ``detect`` takes them; all points finite.",
+    "result": "what ``detect`` found, or a mirror of any kind, in the unit and pose of the points; "
+    "without it the mirror is found first.",
+    "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
+    "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
+    "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
+    "bounding box; ``parameters`` of what is given back has them as fractions.",
+    "threads, progress": "as for ``detect``.",
+}
+
+_ERRORS = """
+Raises:
+    InvalidInput: no mirror is found, or it has images for less than half of the points; a point
+        that is not finite; {mask}else as ``detect`` does.
+    InvalidParameter, Cancelled: as ``detect`` does."""
+
+
+def _signature(operation: Operation) -> inspect.Signature:
+    shared = {name: word for name, word in _ARGUMENTS.items() if name not in ("name", "parameters")}
+    if not operation.takes_mask:
+        del shared["mask"]
+    own = {parameter.name: keyword(parameter) for parameter in operation.parameters}
+    words = {name: shared.pop(name) for name in ("shape", "result")} | own | shared
+    returned = RESULTS[operation.name].__name__
+    return inspect.Signature(list(words.values()), return_annotation=returned)
+
+
+def _documentation(operation: Operation) -> list[str]:
+    texts = dict(_DOCUMENTED)
+    if not operation.takes_mask:
+        del texts["mask"]
+    shared = [argument_text(f"{name}: {text}") for name, text in texts.items()]
+    mask = "a mask that is not one number in [0, 1] a point;\n        "
+    return [
+        textwrap.fill(operation.summary, 96),
+        "",
+        "Args:",
+        *shared[:2],
+        *parameter_texts(operation.parameters),
+        *shared[2:],
+        *_ERRORS.format(mask=mask if operation.takes_mask else "").splitlines(),
+    ]
+
+
+def _function(operation: Operation) -> Callable[..., OperationResult]:
+    def function(shape: Any, result: Any = None, **options: Any) -> OperationResult:
+        return operate(operation.name, shape, result, **options)
+
+    return name_function(
+        function, operation.name, __name__, _signature(operation), _documentation(operation)
+    )
+
+
+__all__ = list(operations())
+globals().update({name: _function(operation) for name, operation in operations().items()})

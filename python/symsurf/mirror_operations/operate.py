@@ -1,0 +1,74 @@
+"""Running an operation of the core on what Python users have."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _core
+from .._core import InvalidInput, InvalidParameter, Mirror
+from ..detection import Progress, detect
+from ..inputs import Input, as_input
+from ..lengths import as_fractions
+from ..result import Result
+from .results import RESULTS, OperationResult
+
+
+def operate(
+    name: str,
+    shape: object,
+    result: Result | Mirror | None = None,
+    *,
+    mask: ArrayLike | None = None,
+    faces: ArrayLike | None = None,
+    absolute: bool = False,
+    threads: int = 0,
+    progress: Progress | None = None,
+    **parameters: object,
+) -> OperationResult:
+    """Runs one of ``operations()``; arguments and errors are those of the function of that name."""
+    given = as_input(shape, faces)
+    mirror = _mirror_of(given, result, threads)
+    if absolute:
+        described = _core.operations()[name].parameters
+        parameters = as_fractions(parameters, described, lambda: _diagonal(given))
+    made = _core.operate(
+        name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
+    )
+    return RESULTS[name].from_fields(made | {"given_faces": given.faces, "mirror": mirror})
+
+
+def _diagonal(shape: Input) -> float:
+    return float(np.linalg.norm(np.ptp(np.asarray(shape.points, dtype=float), axis=0)))
+
+
+def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
+    if mask is None:
+        return None
+    try:
+        values = np.asarray(mask, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"mask cannot be read as real numbers: {error}") from None
+    if values.ndim != 1:
+        raise InvalidInput(f"mask has shape {values.shape}; allowed is (n,)")
+    return values
+
+
+def _mirror_of(shape: Input, result: Result | Mirror | None, threads: int) -> Mirror:
+    if isinstance(result, Mirror):
+        return result
+    if result is None:
+        found = detect(shape.points, faces=shape.faces, threads=threads)
+        if found.verdict != "found":
+            raise InvalidInput(
+                f"the shape has no mirror: {found.reason}; give a result or a mirror to use it all "
+                "the same"
+            )
+        result = found
+    if not isinstance(result, Result):
+        raise InvalidParameter(
+            f"result is of type {type(result).__name__}; allowed is a Result, a Mirror or None"
+        )
+    if result.mirror is None:
+        raise InvalidInput(f"the result of {result.method} has no mirror")
+    return result.mirror

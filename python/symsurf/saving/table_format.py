@@ -1,0 +1,48 @@
+"""What an operation gives each point, without the points: as CSV and as NumPy's own format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from io import BytesIO, StringIO
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """A structured array, a row a point and a field an array."""
+    kinds = [(name, values.dtype, values.shape[1:]) for name, values in arrays.items()]
+    count = len(next(iter(arrays.values()))) if arrays else 0
+    rows = np.empty(count, kinds)
+    for name, values in arrays.items():
+        rows[name] = values
+    file = BytesIO()
+    np.save(file, rows, allow_pickle=False)
+    return file.getvalue()
+
+
+def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """A line of names, then a line a point, every digit a double holds; booleans as 0 and 1, rows of
+    three as columns that end in _x, _y and _z."""
+    columns = columns_of(arrays)
+    file = StringIO()
+    file.write(",".join(columns) + "\n")
+    lists = [
+        (values.astype(int) if values.dtype.kind == "b" else values).tolist()
+        for values in columns.values()
+    ]
+    file.writelines(",".join(map(repr, row)) + "\n" for row in zip(*lists, strict=True))
+    return file.getvalue().encode()
+
+
+def columns_of(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Arrays (n,) and (n, 3) as columns (n,)."""
+    columns: dict[str, NDArray[Any]] = {}
+    for name, values in arrays.items():
+        if values.ndim == 1:
+            columns[name] = values
+        else:
+            named = (f"{name}_{axis}" for axis in "xyz")
+            columns |= dict(zip(named, values.T, strict=True))
+    return columns

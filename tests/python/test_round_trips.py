@@ -1,0 +1,192 @@
+"""What goes through pickle, copy and JSON comes back to the same bits."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import json
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from symmetric_shapes import mirrored_surface
+
+import symsurf
+from symsurf import synthetic
+from symsurf.saving.json_format import mirror_record
+from symsurf.saving.json_loading import mirror_from
+
+numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
+lengths = st.floats(1e-3, 1e6)
+vectors = st.tuples(numbers, numbers, numbers)
+directions = vectors.filter(lambda v: np.linalg.norm(v) > 1e-3)
+tables = st.lists(vectors, min_size=4, max_size=9).map(np.array)
+
+
+@st.composite
+def free_forms(draw):
+    count = draw(st.integers(1, 4))
+    patches = range(count)
+    frames = [np.linalg.qr(np.array(draw(vectors)) + np.diag((3, 5, 7)))[0] for _ in patches]
+    numbers_ = {
+        "centres": np.array([draw(vectors) for _ in patches]),
+        "tangents": np.array([frame[:, 0] for frame in frames]),
+        "normals": np.array([frame[:, 2] for frame in frames]),
+        "heights": np.array([draw(vectors) + draw(vectors) for _ in patches]),
+        "radii": np.array([[draw(lengths)] for _ in patches]),
+    }
+    return symsurf.make_mirror("free-form", numbers_)
+
+
+mirrors = st.one_of(
+    st.builds(symsurf.Plane, directions, numbers),
+    st.builds(symsurf.Sphere, vectors, lengths),
+    st.builds(symsurf.Cylinder, vectors, directions, lengths),
+    st.builds(symsurf.Quadric, tables.map(lambda t: t[:3]), directions, numbers),
+    st.builds(symsurf.HeightField, directions, tables),
+    free_forms(),
+)
+TRIPS = {
+    "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+}
+
+
+@settings(deadline=None)
+@given(mirrors, st.sampled_from(sorted(TRIPS)))
+def test_mirrors_come_back(mirror, trip):
+    twin = TRIPS[trip](mirror)
+    assert twin is not mirror and type(twin) is type(mirror)
+    assert twin == mirror and hash(twin) == hash(mirror)
+    points = np.random.default_rng(0).normal(size=(20, 3))
+    np.testing.assert_array_equal(twin.reflect(points), mirror.reflect(points))
+
+
+@settings(deadline=None)
+@given(mirrors)
+def test_mirrors_come_back_from_json(mirror):
+    twin = mirror_from(json.loads(json.dumps(mirror_record(mirror))))
+    assert twin == mirror
+
+
+@given(directions, numbers)
+def test_a_bit_makes_another_mirror(normal, offset):
+    plane = symsurf.Plane(normal, offset)
+    other = symsurf.Plane(plane.normal, np.nextafter(plane.offset, np.inf))
+    assert plane != other
+    assert (plane == other) is False
+    assert plane != symsurf.Sphere((0, 0, 0), 1) and plane != "plane"
+    assert symsurf.Plane(plane.normal, plane.offset) in {plane, other}
+
+
+def test_zeros_of_both_signs_are_one():
+    planes = symsurf.Plane((1, 0, 0), 0.0), symsurf.Plane((1, -0.0, 0), -0.0)
+    assert planes[0] == planes[1] and len(set(planes)) == 1
+
+
+def fields_of(thing):
+    return {each.name: getattr(thing, each.name) for each in dataclasses.fields(thing)}
+
+
+def assert_same(one, other):
+    """To the last bit, whatever it is."""
+    assert type(one) is type(other)
+    if dataclasses.is_dataclass(one):
+        one, other = fields_of(one), fields_of(other)
+    if isinstance(one, dict):
+        assert one.keys() == other.keys()
+        for name, value in one.items():
+            assert_same(value, other[name])
+    elif isinstance(one, list):
+        assert len(one) == len(other)
+        for pair in zip(one, other, strict=True):
+            assert_same(*pair)
+    elif isinstance(one, np.ndarray):
+        assert one.dtype == other.dtype
+        np.testing.assert_array_equal(one, other)
+    elif isinstance(one, symsurf.Mirror):
+        assert one == other
+        assert_same(one.footprint, other.footprint)
+    else:
+        np.testing.assert_equal(one, other)
+
+
+def results():
+    points, _ = mirrored_surface(700, 0)
+    bent = symsurf.bend(points, symsurf.Cylinder((-4, 0, 0), (0, 1, 0), 4), back=True)
+    layers = synthetic.mirror_fixed(
+        np.random.default_rng(0).uniform(-1, 1, size=(300, 3)) + (0, 0, 3), "f1"
+    ).points
+    for name in symsurf.methods():
+        yield name, {"cylinder": bent, "fixed_direction": layers}.get(name, points)
+
+
+@pytest.mark.parametrize(("method", "points"), list(results()), ids=symsurf.methods())
+def test_results_come_back(method, points, tmp_path):
+    result = symsurf.detect(points, method)
+    for trip in (TRIPS["pickle"], TRIPS["deepcopy"]):
+        assert_same(trip(result), result)
+    result.save(tmp_path / "result.json")
+    loaded = symsurf.Result.load(tmp_path / "result.json")
+    assert loaded.points is None and loaded.faces is None
+    # Of a candidate a file says what it is, and how good.
+    shorter = [
+        dataclasses.replace(each, parameters={}, statistics={}, seconds=0.0)
+        for each in result.candidates
+    ]
+    assert_same(loaded, dataclasses.replace(result, points=None, faces=None, candidates=shorter))
+    assert loaded.verdict == result.verdict and loaded.reason == result.reason
+    if result.mirror is not None:
+        assert_same(list(loaded.mirror.mesh()), list(result.mirror.mesh()))
+
+
+def test_what_is_not_a_number_is_none_after_loading(tmp_path):
+    points, mirror = mirrored_surface(200, 0)
+    result = symsurf.match(points, mirror)
+    result = dataclasses.replace(result, statistics={"mean": float("nan"), "normal": np.ones(3)})
+    result.save(tmp_path / "result.json")
+    assert_same(symsurf.Result.load(tmp_path / "result.json").statistics, result.statistics)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "error", "says"),
+    [
+        ("gone.json", None, symsurf.InvalidInput, "gone.json: No such file"),
+        ("broken.json", "{", symsurf.InvalidInput, "broken.json: no JSON"),
+        ("list.json", "[]", symsurf.InvalidInput, "list.json: no result"),
+        ("other.json", '{"method": "plane"}', symsurf.InvalidInput, "other.json: no result"),
+        ("result.ply", "", symsurf.InvalidParameter, "allowed is the suffix .json"),
+    ],
+)
+def test_what_cannot_be_loaded_is_named(name, content, error, says, tmp_path):
+    if content is not None:
+        (tmp_path / name).write_text(content)
+    with pytest.raises(error, match=says):
+        symsurf.Result.load(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", symsurf.operations())
+def test_what_operations_give_comes_back(name):
+    points, mirror = mirrored_surface(400, 0)
+    made = getattr(symsurf, name)(points, mirror)
+    for trip in (TRIPS["pickle"], TRIPS["deepcopy"]):
+        assert_same(trip(made), made)
+
+
+@settings(deadline=None)
+@given(tables, st.booleans(), st.booleans())
+def test_shapes_come_back(points, has_faces, has_normals):
+    pytest.importorskip("pyvista")
+    faces = np.array([[0, 1, 2], [1, 3, 2]]) if has_faces else None
+    normals = np.tile((0.0, 0.6, 0.8), (len(points), 1)) if has_normals else None
+    shape = symsurf.Shape(points, faces, normals)
+    for trip in TRIPS.values():
+        assert_same(trip(shape), shape)
+    mesh = shape.to_pyvista()
+    assert mesh.n_points == len(points)
+    assert_same(symsurf.Shape.from_pyvista(mesh), shape)
+    mesh.points[0] = 0  # is its own
+    assert_same(symsurf.Shape(points.copy(), faces, normals), shape)
