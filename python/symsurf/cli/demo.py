@@ -18,7 +18,7 @@ SUMMARY = (
 )
 
 HEADINGS = "mesh", "change", "points", "mirror", "score", "error", "time"
-ROW = "{:9} {:24} {:>7} {:>9} {:>7} {:>10} {:>9}"
+ROW = "{:9} {:16} {:>7} {:>9} {:>7} {:>10} {:>9}"
 DEED_HEADINGS = "mesh", "operation", "what", "is", "should be"
 DEED_ROW = "{:9} {:11} {:38} {:>9} {:>9}"
 
@@ -95,7 +95,7 @@ def _row(finding: Finding) -> str:
         finding.case.name,
         finding.case.change,
         len(finding.case.shape.points),
-        result.mirror.kind if result.mirror is not None else "none",
+        result.mirror.kind if result.mirror is not None and result.verdict == "found" else "none",
         f"{result.score:.3f}",
         f"{finding.error:.4f} %",
         f"{1000 * result.seconds:.0f} ms",
