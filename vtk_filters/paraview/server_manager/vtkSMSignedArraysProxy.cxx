@@ -43,6 +43,9 @@ void vtkSMSignedArraysProxy::CentreColours(const char* array) {
     const double most = points.GetAsDouble(points.GetNumberOfElements() - 4);
     if (rescaling.GetAsInt() != vtkSMTransferFunctionManager::NEVER || least != -most) return;
     largest = std::max(largest, most);
+  } else {
+    const double grey[] = {0.6, 0.6, 0.6};  // yellow, ParaView's own, cries out where nothing is
+    vtkSMPropertyHelper(colours, "NanColor").Set(grey, 3);
   }
   rescaling.Set(vtkSMTransferFunctionManager::NEVER);
   colours->UpdateVTKObjects();
