@@ -9,13 +9,17 @@ set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # a VTK that stands elsewhere is foun
 
 if(SYMSURF_PARAVIEW)
   find_package(ParaView REQUIRED
-    COMPONENTS RemotingCore RemotingServerManager WrapClientServer ProcessXML)
+    COMPONENTS RemotingCore RemotingServerManager RemotingViews WrapClientServer ProcessXML)
   message(STATUS "symsurf: ParaView ${ParaView_VERSION}")
 endif()
 find_package(VTK REQUIRED
   COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore ParallelCore
   OPTIONAL_COMPONENTS ParallelMPI WrappingPythonCore Python)
 message(STATUS "symsurf: VTK ${VTK_VERSION}")
+
+# The titles of the core's operations: a filter and a proxy each.
+set(symsurf_operations MirrorAsymmetry MirrorCorrespondences MirrorAlignment MirrorCompletion
+    MirrorSymmetrization MirrorStraightening)
 
 add_executable(symsurf_generate)
 file(GLOB generate_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/generate/*.cpp)
@@ -30,8 +34,14 @@ function(symsurf_generate class output)
     COMMENT "Describing ${class}" VERBATIM)
 endfunction()
 
-vtk_module_scan(MODULE_FILES ${CMAKE_CURRENT_LIST_DIR}/vtk.module
-  REQUEST_MODULES symsurf::Filters PROVIDES_MODULES symsurf_modules HIDE_MODULES_FROM_CACHE ON)
+set(module_files ${CMAKE_CURRENT_LIST_DIR}/vtk.module)
+set(requested_modules symsurf::Filters)
+if(SYMSURF_PARAVIEW)
+  list(APPEND module_files ${CMAKE_CURRENT_LIST_DIR}/paraview/server_manager/vtk.module)
+  list(APPEND requested_modules symsurf::ServerManager)
+endif()
+vtk_module_scan(MODULE_FILES ${module_files}
+  REQUEST_MODULES ${requested_modules} PROVIDES_MODULES symsurf_modules HIDE_MODULES_FROM_CACHE ON)
 vtk_module_build(MODULES ${symsurf_modules}
   PACKAGE symsurf-filters INSTALL_EXPORT symsurf-filters INSTALL_HEADERS ON
   HEADERS_DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/symsurf-filters
@@ -58,7 +68,7 @@ if(SYMSURF_VTK_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
   set(symsurf_python_folder
     ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
-  vtk_module_wrap_python(MODULES ${symsurf_modules} PYTHON_PACKAGE symsurf_filters
+  vtk_module_wrap_python(MODULES symsurf::Filters PYTHON_PACKAGE symsurf_filters
     MODULE_DESTINATION ${symsurf_python_folder} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)
 endif()

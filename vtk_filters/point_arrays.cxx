@@ -8,6 +8,7 @@
 #include <string>
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -41,6 +42,14 @@ void require_points(vtkCellArray* cells, vtkIdType count) {
                                   "; allowed is 0 to " + std::to_string(count - 1));
 }
 
+vtkNew<vtkIdTypeArray> numbered(vtkIdType first, vtkIdType count) {
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("cell");
+  ids->SetNumberOfValues(count);
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, first);
+  return ids;
+}
+
 }  // namespace
 
 PointArray::PointArray(vtkDataArray* array) : doubles_(vtkArrayDownCast<vtkDoubleArray>(array)) {
@@ -55,16 +64,22 @@ symsurf::PointsView PointArray::view() const {
 }
 
 TriangleArray::TriangleArray(vtkPolyData* data)
-    : corners_(vtkSmartPointer<vtkTypeInt64Array>::New()) {
+    : corners_(vtkSmartPointer<vtkTypeInt64Array>::New()),
+      cells_(vtkSmartPointer<vtkIdTypeArray>::New()) {
   if (!data || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) return;
   require_points(data->GetPolys(), data->GetNumberOfPoints());
   require_points(data->GetStrips(), data->GetNumberOfPoints());
+  vtkNew<vtkPolyData> polygons;
+  polygons->SetPoints(data->GetPoints());
+  polygons->SetPolys(data->GetPolys());
+  polygons->SetStrips(data->GetStrips());
+  polygons->GetCellData()->AddArray(
+      numbered(data->GetNumberOfVerts() + data->GetNumberOfLines(), polygons->GetNumberOfCells()));
   vtkNew<vtkTriangleFilter> divided;
-  divided->SetInputData(data);
-  divided->PassVertsOff();
-  divided->PassLinesOff();
+  divided->SetInputData(polygons);
   divided->Update();
   corners_->DeepCopy(divided->GetOutput()->GetPolys()->GetConnectivityArray());
+  cells_->DeepCopy(divided->GetOutput()->GetCellData()->GetArray(0));
 }
 
 symsurf::TrianglesView TriangleArray::view() const {

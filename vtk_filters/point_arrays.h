@@ -5,6 +5,7 @@
 #include <symsurf/triangles_view.h>
 
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkSmartPointer.h"
 #include "vtkTypeInt64Array.h"
 
@@ -34,8 +35,12 @@ class TriangleArray {
 
   symsurf::TrianglesView view() const;
 
+  /// Of each triangle, the data set's cell that it is a part of.
+  vtkIdTypeArray* cells() const { return cells_; }
+
  private:
   vtkSmartPointer<vtkTypeInt64Array> corners_;
+  vtkSmartPointer<vtkIdTypeArray> cells_;
 };
 
 /// The data set's points; none: an empty view.

@@ -1,11 +1,9 @@
 #include "vtkMirrorReflection.h"
 
-#include <symsurf/make_mirror.h>
-
 #include <vector>
 
 #include "core_call.h"
-#include "field_values.h"
+#include "mirror_input.h"
 #include "point_arrays.h"
 #include "point_subset.h"
 #include "vtkCellData.h"
@@ -20,16 +18,6 @@
 vtkStandardNewMacro(vtkMirrorReflection);
 
 namespace {
-
-std::shared_ptr<symsurf::Mirror> mirror_of(vtkPolyData* data) {
-  const symsurf::Values numbers = field_values(data->GetFieldData());
-  const auto kind = numbers.find("kind");
-  if (kind == numbers.end())
-    throw symsurf::InvalidInput(
-        "the mirror has no field data array Kind; connect the output \"Mirror\" of a mirror "
-        "detection");
-  return symsurf::make_mirror(symsurf::to_string(kind->second), numbers);
-}
 
 std::vector<symsurf::Index> rows_without_nan(const symsurf::Points& points) {
   std::vector<symsurf::Index> rows;

@@ -66,6 +66,8 @@ void bind_operations(py::module_& module) {
           "'real', 'integer' or 'boolean'.")
       .def_readonly("components", &PointArray::components)
       .def_readonly("doc", &PointArray::doc, "One sentence, with the unit.")
+      .def_readonly("is_signed", &PointArray::is_signed,
+                    "Whether 0 belongs in the middle of a colour map.")
       .def("__repr__", [](const PointArray& array) { return "<PointArray " + array.name + ">"; });
 
   py::class_<Operation>(module, "Operation", "The description of what is done with a mirror.")
@@ -74,6 +76,8 @@ void bind_operations(py::module_& module) {
       .def_readonly("summary", &Operation::summary, "One sentence.")
       .def_readonly("parameters", &Operation::parameters)
       .def_readonly("arrays", &Operation::arrays)
+      .def_readonly("shown", &Operation::shown,
+                    "The name of the array to colour points by; empty: none.")
       .def_readonly("moves_points", &Operation::moves_points,
                     "Whether the result's points are not those of the input.")
       .def_readonly("adds_points", &Operation::adds_points,

@@ -72,7 +72,7 @@ def _bump(subject: str, rng: np.random.Generator) -> Figures:
     flat, mirror = _bend(points, plane, kind)
     shape, _ = _bend(raised, plane, kind)
     result = symsurf.asymmetry(shape, mirror, faces=faces, threads=1)
-    truth = np.linalg.norm(shape[top] - flat[top])
+    truth = _distances(shape[[top]], Shape(flat, faces))[0]
     return {
         "height error": abs(result.distance[top] / truth - 1),
         "elsewhere": float(np.nanmax(result.distance[far])) / diagonal(shape),
@@ -113,21 +113,25 @@ def _cut(subject: str, rng: np.random.Generator) -> Figures:
     }
 
 
-def _p95(of: Shape, faces: Faces, surface: Shape) -> float:
-    """Of the faces' centroids, the distance from the surface that 95 % are within."""
+def _distances(points: Points, surface: Shape) -> NDArray[np.float64]:
     import pyvista
 
     assert surface.faces is not None
     target = pyvista.PolyData.from_regular_faces(surface.points, surface.faces)
-    _, closest = target.find_closest_cell(of.points[faces].mean(axis=1), return_closest_point=True)
-    return float(np.quantile(np.linalg.norm(of.points[faces].mean(axis=1) - closest, axis=1), 0.95))
+    _, closest = target.find_closest_cell(points, return_closest_point=True)
+    return np.linalg.norm(points - closest, axis=1)
+
+
+def _p95(of: Shape, faces: Faces, surface: Shape) -> float:
+    """Of the faces' centroids, the distance from the surface that 95 % are within."""
+    return float(np.quantile(_distances(of.points[faces].mean(axis=1), surface), 0.95))
 
 
 def _straight(subject: str, rng: np.random.Generator) -> Figures:
     points, faces, plane = _mesh(subject)
     shape, mirror = _bend(points, plane, "cylinder")
     straight = symsurf.straighten(shape, mirror, faces=faces, threads=1)
-    back = symsurf.straighten(straight.shape.points, mirror, faces=faces, threads=1, back=True)
+    back = symsurf.straighten(straight.shape, straight.mirror, threads=1, back=True)
     ends = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]]])
     feet, flat = mirror.project(shape), straight.plane.project(straight.shape.points)
     before, after = (np.linalg.norm(x[ends[:, 0]] - x[ends[:, 1]], axis=1) for x in (feet, flat))

@@ -81,7 +81,40 @@ def test_method_lists_the_methods(proxy: dict[str, ElementTree.Element]) -> None
 def test_xml_is_the_description(
     proxy: dict[str, ElementTree.Element], name: str, method: str, parameter: symsurf.Parameter
 ) -> None:
-    element = proxy[name]
+    check(proxy[name], name, parameter)
+    decorator = proxy[name].find("Hints/PropertyWidgetDecorator")
+    assert (decorator.get("property"), decorator.get("value")) == ("Method", method)
+
+
+@pytest.mark.parametrize("operation", symsurf.operations().values(), ids=lambda each: each.name)
+def test_xml_is_the_description_of_the_operation(
+    server_manager_xml: Path, operation: symsurf.Operation
+) -> None:
+    path = server_manager_xml / f"{proxy_of(operation)}.xml"
+    source = next(ElementTree.parse(path).iter("SignedArraysProxy"))
+    assert source.get("label") == operation.title.title()
+    assert source.get("class") == f"vtk{proxy_of(operation)}"
+    assert source.find("Documentation").get("long_help") == operation.summary
+    assert source.find("Hints/ShowInMenu").get("category") == "Symmetry"
+    signed = [hint.get("name") for hint in source.iter("SignedArray")]
+    assert signed == [
+        proxy_of(operation) + camel_case(array.name)
+        for array in operation.arrays
+        if array.is_signed
+    ]
+    proxy = xml_properties(path)
+    for parameter in operation.parameters:
+        name = camel_case(parameter.name)
+        check(proxy[name], name, parameter)
+    own = {"Input", "Mirror", "Method", "NumberOfThreads"}
+    mask = {"MaskArray"} if operation.takes_mask else set()
+    assert set(proxy) == own | mask | {camel_case(each.name) for each in operation.parameters}
+    assert proxy["Mirror"].find("Hints/Optional") is not None
+    offered = [item.get("value") for item in proxy["Method"].iter("String")]
+    assert offered == list(symsurf.methods())
+
+
+def check(element: ElementTree.Element, name: str, parameter: symsurf.Parameter) -> None:
     assert (element.tag, element.get("number_of_elements")) == ELEMENTS[parameter.type]
     assert element.get("command") == f"Set{name}"
     text = element.get("default_values")
@@ -103,8 +136,6 @@ def test_xml_is_the_description(
     doc = element.findtext("Documentation")
     assert parameter.doc in doc
     assert parameter.unit in doc
-    decorator = element.find("Hints/PropertyWidgetDecorator")
-    assert (decorator.get("property"), decorator.get("value")) == ("Method", method)
 
 
 def test_setters_and_getters_are_the_description(run_host: Callable[..., Any]) -> None:
@@ -127,18 +158,30 @@ def another_in_xml(element: ElementTree.Element) -> Any:
     offered = [item.get("value") for item in element.iter("String")]
     if offered:
         return offered[-1]
+    if element.find("ArrayListDomain") is not None:
+        return "Normals"
     default = default_in_xml(element)
     if element.find("BooleanDomain") is not None:
         return 1 - default
     return [1.0, 2.0, 3.0] if isinstance(default, list) else default + 1
 
 
-@pytest.mark.parametrize("name", ["MirrorDetection", "MirrorSampleSource", "PointDamage"])
+def proxy_of(operation: symsurf.Operation) -> str:
+    return camel_case(operation.title.replace(" ", "_"))
+
+
+OPERATIONS = [proxy_of(operation) for operation in symsurf.operations().values()]
+
+
+@pytest.mark.parametrize(
+    "name", ["MirrorDetection", "MirrorSampleSource", "PointDamage", *OPERATIONS]
+)
 def test_xml_and_vtk_agree(
     name: str, server_manager_xml: Path, run_host: Callable[..., Any]
 ) -> None:
     properties = xml_properties(server_manager_xml / f"{name}.xml")
-    properties.pop("Input", None)
+    for port in ("Input", "Mirror"):
+        properties.pop(port, None)
     values = {key: another_in_xml(element) for key, element in properties.items()}
     seen = run_host("pvpython", "properties.py", name, json.dumps(values))
     assert seen["before"] == {key: default_in_xml(e) for key, e in properties.items()}

@@ -1,4 +1,4 @@
-"""symsurf.vtk in the vtk package that pip installs: ports, arrays, errors, pipelines."""
+"""MirrorDetection in the vtk package that pip installs: ports, arrays, errors, pipelines."""
 
 from __future__ import annotations
 
@@ -12,29 +12,12 @@ import symsurf
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
 from bad_input import tables
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtk_data import PLANE, array, error_of, mirrored_shape, polydata
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 
 from symsurf.vtk import MirrorDetection
-
-PLANE = symsurf.Plane([1, 2, -0.5], 1.3)
-
-
-def mirrored_shape(count: int = 300) -> np.ndarray:
-    x = np.random.default_rng(3).normal(size=(count, 3))
-    x /= np.linalg.norm(x, axis=1)[:, None]
-    x *= (1 + 0.3 * np.sin(3 * x[:, 0] + x[:, 1]) + 0.2 * x[:, 1] * x[:, 2])[:, None]
-    return np.vstack([x, PLANE.reflect(x)])
-
-
-def polydata(points: np.ndarray) -> vtkPolyData:
-    vtk_points = vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(points, deep=True))
-    data = vtkPolyData()
-    data.SetPoints(vtk_points)
-    return data
 
 
 def detection(points: np.ndarray, method: str = "plane") -> MirrorDetection:
@@ -42,24 +25,6 @@ def detection(points: np.ndarray, method: str = "plane") -> MirrorDetection:
     found.SetInputData(polydata(points))
     found.SetMethod(method)
     return found
-
-
-def array(data: vtkPolyData, name: str) -> np.ndarray:
-    return vtk_to_numpy(data.GetPointData().GetArray(name))
-
-
-def error_of(algorithm: MirrorDetection, event: str = "ErrorEvent") -> str:
-    messages: list[str] = []
-
-    def heard(_caller, _event, text):
-        messages.append(text)
-
-    heard.CallDataType = "string0"
-    tags = [(o, o.AddObserver(event, heard)) for o in (algorithm, algorithm.GetExecutive())]
-    algorithm.Update()
-    for observed, tag in tags:
-        observed.RemoveObserver(tag)
-    return "".join(messages)
 
 
 @pytest.mark.parametrize("method", symsurf.methods())

@@ -10,7 +10,7 @@
 
 #include "bad_input/tables.h"
 #include "error_listener.h"
-#include "field_values.h"
+#include "mirror_data.h"
 #include "mirrored_shape.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -91,14 +91,6 @@ TEST(FilterErrors, CloudsOfTheTable) {
   }
 }
 
-// A mirror as a detection would hand it on, its numbers in the field data.
-vtkNew<vtkPolyData> mirror_of(const std::string& kind, const symsurf::Values& numbers) {
-  vtkNew<vtkPolyData> data;
-  add_field_values(data->GetFieldData(), numbers);
-  add_field_values(data->GetFieldData(), {{"kind", kind}});
-  return data;
-}
-
 TEST(FilterErrors, MirrorsOfTheTable) {
   vtkNew<vtkMirrorReflection> reflection;
   const symsurf::Points points = mirrored_shape(truth, 10);
@@ -112,9 +104,9 @@ TEST(FilterErrors, MirrorsOfTheTable) {
     return listener.message();
   };
   for (const symsurf::bad_input::MirrorNumbers& mirror : symsurf::bad_input::mirrors()) {
-    EXPECT_NE(said(mirror_of(mirror.kind, mirror.numbers)).find(mirror.reason), std::string::npos)
+    EXPECT_NE(said(mirror_data(mirror.kind, mirror.numbers)).find(mirror.reason), std::string::npos)
         << mirror.name;
-    EXPECT_TRUE(said(mirror_of("plane", truth.numbers())).empty());
+    EXPECT_TRUE(said(mirror_data("plane", truth.numbers())).empty());
   }
 }
 
@@ -122,7 +114,7 @@ TEST(FilterErrors, AMirrorOfSinglePrecisionKeepsItsFractions) {
   vtkNew<vtkMirrorReflection> reflection;
   reflection->SetInputData(0, polydata_of(symsurf::Points::Zero(1, 3)));
   vtkNew<vtkPolyData> mirror =
-      mirror_of("plane", {{"normal", symsurf::Vector3(1, 0, 0)}, {"offset", 0.0}});
+      mirror_data("plane", {{"normal", symsurf::Vector3(1, 0, 0)}, {"offset", 0.0}});
   vtkNew<vtkFloatArray> offset;
   offset->SetName("Offset");
   offset->InsertNextValue(-0.5f);

@@ -91,6 +91,29 @@ class Wrapping(unittest.TestCase):
             image = reflection.GetOutput().GetPoint(i)
             self.assert_points_equal(image, reflected(self.shape.GetPoint(i)))
 
+    def test_operations_follow_the_detected_mirror(self):
+        wrapped = [each for each in vars(symsurf).values() if isinstance(each, type)]
+        base = symsurf.vtkMirrorOperation
+        filters = [each for each in wrapped if issubclass(each, base) and each is not base]
+        self.assertGreaterEqual(len(filters), 6)
+        for made in filters:
+            operation = made()
+            operation.SetInputData(self.shape)
+            operation.SetMirrorConnection(self.detection.GetOutputPort())
+            self.assertEqual(errors_of(operation), "")
+            self.assertGreaterEqual(operation.GetOutput().GetNumberOfPoints(), 2 * COUNT)
+
+        correspondences = symsurf.vtkMirrorCorrespondences()
+        correspondences.SetInputData(self.shape)
+        correspondences.SetOneToOne(True)
+        correspondences.SetMethod("plane")
+        self.assertEqual(errors_of(correspondences), "")
+        index = correspondences.GetOutput().GetPointData().GetArray("MirrorCorrespondencesIndex")
+        for i in range(COUNT):
+            self.assertIn(index.GetValue(i), (COUNT + i, -1))
+        correspondences.SetMaxAngle(91)
+        self.assertIn("max_angle is 91", errors_of(correspondences))
+
     def test_sample_knows_its_mirror(self):
         source = symsurf.vtkMirrorSampleSource()
         source.SetGenerator("perpendicular")

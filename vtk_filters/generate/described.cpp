@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "../vtk_names.h"
+#include "../operation_names.h"
 
 namespace symsurf::front_ends {
 
@@ -21,12 +21,19 @@ std::vector<Choice> choices_from(const Descriptions& descriptions) {
 }
 
 std::vector<Described> all_described() {
-  return {
+  std::vector<Described> all{
       {"vtkMirrorDetection", "Method", "How the mirror is sought.", choices_from(methods())},
       {"vtkMirrorSampleSource", "Generator", "How the points are made.",
        choices_from(generators())},
       {"vtkPointDamage", "Damage", "What is done to the points.", choices_from(damages())},
   };
+  for (const Operation& operation : operations())
+    all.push_back({"vtk" + filter_name(operation),
+                   "",
+                   "",
+                   {{"", operation.summary, operation.parameters}},
+                   &operation});
+  return all;
 }
 
 }  // namespace
@@ -42,6 +49,17 @@ Described described(const std::string& vtk_class) {
 
 std::string property_name(const Choice& choice, const Parameter& parameter) {
   return vtk_name(choice.name) + vtk_name(parameter.name);
+}
+
+std::string selector_documentation(const Described& d, const std::string& separator) {
+  std::string text = d.selector_doc;
+  for (const Choice& choice : d.choices) text += separator + choice.name + ": " + choice.summary;
+  return text;
+}
+
+std::string mask_documentation() {
+  return "The name of a point array, a value in [0, 1] each: how far the point may move. Empty, or "
+         "None: all points may.";
 }
 
 std::string components(const Parameter& parameter, const char* separator) {

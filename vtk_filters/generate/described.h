@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/operation.h>
 #include <symsurf/parameter.h>
 
 #include <string>
@@ -20,16 +21,25 @@ struct Choice {
 /// A VTK class with a property that chooses and the properties of every choice.
 struct Described {
   std::string vtk_class;  ///< "vtkMirrorDetection"
-  std::string selector;   ///< the property that chooses: "Method"
+  std::string selector;   ///< the property that chooses: "Method"; none for a class of one choice
   std::string selector_doc;
   std::vector<Choice> choices;  ///< the first is the default
+  /// Of the filter that runs it: the whole class is made, not only its parameters.
+  const Operation* operation = nullptr;
 };
 
 /// Throws std::invalid_argument, listing the classes there are.
 Described described(const std::string& vtk_class);
 
 /// "plane", "pair_distance" -> "PlanePairDistance": the property of one choice's parameter.
+/// A choice without a name adds nothing: "max_angle" -> "MaxAngle".
 std::string property_name(const Choice& choice, const Parameter& parameter);
+
+/// The choices, each with its sentence.
+std::string selector_documentation(const Described& described, const std::string& separator);
+
+/// What a filter says about the array that names its mask.
+std::string mask_documentation();
 
 /// The three numbers of a vector's default value.
 std::string components(const Parameter& parameter, const char* separator = " ");
@@ -41,7 +51,13 @@ std::string documentation(const Parameter& parameter);
 std::string parameters_header(const Described& described);
 std::string parameters_source(const Described& described);
 
-/// The server-manager XML of the selector and the properties.
-std::string server_manager_properties(const Described& described);
+/// The header and the source of an operation's filter.
+std::string operation_header(const Described& described);
+std::string operation_source(const Described& described);
+
+/// A template of server-manager XML with its marks filled in. @PARAMETERS@ gives way to the
+/// properties with its whole line, @METHOD@ to the choice of the method that finds a mirror, and
+/// @OUTPUTS@ and @SIGNED_ARRAYS@ to an operation's; @NAME@, @LABEL@ and @SUMMARY@ are its own.
+std::string server_manager_xml(const Described& described, std::string text);
 
 }  // namespace symsurf::front_ends

@@ -7,28 +7,23 @@
 
 // generate CLASS OUTPUT: the output's suffix says what is made of the class's description: a VTK
 // header (.h), a VTK source (.cxx), or a server-manager XML (.xml) from the template that a third
-// argument names, in which the line with @PARAMETERS@ gives way to the properties.
+// argument names.
 
 using namespace symsurf::front_ends;
 
 namespace {
 
-std::string filled_template(const std::string& path, const std::string& properties) {
+std::string content_of(const std::string& path) {
   std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t mark = text.find("@PARAMETERS@");
-  if (mark == std::string::npos)
-    throw std::invalid_argument(path + " cannot be read or has no @PARAMETERS@");
-  const std::size_t begin = text.rfind('\n', mark) + 1, end = text.find('\n', mark) + 1;
-  return text.substr(0, begin) + properties + text.substr(end);
+  if (!file) throw std::invalid_argument(path + " cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string made(const Described& d, const std::string& output, const char* xml_template) {
   const std::string suffix = output.substr(output.rfind('.') + 1);
-  if (suffix == "h") return parameters_header(d);
-  if (suffix == "cxx") return parameters_source(d);
-  if (suffix == "xml" && xml_template)
-    return filled_template(xml_template, server_manager_properties(d));
+  if (suffix == "h") return d.operation ? operation_header(d) : parameters_header(d);
+  if (suffix == "cxx") return d.operation ? operation_source(d) : parameters_source(d);
+  if (suffix == "xml" && xml_template) return server_manager_xml(d, content_of(xml_template));
   throw std::invalid_argument("cannot make " + output);
 }
 

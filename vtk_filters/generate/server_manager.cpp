@@ -1,5 +1,10 @@
-#include <cmath>
+#include <symsurf/method.h>
 
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+
+#include "../operation_names.h"
 #include "described.h"
 
 namespace symsurf::front_ends {
@@ -86,25 +91,103 @@ std::string property(const std::string& name, const Kind& kind, const std::strin
          kind.element + ">\n";
 }
 
-}  // namespace
+std::string choice_property(const std::string& name, const std::vector<std::string>& values,
+                            const std::string& doc) {
+  return property(name, {"StringVectorProperty", 1, values.front(), string_list(values)}, doc, "");
+}
 
-std::string server_manager_properties(const Described& d) {
+std::string selector_property(const Described& d) {
   std::vector<std::string> names;
-  std::string doc = d.selector_doc;
-  for (const Choice& choice : d.choices) {
-    names.push_back(choice.name);
-    doc += " " + choice.name + ": " + choice.summary;
-  }
-  std::string text =
-      property(d.selector, {"StringVectorProperty", 1, names.front(), string_list(names)}, doc, "");
+  for (const Choice& choice : d.choices) names.push_back(choice.name);
+  return choice_property(d.selector, names, selector_documentation(d, " "));
+}
+
+// Shown while the choice that it belongs to is chosen.
+std::string shown_for(const Described& d, const Choice& choice) {
+  return "        <Hints>\n          <PropertyWidgetDecorator"
+         " type=\"GenericDecorator\" mode=\"visibility\"" +
+         attribute("property", d.selector) + attribute("value", choice.name) +
+         "/>\n        </Hints>\n";
+}
+
+// One of the input's point arrays, or None, which ParaView hands on as it is.
+std::string mask_property() {
+  const std::string arrays =
+      "        <ArrayListDomain name=\"array_list\" attribute_type=\"Scalars\""
+      " none_string=\"None\">\n          <RequiredProperties>\n"
+      "            <Property name=\"Input\" function=\"Input\"/>\n"
+      "          </RequiredProperties>\n        </ArrayListDomain>\n";
+  return property("MaskArray", {"StringVectorProperty", 1, "None", arrays}, mask_documentation(),
+                  "");
+}
+
+std::string properties(const Described& d) {
+  std::string text = d.selector.empty() ? "" : selector_property(d);
   for (const Choice& choice : d.choices)
     for (const Parameter& parameter : choice.parameters)
+      text += property(property_name(choice, parameter), kind_of(parameter),
+                       documentation(parameter), d.selector.empty() ? "" : shown_for(d, choice));
+  if (d.operation && d.operation->takes_mask) text += mask_property();
+  return text;
+}
+
+std::string method_property() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.push_back(method.name);
+  return choice_property("Method", names,
+                         "How the mirror is found where none is connected. Mirror Detection has "
+                         "the methods' parameters.");
+}
+
+// "Mirror asymmetry" -> "Mirror Asymmetry", as ParaView writes its menus.
+std::string label_of(const Operation& operation) {
+  std::string label = operation.title;
+  for (std::size_t i = 1; i < label.size(); ++i)
+    if (label[i - 1] == ' ') label[i] = static_cast<char>(std::toupper(label[i]));
+  return label;
+}
+
+std::string output_ports(const Operation& operation) {
+  if (!operation.adds_points) return "";
+  return "      <OutputPort index=\"0\" name=\"Whole\"/>\n"
+         "      <OutputPort index=\"1\" name=\"Patch\"/>\n";
+}
+
+// For vtkSMSignedArraysProxy.
+std::string signed_arrays(const Operation& operation) {
+  std::string text;
+  for (const PointArray& array : operation.arrays)
+    if (array.is_signed)
       text +=
-          property(property_name(choice, parameter), kind_of(parameter), documentation(parameter),
-                   "        <Hints>\n          <PropertyWidgetDecorator"
-                   " type=\"GenericDecorator\" mode=\"visibility\"" +
-                       attribute("property", d.selector) + attribute("value", choice.name) +
-                       "/>\n        </Hints>\n");
+          "        <SignedArray" + attribute("name", array_name(operation, array.name)) + "/>\n";
+  return text;
+}
+
+void fill_line(std::string& text, const std::string& mark, const std::string& lines) {
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) return;
+  const std::size_t begin = text.rfind('\n', at) + 1;
+  text.replace(begin, text.find('\n', at) + 1 - begin, lines);
+}
+
+void fill(std::string& text, const std::string& mark, const std::string& value) {
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
+    text.replace(at, mark.size(), value);
+}
+
+}  // namespace
+
+std::string server_manager_xml(const Described& d, std::string text) {
+  if (text.find("@PARAMETERS@") == std::string::npos)
+    throw std::invalid_argument("the template for " + d.vtk_class + " has no @PARAMETERS@");
+  fill_line(text, "@PARAMETERS@", properties(d));
+  fill_line(text, "@METHOD@", method_property());
+  if (!d.operation) return text;
+  fill_line(text, "@OUTPUTS@", output_ports(*d.operation));
+  fill_line(text, "@SIGNED_ARRAYS@", signed_arrays(*d.operation));
+  fill(text, "@NAME@", filter_name(*d.operation));
+  fill(text, "@LABEL@", label_of(*d.operation));
+  fill(text, "@SUMMARY@", escaped(d.operation->summary));
   return text;
 }
 

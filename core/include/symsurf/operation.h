@@ -20,7 +20,8 @@ struct PointArray {
   std::string name;
   ParameterType type = ParameterType::Real;  ///< or Integer or Boolean
   int components = 1;
-  std::string doc;  ///< one sentence, with the unit
+  std::string doc;         ///< one sentence, with the unit
+  bool is_signed = false;  ///< 0 belongs in the middle of a colour map
 };
 
 /// The one description of what is done with a mirror. Front ends are made by looping over
@@ -31,6 +32,7 @@ struct Operation {
   std::string summary;  ///< one sentence
   std::vector<Parameter> parameters;
   std::vector<PointArray> arrays;
+  std::string shown;          ///< the array to colour points by; none: the colours stay
   bool moves_points = false;  ///< the result's points are not those of the input
   bool adds_points = false;   ///< behind those of the input, and faces behind its faces
   bool takes_mask = false;    ///< OperationInput::mask

@@ -30,7 +30,7 @@ void report_pairs(Result& result, const MethodImplementation& method, const Part
 std::optional<Result> run_pipeline(const MethodImplementation& method,
                                    const ParameterValues& values, Cloud cloud,
                                    bool refuse_nonfinite, const Context& context) {
-  const Context unreported = context.stage(0, 0);
+  const Context before_run = context.stage(0, 0), after_run = context.stage(1, 1);
   const Partition input = cloud.partition;
   Preprocessing policy = method.preprocessing;
   if (input.processes()) policy.merge_duplicates = false;  // those of others are not known
@@ -42,15 +42,15 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   Cloud before_last;
   for (const auto& stage : stages) {
     const Cloud before = cloud;
-    if (input.processes() && stage->needs_whole(cloud, unreported)) return std::nullopt;
-    const bool changed = stage->apply(cloud, unreported);
+    if (input.processes() && stage->needs_whole(cloud, before_run)) return std::nullopt;
+    const bool changed = stage->apply(cloud, before_run);
     if (changed) {
       applied.push_back(stage.get());
       before_last = before;
     }
     const Index needed = needed_points(cloud, method.minimum_points);
     if (changed || stage == stages.front())
-      validate(cloud, needed, unreported);
+      validate(cloud, needed, before_run);
     else
       require_count(cloud.partition.total(), needed);
   }
@@ -60,7 +60,7 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   const bool of_boundary =
       policy.extract_boundary && !applied.empty() && applied.back() == stages.back().get();
   if (of_boundary && may_hide_exact_mirror(result, before_last)) {
-    Result of_all = method.run(before_last, values, unreported);
+    Result of_all = method.run(before_last, values, after_run);
     if (of_all.score >= 1) {
       result = std::move(of_all);
       applied.pop_back();
@@ -76,7 +76,7 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   }
   set_footprint(result, cloud);
   for (auto stage = applied.rbegin(); stage != applied.rend(); ++stage)
-    (*stage)->map_back(result, pair_distance, unreported);
+    (*stage)->map_back(result, pair_distance, after_run);
   if (result.mirror) report_pairs(result, finder, input);
   return result;
 }

@@ -106,12 +106,14 @@ OperationImplementation asymmetry_operation() {
        "From the point to its place, input units; NaN without a counterpart."},
       {"distance", ParameterType::Real, 1, "Its length, input units."},
       {"signed", ParameterType::Real, 1,
-       "Its part along the outward normal, input units: positive where the point lies too far in."},
-      {"lateral", ParameterType::Real, 1, "Its part away from the mirror, input units."},
+       "Its part along the outward normal, input units: positive where the point lies too far in.",
+       true},
+      {"lateral", ParameterType::Real, 1, "Its part away from the mirror, input units.", true},
       {"matched", ParameterType::Boolean, 1,
        "Whether the point has a counterpart: none past a rim, too far away, or with another "
        "normal."},
   };
+  operation.shown = "signed";
   operation.run = run_asymmetry;
   return operation;
 }

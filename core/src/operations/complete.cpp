@@ -227,6 +227,7 @@ OperationImplementation complete_operation() {
       max_distance(), max_angle()};
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};
+  operation.shown = "origin";
   operation.adds_points = true;
   operation.run = run_complete;
   return operation;

@@ -71,6 +71,7 @@ OperationImplementation correspondences_operation() {
        "Of a mesh, the face that the image comes closest to; -1 for none."},
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
+  operation.shown = "confidence";
   operation.run = run_correspondences;
   return operation;
 }

@@ -133,6 +133,7 @@ OperationImplementation symmetrize_operation() {
       {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."}};
   operation.moves_points = true;
   operation.takes_mask = true;
+  operation.shown = "paired";
   operation.run = run_symmetrize;
   return operation;
 }

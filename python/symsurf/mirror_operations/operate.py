@@ -29,6 +29,8 @@ def operate(
     """Runs one of ``operations()``; arguments and errors are those of the function of that name."""
     given = as_input(shape, faces)
     mirror = _mirror_of(given, result, threads)
+    if mirror.footprint is None:  # that the way back from a straightened shape is laid out over
+        mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     if absolute:
         described = _core.operations()[name].parameters
         parameters = as_fractions(parameters, described, lambda: _diagonal(given))

@@ -31,7 +31,7 @@ class OperationResult(Summarised):
     shape: Shape
     """The shape, moved or not: points and faces in the order of the input, then those added."""
     mirror: Mirror
-    """The mirror that was used."""
+    """The mirror that was used; one made by hand with the shape for its footprint."""
     parameters: dict[str, Any]
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]

@@ -1,0 +1,199 @@
+"""Arrays of NumPy and data sets of VTK, made of one another."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import (
+    vtkDataArray,
+    vtkIdList,
+    vtkPoints,
+    vtkStringArray,
+)
+from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray,
+    vtkDataSetAttributes,
+    vtkFieldData,
+    vtkPolyData,
+)
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+from .._core import InvalidInput, Mirror, make_mirror
+from .algorithm import camel_case
+
+
+def rows_of(array: vtkDataArray | None) -> NDArray[Any]:
+    return np.empty((0, 3)) if array is None else vtk_to_numpy(array)
+
+
+def points_of(data: vtkPolyData) -> NDArray[Any]:
+    return rows_of(data.GetPoints() and data.GetPoints().GetData())
+
+
+class Faces(NamedTuple):
+    """The polygons and strips of a data set, divided into triangles."""
+
+    corners: NDArray[np.int64] | None
+    """(m, 3) indices of points; None where there are no polygons."""
+    cells: NDArray[np.int64]
+    """(m,) of each triangle, the cell that it is a part of."""
+
+
+def faces_of(data: vtkPolyData) -> Faces:
+    """Raises InvalidInput where a polygon names a point that is not there."""
+    if data.GetNumberOfPolys() + data.GetNumberOfStrips() == 0:
+        return Faces(None, np.empty(0, np.int64))
+    for cells in (data.GetPolys(), data.GetStrips()):
+        _require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
+    polygons = vtkPolyData()
+    polygons.SetPoints(data.GetPoints())
+    polygons.SetPolys(data.GetPolys())
+    polygons.SetStrips(data.GetStrips())
+    first = data.GetNumberOfVerts() + data.GetNumberOfLines()
+    numbers = np.arange(first, first + polygons.GetNumberOfCells(), dtype=np.int64)
+    polygons.GetCellData().AddArray(numpyTovtkDataArray(numbers, "cell"))
+    divided = vtkTriangleFilter()
+    divided.SetInputData(polygons)
+    divided.Update()
+    triangles = divided.GetOutput()
+    corners = vtk_to_numpy(triangles.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return Faces(corners, vtk_to_numpy(triangles.GetCellData().GetArray(0)))
+
+
+def _require_points(named: NDArray[np.int64], count: int) -> None:
+    """VTK's own filters read what a polygon names without asking whether it is there."""
+    beyond = named[(named < 0) | (named >= count)]
+    if len(beyond):
+        raise InvalidInput(f"a polygon names point {beyond[0]}; allowed is 0 to {count - 1}")
+
+
+def vtk_points(rows: NDArray[np.float64]) -> vtkPoints:
+    points = vtkPoints()
+    points.SetData(numpyTovtkDataArray(rows))
+    return points
+
+
+def vtk_cells(rows: NDArray[np.int64]) -> vtkCellArray:
+    """A cell each row."""
+    cells = vtkCellArray()
+    cells.SetData(rows.shape[1], numpyTovtkDataArray(np.ascontiguousarray(rows).ravel()))
+    return cells
+
+
+def set_vertices(output: vtkPolyData, points: NDArray[np.float64]) -> None:
+    """Points, and one vertex each."""
+    output.SetPoints(vtk_points(points))
+    output.SetVerts(vtk_cells(np.arange(len(points), dtype=np.int64)[:, None]))
+
+
+def add_values(field: vtkFieldData, values: dict[str, Any]) -> None:
+    """An array a value, named as VTK names things."""
+    for name, value in values.items():
+        if isinstance(value, str):
+            array: Any = vtkStringArray()
+            array.InsertNextValue(value)
+        else:
+            rows = np.atleast_2d(np.asarray(value, np.int64 if isinstance(value, bool) else None))
+            array = numpyTovtkDataArray(np.ascontiguousarray(rows))
+        array.SetName(camel_case(name))
+        field.AddArray(array)
+
+
+def mirror_of(data: vtkPolyData) -> Mirror:
+    """The mirror that the field data of a detection's output "Mirror" describes. Raises InvalidInput
+    where it describes none."""
+    field = data.GetFieldData()
+    values = {}
+    for i in range(field.GetNumberOfArrays()):
+        array = field.GetAbstractArray(i)
+        if array.GetName() and array.GetNumberOfValues() > 0:
+            values[_core_name(array.GetName())] = _value(array)
+    if "kind" not in values:
+        raise InvalidInput(
+            'the mirror has no field data array Kind; connect the output "Mirror" of a mirror '
+            "detection"
+        )
+    return make_mirror(str(values.pop("kind")), values)
+
+
+def _core_name(name: str) -> str:
+    spaced = "".join("_" + letter if letter.isupper() else letter for letter in name)
+    return spaced.removeprefix("_").lower()
+
+
+def _value(array: Any) -> Any:
+    if array.IsA("vtkStringArray"):
+        return str(array.GetValue(0))
+    rows = vtk_to_numpy(array)
+    if array.GetNumberOfValues() == 1:
+        return rows.ravel()[0].item()
+    return rows[0] if rows.shape == (1, 3) else rows.reshape(len(rows), -1)
+
+
+def set_subset(
+    output: vtkPolyData, data: vtkPolyData, points: NDArray[np.float64], kept: NDArray[np.int64]
+) -> None:
+    """Makes the output the rows ``kept`` (rising) of the data set, moved to ``points``, with their
+    data and with the cells that need no other rows. All rows: the cells as they are. No normals."""
+    if len(kept) == data.GetNumberOfPoints():
+        output.ShallowCopy(data)
+    else:
+        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        copy_rows(output.GetPointData(), data.GetPointData(), kept)
+        _copy_whole_cells(output, data, kept)
+    output.SetPoints(vtk_points(points))
+    drop_normals(output)
+
+
+def drop_normals(data: vtkPolyData) -> None:
+    data.GetPointData().SetNormals(None)
+    data.GetCellData().SetNormals(None)
+
+
+def copy_rows(
+    to: vtkDataSetAttributes, source: vtkDataSetAttributes, rows: NDArray[np.int64]
+) -> None:
+    """Makes the data that of the rows of another."""
+    to.Initialize()
+    to.CopyAllOn()
+    to.CopyAllocate(source, len(rows))
+    to.CopyData(source, _ids(rows), _ids(np.arange(len(rows))))
+
+
+def _ids(rows: NDArray[np.int64]) -> vtkIdList:
+    ids = vtkIdList()
+    ids.SetNumberOfIds(len(rows))
+    for place, row in enumerate(rows.tolist()):
+        ids.SetId(place, row)
+    return ids
+
+
+def _copy_whole_cells(output: vtkPolyData, data: vtkPolyData, kept: NDArray[np.int64]) -> None:
+    renumbered = np.full(data.GetNumberOfPoints(), -1)
+    renumbered[kept] = np.arange(len(kept))
+    sources, first = [], 0
+    for kind in ("Verts", "Lines", "Polys", "Strips"):
+        cells = getattr(data, f"Get{kind}")()
+        whole, copy = _whole_cells(cells, renumbered)
+        getattr(output, f"Set{kind}")(copy)
+        sources.append(first + np.flatnonzero(whole))
+        first += len(whole)
+    copy_rows(output.GetCellData(), data.GetCellData(), np.concatenate(sources))
+
+
+def _whole_cells(
+    cells: vtkCellArray, renumbered: NDArray[np.int64]
+) -> tuple[NDArray[np.bool_], vtkCellArray]:
+    """Which cells have all their points still, and these."""
+    corners = renumbered[vtk_to_numpy(cells.GetConnectivityArray())]
+    sizes = np.diff(vtk_to_numpy(cells.GetOffsetsArray()))
+    cell_of = np.repeat(np.arange(len(sizes)), sizes)
+    whole = np.bincount(cell_of[corners < 0], minlength=len(sizes)) == 0
+    copy = vtkCellArray()
+    offsets = np.concatenate([[0], np.cumsum(sizes[whole])]).astype(np.int64)
+    copy.SetData(numpyTovtkDataArray(offsets), numpyTovtkDataArray(corners[whole[cell_of]]))
+    return whole, copy

@@ -1,0 +1,264 @@
+"""A filter for each of ``operations()``, made from its description: MirrorAsymmetry, ..."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
+
+from .. import _core
+from .._core import InvalidInput, InvalidParameter, Mirror, Operation, methods, operations
+from ..detection import detect
+from .algorithm import THREADS, Algorithm, Property, camel_case, described
+from .arrays import (
+    Faces,
+    add_values,
+    copy_rows,
+    drop_normals,
+    faces_of,
+    mirror_of,
+    points_of,
+    set_subset,
+    vtk_cells,
+    vtk_points,
+)
+
+_FOUND_AT = 0.6  # the share of the progress that finding the mirror takes
+
+
+class MirrorOperation(Algorithm):
+    """What the filters of the operations have in common; ``vtkMirrorOperation`` in Python.
+
+    Input 0 is the shape. Input 1, optional, is its mirror: output 0 of ``MirrorDetection``, in the
+    unit and pose of the shape. Without it the mirror is found first, by ``method``; a shape in which
+    none is found is an error that says why.
+
+    Output 0 has the points and cells of the input in their order, moved where the operation moves
+    them, with their data, and behind them what the operation adds, with the data of what it is made
+    from. Normals are not passed on where points are moved or added. Figures about the whole are
+    field data.
+    """
+
+    operation: ClassVar[Operation]
+
+    _optional_inputs = (1,)
+    _inputs: ClassVar = {
+        "input_data": "The shape, where no filter makes it.",
+        "mirror_data": 'The output "Mirror" of a detection, where no filter makes it.',
+    }
+
+    def SetMirrorConnection(self, mirror: vtkAlgorithmOutput | None) -> None:
+        """Connects the mirror, input 1; None: it is found first."""
+        self.SetInputConnection(1, mirror)
+
+    def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
+        shape, given = inputs
+        options, operation = self._options, self.operation
+        points, faces = points_of(shape), faces_of(shape)
+        mask = _mask_of(shape, options["mask_array"]) if operation.takes_mask else None
+        mirror = self._found_mirror(points, faces) if given is None else mirror_of(given)
+        before = _FOUND_AT if given is None else 0
+        result = _core.operate(
+            operation.name,
+            points,
+            faces.corners,
+            mirror,
+            mask,
+            options["number_of_threads"],
+            lambda fraction: self._progress(before + (1 - before) * fraction),
+            {each.name: options[each.name] for each in operation.parameters},
+        )
+        added = _set_operated(outputs[0], shape, faces, operation, result)
+        if operation.adds_points:
+            _set_patch(outputs[1], added, len(points))
+
+    def _found_mirror(self, points: NDArray[Any], faces: Faces) -> Mirror:
+        result = detect(
+            points,
+            self._options["method"],
+            faces=faces.corners,
+            nonfinite="refuse",
+            threads=self._options["number_of_threads"],
+            progress=lambda fraction: self._progress(_FOUND_AT * fraction),
+        )
+        if result.mirror is None or result.verdict != "found":
+            raise InvalidInput(
+                f"the shape has no mirror: {result.statistics['reason']}; connect the output "
+                '"Mirror" of a mirror detection to use it all the same'
+            )
+        return result.mirror
+
+
+def _mask_of(shape: vtkPolyData, name: str) -> NDArray[np.float64] | None:
+    data = shape.GetPointData()
+    array = data.GetArray(name)
+    if name == "" or (name == "None" and array is None):
+        return None
+    if array is None:
+        names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+        raise InvalidParameter(
+            f"MaskArray is {name!r}; allowed are the input's point arrays: "
+            f"{', '.join(filter(None, names)) or 'none'}"
+        )
+    if array.GetNumberOfComponents() != 1:
+        raise InvalidParameter(
+            f"MaskArray is {name!r}, which has {array.GetNumberOfComponents()} components; allowed "
+            "is one"
+        )
+    return vtk_to_numpy(array).astype(np.float64)
+
+
+def filter_name(operation: Operation) -> str:
+    """ "MirrorAsymmetry" of "Mirror asymmetry"."""
+    return camel_case(operation.title.replace(" ", "_"))
+
+
+def array_name(operation: Operation, array: str) -> str:
+    """ "MirrorAsymmetryDistance": an input may have a "Distance" of its own."""
+    return filter_name(operation) + camel_case(array)
+
+
+def _set_operated(
+    output: vtkPolyData,
+    shape: vtkPolyData,
+    faces: Faces,
+    operation: Operation,
+    result: dict[str, Any],
+) -> vtkPolyData:
+    """Makes the output the shape with what the operation gave. Gives what was added: the output's
+    points with the added cells alone, and their data."""
+    verts, vert_sources = _added_verts(shape, faces, result)
+    polys, poly_sources = _added_polys(faces, result)
+    output.ShallowCopy(shape)
+    if len(result["point_sources"]):
+        output.DeleteCells()
+        output.SetVerts(_joined(shape.GetVerts(), verts))
+        output.SetPolys(_joined(shape.GetPolys(), polys))
+        copy_rows(output.GetPointData(), shape.GetPointData(), result["point_sources"])
+        old = np.arange(shape.GetNumberOfCells())
+        ends = [shape.GetNumberOfVerts(), len(old) - shape.GetNumberOfStrips()]
+        first, middle, last = np.split(old, ends)
+        rows = np.concatenate([first, vert_sources, middle, poly_sources, last])
+        copy_rows(output.GetCellData(), shape.GetCellData(), rows)
+    if operation.moves_points or operation.adds_points:
+        output.SetPoints(vtk_points(result["points"]))
+        drop_normals(output)
+    _add_arrays(output, faces, operation, result["arrays"])
+    add_values(output.GetFieldData(), result["statistics"])
+
+    added = vtkPolyData()
+    added.SetPoints(output.GetPoints())
+    added.GetPointData().ShallowCopy(output.GetPointData())
+    added.GetFieldData().ShallowCopy(output.GetFieldData())
+    added.SetVerts(verts)
+    added.SetPolys(polys)
+    copy_rows(
+        added.GetCellData(), shape.GetCellData(), np.concatenate([vert_sources, poly_sources])
+    )
+    return added
+
+
+def _added_polys(faces: Faces, result: dict[str, Any]) -> tuple[vtkCellArray, NDArray[np.int64]]:
+    """The triangles behind those of the shape, and the shape's cells that they have their data of."""
+    old = 0 if faces.corners is None else len(faces.corners)
+    corners = result["faces"][old:]
+    return _cells(corners), faces.cells[result["face_sources"][old:]]
+
+
+def _added_verts(
+    shape: vtkPolyData, faces: Faces, result: dict[str, Any]
+) -> tuple[vtkCellArray, NDArray[np.int64]]:
+    """Of a cloud that has vertices, one each of the added points; else none."""
+    old, cells = shape.GetNumberOfPoints(), shape.GetNumberOfVerts()
+    if faces.corners is not None or cells == 0:
+        return vtkCellArray(), np.empty(0, np.int64)
+    vert_of = np.zeros(old, np.int64)
+    verts = shape.GetVerts()
+    sizes = np.diff(vtk_to_numpy(verts.GetOffsetsArray()))
+    vert_of[vtk_to_numpy(verts.GetConnectivityArray())] = np.repeat(np.arange(cells), sizes)
+    added = np.arange(old, len(result["points"]))
+    return _cells(added[:, None]), vert_of[result["point_sources"][old:]]
+
+
+def _cells(rows: NDArray[np.int64]) -> vtkCellArray:
+    return vtk_cells(rows) if len(rows) else vtkCellArray()
+
+
+def _joined(first: vtkCellArray, second: vtkCellArray) -> vtkCellArray:
+    cells = vtkCellArray()
+    cells.DeepCopy(first)
+    cells.Append(second)
+    return cells
+
+
+def _add_arrays(
+    output: vtkPolyData, faces: Faces, operation: Operation, arrays: dict[str, NDArray[Any]]
+) -> None:
+    data = output.GetPointData()
+    for name, values in arrays.items():
+        if values.dtype == np.bool_:
+            values = values.astype(np.int8)
+        if name == "face":  # a triangle is a part of a cell
+            values = np.where(values >= 0, faces.cells[values], -1)
+        data.AddArray(numpyTovtkDataArray(values, array_name(operation, name)))
+    if operation.shown:
+        data.SetActiveScalars(array_name(operation, operation.shown))
+
+
+def _set_patch(patch: vtkPolyData, added: vtkPolyData, first_added: int) -> None:
+    """What was added, with the points that it shares with the shape."""
+    points = points_of(added)
+    used = np.zeros(len(points), bool)
+    used[first_added:] = True
+    used[vtk_to_numpy(added.GetPolys().GetConnectivityArray())] = True
+    kept = np.flatnonzero(used)
+    set_subset(patch, added, points[kept], kept)
+
+
+def _docstring(operation: Operation) -> str:
+    lines = [textwrap.fill(operation.summary, 96), ""]
+    lines.append("Inputs, and what is kept of them: see ``MirrorOperation``.")
+    if operation.adds_points:
+        lines.append("Output 0 is the whole, output 1 what was added alone.")
+    if operation.arrays:
+        lines.append("Point data:")
+    for array in operation.arrays:
+        text = f"- {array_name(operation, array.name)}: {array.doc}"
+        lines.append(textwrap.fill(text, 96, subsequent_indent="  "))
+    return "\n".join(lines)
+
+
+def _filter(operation: Operation) -> type[MirrorOperation]:
+    properties = described(operation.parameters)
+    if operation.takes_mask:
+        properties["mask_array"] = Property(
+            "",
+            "The name of a point array, a value in [0, 1] each: how far the point may move. Empty, "
+            "or None: all points may.",
+        )
+    properties["method"] = Property(
+        next(iter(methods())),
+        "How the mirror is found where none is connected, with the parameters that are there "
+        f"initially. One of: {', '.join(methods())}",
+    )
+    properties["number_of_threads"] = THREADS
+    members: dict[str, Any] = {
+        "__doc__": _docstring(operation),
+        "__module__": __name__,
+        "operation": operation,
+        "_properties": properties,
+    }
+    if operation.adds_points:
+        members |= {"_output_count": 2, "WHOLE": 0, "PATCH": 1}
+    return type(filter_name(operation), (MirrorOperation,), members)
+
+
+_FILTERS = {filter_name(operation): _filter(operation) for operation in operations().values()}
+__all__ = [name for name in _FILTERS]
+globals().update(_FILTERS)

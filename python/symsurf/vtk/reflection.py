@@ -1,0 +1,44 @@
+"""The reflection of a shape over its mirror."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
+from vtkmodules.vtkFiltersCore import vtkReverseSense
+
+from .algorithm import Algorithm
+from .arrays import mirror_of, points_of, set_subset
+
+
+class MirrorReflection(Algorithm):
+    """Reflects a ``vtkPolyData`` over a mirror; ``vtkMirrorReflection`` in Python.
+
+    Input 0 is what is reflected, input 1 the mirror: output 0 of ``MirrorDetection``, whose field
+    data says everything. Cells are turned over, so that the outside stays the outside; normals are
+    not passed on. Points that have no image over the mirror are left out, together with the cells
+    that need them.
+    """
+
+    _inputs: ClassVar = {
+        "input_data": "What is reflected, where no filter makes it.",
+        "mirror_data": 'The output "Mirror" of a detection, where no filter makes it.',
+    }
+
+    def SetMirrorConnection(self, mirror: vtkAlgorithmOutput) -> None:
+        """Connects the mirror, input 1."""
+        self.SetInputConnection(1, mirror)
+
+    def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
+        shape, mirror = inputs
+        images = mirror_of(mirror).reflect(points_of(shape))
+        kept = np.flatnonzero(np.isfinite(images).all(axis=1))
+        reflected = vtkPolyData()
+        set_subset(reflected, shape, images[kept], kept)
+        reverse = vtkReverseSense()
+        reverse.SetInputData(reflected)
+        reverse.ReverseCellsOn()
+        reverse.Update()
+        outputs[0].ShallowCopy(reverse.GetOutput())

@@ -1,0 +1,103 @@
+"""The operations as ParaView's filters."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from bad_input import tables
+from desktop import screen
+
+import symsurf
+from symsurf import _core
+
+OPERATIONS = symsurf.operations()
+
+
+def camel_case(name: str) -> str:
+    return "".join(word[0].upper() + word[1:] for word in name.replace(" ", "_").split("_"))
+
+
+PROXIES = {camel_case(operation.title): operation for operation in OPERATIONS.values()}
+
+
+@pytest.mark.parametrize("host", ["pvpython", "pvbatch"])
+def test_every_operation_gives_what_the_core_gives(
+    host: str, run_host: Callable[..., Any], tmp_path: Path
+) -> None:
+    answer = run_host(host, "every_operation.py", tmp_path, *PROXIES)
+    shape = np.load(tmp_path / "shape.npz")
+    fields = answer["mirror"]
+    mirror = symsurf.Plane(fields["Normal"], fields["Offset"][0])
+    diagonal = np.linalg.norm(np.ptp(shape["points"], axis=0))
+    for proxy, operation in PROXIES.items():
+        found = np.load(tmp_path / f"{proxy}.npz")
+        expected = _core.operate(
+            operation.name, shape["points"], shape["faces"], mirror, None, 0, None, {}
+        )
+        assert np.abs(found["points"] - expected["points"]).max() <= 1e-12 * diagonal
+        for array in operation.arrays:
+            np.testing.assert_allclose(
+                found[proxy + camel_case(array.name)],
+                expected["arrays"][array.name],
+                rtol=0,
+                atol=1e-9,
+            )
+        seen = answer["operations"][proxy]
+        assert seen["apart"] < 1e-9
+        assert seen["cells"] >= answer["cells"]
+        assert seen["scalars"] == (proxy + camel_case(operation.shown) if operation.shown else None)
+        assert set(seen["field"]) == set(map(camel_case, expected["statistics"]))
+        assert len(seen["ports"]) == 1 + operation.adds_points
+    assert answer["operations"]["MirrorCompletion"]["ports"] == ["Whole", "Patch"]
+
+
+def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> None:
+    outside = [
+        (proxy, parameter, value)
+        for proxy, operation in PROXIES.items()
+        for parameter, value in tables.numbers_out_of_range(operation.parameters)
+    ]
+    # JSON has no NaN.
+    values = [
+        [proxy, camel_case(parameter.name), None if math.isnan(value) else value]
+        for proxy, parameter, value in outside
+    ]
+    answer = run_host(
+        "pvpython", "bad_operations.py", json.dumps(list(PROXIES)), json.dumps(values)
+    )
+    assert set(answer["mirrors"]) == set(PROXIES)
+    for seen in answer["mirrors"].values():
+        for said, row in zip(seen, tables.mirrors(), strict=True):
+            assert row.reason in said["said"] and said["points"] == 0, row.name
+    for seen in answer["clouds"].values():
+        for said, row in zip(seen, tables.clouds(), strict=True):
+            refused = row.refuses_nonfinite or np.isfinite(row.points).all()
+            assert (row.reason if refused else "point ") in said["said"], row.name
+            assert said["points"] == 0
+    for said, (_, parameter, _) in zip(answer["properties"], outside, strict=True):
+        assert f"{parameter.name} is " in said["said"] and said["points"] == 0
+    for name, (said, reason) in answer["masks"].items():
+        assert reason in said["said"] and (said["points"] == 0) == bool(reason), name
+    for seen in answer["good"].values():
+        assert seen["said"] == "" and seen["points"] > 0
+
+
+def test_colours_of_the_asymmetry_lie_about_0(
+    run_host: Callable[..., Any], environment: dict[str, str]
+) -> None:
+    with screen(environment) as seen:
+        answer = run_host(f"env DISPLAY={seen['DISPLAY']} pvpython", "colours.py")
+    assert answer["array"] == ["POINTS", "MirrorAsymmetrySigned"]
+    largest = 0.0
+    for depth in ("0.2", "0.1", "0.3"):
+        values = answer[depth]["values"]
+        assert values[0] != -values[1]
+        largest = max(largest, *map(abs, values))  # it grows, as ParaView's own ranges do
+        assert answer[depth]["colours"] == pytest.approx([-largest, largest], rel=1e-6)
+    assert answer["own"]["colours"] == [0, 1]

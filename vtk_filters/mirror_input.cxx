@@ -1,0 +1,17 @@
+#include "mirror_input.h"
+
+#include <symsurf/errors.h>
+#include <symsurf/make_mirror.h>
+
+#include "field_values.h"
+#include "vtkPolyData.h"
+
+std::shared_ptr<symsurf::Mirror> mirror_of(vtkPolyData* data) {
+  const symsurf::Values numbers = field_values(data->GetFieldData());
+  const auto kind = numbers.find("kind");
+  if (kind == numbers.end())
+    throw symsurf::InvalidInput(
+        "the mirror has no field data array Kind; connect the output \"Mirror\" of a mirror "
+        "detection");
+  return symsurf::make_mirror(symsurf::to_string(kind->second), numbers);
+}

@@ -1,0 +1,104 @@
+#include "run_operation.h"
+
+#include <symsurf/detect.h>
+#include <symsurf/operation.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "controller_communicator.h"
+#include "core_call.h"
+#include "mirror_input.h"
+#include "operation_output.h"
+#include "point_arrays.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMirrorOperation.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+namespace {
+
+// Whether another process has the points. Of all processes together: one that threw alone would
+// keep the others waiting.
+bool is_elsewhere(const ControllerCommunicator& processes, symsurf::Index own) {
+  if (processes.size() == 1) return false;
+  int with_points = 0;
+  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(&own, 1)))) {
+    symsurf::Index count;
+    std::memcpy(&count, theirs.data(), sizeof count);
+    with_points += count > 0;
+  }
+  if (with_points > 1)
+    throw symsurf::InvalidInput(
+        std::to_string(with_points) +
+        " processes share out the points; an operation needs all of them in "
+        "one: aggregate the data set first");
+  return with_points == 1 && own == 0;
+}
+
+std::string names_of_arrays(vtkPointData* data) {
+  std::string names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    if (data->GetArrayName(i))
+      names += (names.empty() ? "" : ", ") + std::string(data->GetArrayName(i));
+  return names.empty() ? "none" : names;
+}
+
+Eigen::VectorXd mask_of(vtkPolyData* input, const std::string& name) {
+  vtkPointData* data = input->GetPointData();
+  vtkDataArray* array = data->GetArray(name.c_str());
+  if (name.empty() || (name == "None" && !array)) return {};
+  if (!array)
+    throw symsurf::InvalidParameter(
+        "MaskArray is '" + name +
+        "'; allowed are the input's point arrays: " + names_of_arrays(data));
+  if (array->GetNumberOfComponents() != 1)
+    throw symsurf::InvalidParameter("MaskArray is '" + name + "', which has " +
+                                    std::to_string(array->GetNumberOfComponents()) +
+                                    " components; allowed is one");
+  Eigen::VectorXd mask(array->GetNumberOfTuples());
+  for (Eigen::Index i = 0; i < mask.size(); ++i) mask[i] = array->GetComponent(i, 0);
+  return mask;
+}
+
+std::shared_ptr<symsurf::Mirror> found_mirror(const symsurf::OperationInput& input,
+                                              const std::string& method,
+                                              const symsurf::Context& context) {
+  symsurf::Options options;
+  options.method = method;
+  options.faces = input.faces;
+  options.refuse_nonfinite = true;
+  const symsurf::Result result = symsurf::detect(input.points, options, context);
+  if (result.mirror && result.verdict() == "found") return result.mirror;
+  throw symsurf::InvalidInput("the shape has no mirror: " + result.reason() +
+                              "; connect the output \"Mirror\" of a mirror detection to use it all "
+                              "the same");
+}
+
+}  // namespace
+
+int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
+                  vtkInformationVector* outputs, const OperationCall& call) {
+  vtkPolyData* shape = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* given = vtkPolyData::GetData(inputs[1]);
+  return core_call(filter, [&] {
+    const PointArray points = points_of(shape);
+    const ControllerCommunicator processes(filter->GetController());
+    if (is_elsewhere(processes, points.view().size())) return;
+    const TriangleArray faces(shape);
+    const symsurf::OperationInput input{points.view(), faces.view(),
+                                        mask_of(shape, call.mask_array)};
+    const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
+    const double found_at = given ? 0 : 0.6;
+    const std::shared_ptr<symsurf::Mirror> mirror =
+        given ? mirror_of(given)
+              : found_mirror(input, filter->GetMethod(), context.stage(0, found_at));
+    const symsurf::OperationResult result = symsurf::operate(
+        call.operation, input, *mirror, call.parameters, context.stage(found_at, 1));
+    vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);
+    const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result);
+    if (filter->GetNumberOfOutputPorts() > 1)
+      set_patch(vtkPolyData::GetData(outputs, 1), added, points.view().size());
+  });
+}

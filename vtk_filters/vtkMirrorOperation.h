@@ -1,0 +1,89 @@
+/**
+ * @class vtkMirrorOperation
+ * @brief What the filters that do something with a mirror have in common.
+ *
+ * Input 0 is the shape. Input 1, optional, is its mirror: output 0 of vtkMirrorDetection, whose
+ * field data (Kind and numbers) says everything, in the unit and pose of the shape. Without it the
+ * mirror is found first, by Method; a shape in which none is found is an error that says why.
+ *
+ * Output 0 has the points and cells of the input in their order, the points moved where the
+ * operation moves them, with their data. Points and polygons that an operation adds come behind
+ * those of the input, with the data of the points and cells that they are made from. Normals are
+ * not passed on where points are moved or added. What the operation gives each point are point
+ * arrays that begin with the filter's name without "vtk", one of them the active scalars. Figures
+ * about the whole are field data. Polygons of more than three corners, and strips, are divided into
+ * triangles for the operation alone.
+ *
+ * Points that are not finite, less than half of the points with an image over the mirror, an
+ * unknown method or a value out of range are errors and leave the outputs empty. Where several
+ * processes share out the input, one of them must have all of it; that they do not is an error of
+ * all.
+ */
+#ifndef vtkMirrorOperation_h
+#define vtkMirrorOperation_h
+
+#include <string>  // for the members
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSymsurfFiltersModule.h"  // for the export macro
+
+class vtkMultiProcessController;
+
+class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkPolyDataAlgorithm {
+ public:
+  vtkTypeMacro(vtkMirrorOperation, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Connects the mirror, input 1.
+   */
+  void SetMirrorConnection(vtkAlgorithmOutput* mirror) { this->SetInputConnection(1, mirror); }
+
+  /**
+   * Leaves input 1 without a connection: the mirror is found first.
+   */
+  void RemoveMirror() { this->SetInputConnection(1, nullptr); }
+
+  ///@{
+  /**
+   * How the mirror is found where none is connected: a method of vtkMirrorDetection, with the
+   * parameters that are there initially.
+   */
+  vtkSetStdStringFromCharMacro(Method);
+  vtkGetCharFromStdStringMacro(Method);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use; 0: as many as the machine has. The results are the same for any number.
+   */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that share out the input; null, or one process: all of it is here. Initially the
+   * global controller.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+ protected:
+  vtkMirrorOperation();
+  ~vtkMirrorOperation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override = 0;
+
+  std::string Method;
+  int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+
+ private:
+  vtkMirrorOperation(const vtkMirrorOperation&) = delete;
+  void operator=(const vtkMirrorOperation&) = delete;
+};
+
+#endif
