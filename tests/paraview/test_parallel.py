@@ -116,3 +116,11 @@ def test_client_and_server(
 ) -> None:
     with server(2, environment) as port:
         check_same(run_host("pvpython", "shared_shape.py", "slabs", port), one)
+
+
+def test_an_operation_wants_all_points_in_one_process(run_host: Callable[..., Any]) -> None:
+    seen = run_host("pvbatch", "shared_operation.py")
+    assert seen["shared"] == seen["gathered"] == seen["points"] > 0
+    seen = run_host(pvbatch(2), "shared_operation.py")
+    assert seen["shared"] == 0  # an error of both processes, which live on
+    assert seen["gathered"] == seen["points"] > 0

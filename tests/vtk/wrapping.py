@@ -109,8 +109,9 @@ class Wrapping(unittest.TestCase):
         correspondences.SetMethod("plane")
         self.assertEqual(errors_of(correspondences), "")
         index = correspondences.GetOutput().GetPointData().GetArray("MirrorCorrespondencesIndex")
-        for i in range(COUNT):
-            self.assertIn(index.GetValue(i), (COUNT + i, -1))
+        found = [index.GetValue(i) for i in range(COUNT)]
+        self.assertTrue(all(j in (COUNT + i, -1) for i, j in enumerate(found)))
+        self.assertLess(found.count(-1), COUNT / 10)
         correspondences.SetMaxAngle(91)
         self.assertIn("max_angle is 91", errors_of(correspondences))
 

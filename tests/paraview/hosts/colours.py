@@ -1,5 +1,6 @@
 """Shows the asymmetry of shapes; tells the ranges of its colours, and of its values."""
 
+import numpy as np
 from paraview import simple
 from session import answer, fetched, lopsided, point_array
 
@@ -25,7 +26,7 @@ def shown(depth):
     simple.Show(asymmetry, view)
     simple.Render(view)
     values = point_array(fetched(asymmetry), NAME)
-    return {"colours": colours(), "values": [float(values.min()), float(values.max())]}
+    return {"colours": colours(), "values": [float(np.nanmin(values)), float(np.nanmax(values))]}
 
 
 shown.depth = "0.2"
