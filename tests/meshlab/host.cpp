@@ -82,7 +82,8 @@ void refuses_what_is_not_there(Run& run) {
   expect(state(document) == before, run.name() + ": refused, yet the document changed");
 }
 
-// Deleted vertices count for nothing, and partners are numbered by vertex.
+// Deleted vertices count for nothing, and partners are numbered by vertex. Operations leave no
+// deleted vertices behind, and their arrays have other names.
 void skips_deleted_vertices(Run& run) {
   MeshDocument whole, holes;
   add_lump(whole, 250);
@@ -97,11 +98,16 @@ void skips_deleted_vertices(Run& run) {
   }
   vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
   expect(run(whole).empty() && run(holes).empty(), run.name() + ": does not run");
-  auto partner = Allocator::GetPerVertexAttribute<Scalarm>(full, "partner");
-  auto sparse = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
+  const int step = mesh.vert.size() == 250 ? 1 : 2;
+  const std::string name = run.name() == "compute_mirror_correspondences" ? "index" : "partner";
+  auto partner = Allocator::FindPerVertexAttribute<Scalarm>(full, name);
+  auto sparse = Allocator::FindPerVertexAttribute<Scalarm>(mesh, name);
   for (int i = 0; i < 250; ++i) {
-    expect(full.vert[i].Q() == mesh.vert[2 * i].Q(), run.name() + ": quality");
-    expect(sparse[2 * i] == (partner[i] < 0 ? -1 : 2 * partner[i]), run.name() + ": partner");
+    expect(full.vert[i].P() == mesh.vert[step * i].P(), run.name() + ": place");
+    expect(full.vert[i].Q() == mesh.vert[step * i].Q(), run.name() + ": quality");
+    if (Allocator::IsValidHandle(full, partner))
+      expect(sparse[step * i] == (partner[i] < 0 ? -1 : step * partner[i]),
+             run.name() + ": partner");
   }
 }
 
@@ -141,7 +147,10 @@ int main(int argc, char** argv) {
   for (QAction* action : plugin.actions()) {
     offers_no_preview(plugin, action);
     Run run(plugin, action);
-    if (run.name().rfind("compute_mirror_", 0) != 0) continue;
+    const bool is_mirrored = run.name().find("_mirror_") != std::string::npos;
+    if (!is_mirrored || run.name() == "apply_mirror_reflection" ||
+        run.name() == "create_mirror_sample")
+      continue;
     ++filters;
     cancels_at_every_report(run);
     survives_a_throwing_callback(run);

@@ -1,4 +1,4 @@
-"""A method or a parameter that only one of the front ends has fails here."""
+"""A method, an operation or a parameter that only one of the front ends has fails here."""
 
 from __future__ import annotations
 
@@ -28,13 +28,18 @@ def shown_values(method: str) -> dict:
     return cloud().mesh_set().filter_parameter_values(PREFIX + method)
 
 
-def test_there_is_one_filter_a_method():
-    filters = {name for name in pymeshlab.filter_list() if name.startswith(PREFIX)}
-    assert filters == {PREFIX + name for name in symsurf.methods()}
+def filter_of(operation: str) -> str:
+    described = symsurf.operations()[operation]
+    changes = described.moves_points or described.adds_points
+    return ("apply_" if changes else "compute_") + described.title.lower().replace(" ", "_")
 
 
-def test_the_other_filters_are_there():
-    assert {"apply_mirror_reflection", "create_mirror_sample"} <= set(pymeshlab.filter_list())
+def test_there_is_one_filter_a_method_and_one_an_operation():
+    filters = {name for name in pymeshlab.filter_list() if "_mirror_" in name}
+    methods = {PREFIX + name for name in symsurf.methods()}
+    operations = {filter_of(name) for name in symsurf.operations()}
+    assert filters == methods | operations | {"apply_mirror_reflection", "create_mirror_sample"}
+    assert "apply_mirror_alignment" in operations and "compute_mirror_asymmetry" in operations
 
 
 @pytest.mark.parametrize("method", symsurf.methods())
@@ -47,8 +52,23 @@ def test_parameters_are_those_described(method):
 
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_defaults_are_those_described(method):
-    shown = shown_values(method)
-    for p in symsurf.methods()[method].parameters:
+    assert_defaults(shown_values(method), symsurf.methods()[method].parameters)
+
+
+@pytest.mark.parametrize("operation", symsurf.operations())
+def test_parameters_of_operations_are_those_described(operation):
+    described = symsurf.operations()[operation]
+    shown = cloud().mesh_set().filter_parameter_values(filter_of(operation))
+    of_the_host = {"mirror_layer", "find_mirror", "threads"}
+    if described.takes_mask:
+        of_the_host |= {"only_selected", "weigh_by_quality"}
+    names = [p.name for p in described.parameters]
+    assert set(shown) == set(names) | of_the_host and len(shown) == len(names) + len(of_the_host)
+    assert_defaults(shown, described.parameters)
+
+
+def assert_defaults(shown: dict, described: list[symsurf.Parameter]) -> None:
+    for p in described:
         value = shown[p.name]
         if p.type == "real" and p.unit == "diagonal":
             assert value == pytest.approx(p.default * cloud().diagonal, rel=1e-6)

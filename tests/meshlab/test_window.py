@@ -141,7 +141,7 @@ def window(tmp_path):
 
 def pixels(picture: np.ndarray, strong: int) -> int:
     """How many in the 3D view have one colour and next to nothing of the others. MeshLab's ramp
-    runs from red (0), no residual, over green (1) to blue, the largest."""
+    runs from blue (2), no residual, over green (1) to red, the largest."""
     view = picture[95:660, 5:800]
     others = np.delete(view, strong, axis=-1)
     return int(np.sum((view[..., strong] > 100) & (others < 40).all(axis=-1)))
@@ -150,7 +150,10 @@ def pixels(picture: np.ndarray, strong: int) -> int:
 def place_in_submenu(title: str) -> tuple[int, int]:
     """Where the entry stands: by the alphabet, among those of the plugin for selecting."""
     others = ["Select by Face Quality", "Select by Vertex Quality"]
-    titles = [method.title for method in symsurf.methods().values()] + others
+    measuring = [
+        o.title for o in symsurf.operations().values() if not (o.moves_points or o.adds_points)
+    ]
+    titles = [method.title for method in symsurf.methods().values()] + measuring + others
     return 580, 281 + 25 * sorted(titles, key=str.lower).index(title)
 
 
@@ -173,5 +176,5 @@ def test_menu_dialog_and_result(window):
     score = float(re.search(r"Mirror plane: score: (\S+)", log)[1])
     assert score == pytest.approx(expected, abs=1e-4)  # this MeshLab's coordinates are floats
     # The body is as good as exact, the wings are not.
-    assert pixels(before, 0) == pixels(before, 1) == 0
-    assert pixels(after, 0) > 5000 and pixels(after, 1) > 500
+    assert pixels(before, 2) == pixels(before, 1) == 0
+    assert pixels(after, 2) > 5000 and pixels(after, 1) > 500
