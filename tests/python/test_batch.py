@@ -6,6 +6,7 @@ import csv
 import io
 import multiprocessing
 import os
+import time
 from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 
@@ -98,6 +99,13 @@ def test_a_process_that_is_killed_costs_no_file(files):
     for process in multiprocessing.active_children():
         process.kill()
     assert told([first, *rows]) == expected
+
+
+def test_a_job_takes_no_more_processors_than_it_was_given(tmp_path):
+    np.savetxt(tmp_path / "large.xyz", mirrored_surface(40000, 0)[0])
+    before, started = time.process_time(), time.perf_counter()
+    list(symsurf.batch([tmp_path / "large.xyz"] * 5, "asymmetry", method="plane", threads=1))
+    assert time.process_time() - before < 1.2 * (time.perf_counter() - started)
 
 
 def test_what_is_left_is_dropped_when_the_caller_has_enough(files):
