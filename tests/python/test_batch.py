@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import multiprocessing
 import os
 import time
@@ -175,6 +176,22 @@ def test_table_of_the_command_line(files, tmp_path):
                 assert row[name] == str(value)
         assert set(row) >= {"kind", "volume_index", "matrix", "signed_mean", "seconds", "version"}
         assert row["version"] == symsurf.__version__
+
+
+def test_lengths_in_input_units(files, tmp_path):
+    path = next(iter(files))
+    diagonal = float(np.linalg.norm(np.ptp(symsurf.read(path).points, axis=0)))
+    rows = [
+        list(symsurf.batch([path], "asymmetry", max_distance=0.05)),
+        list(symsurf.batch([path], "asymmetry", max_distance=0.05 * diagonal, absolute=True)),
+    ]
+    assert rows[0][0]["rms"] == rows[1][0]["rms"]
+    words = ("--absolute", "--max-distance", 0.05 * diagonal, "--json")
+    record = json.loads(run("asymmetry", path, *words).stdout)
+    assert record["parameters"]["max_distance"] == pytest.approx(0.05, rel=1e-12)
+    words = ("--method", "plane", "--absolute", "--pair-distance", 0.04 * diagonal, "--json")
+    record = json.loads(run("detect", path, *words).stdout)
+    assert record["parameters"]["pair_distance"] == pytest.approx(0.04, rel=1e-12)
 
 
 def test_names_that_are_no_text(files, tmp_path):
