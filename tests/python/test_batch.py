@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import multiprocessing
 import os
+import time
 from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 
@@ -100,6 +102,13 @@ def test_a_process_that_is_killed_costs_no_file(files):
     assert told([first, *rows]) == expected
 
 
+def test_a_job_takes_no_more_processors_than_it_was_given(tmp_path):
+    np.savetxt(tmp_path / "large.xyz", mirrored_surface(40000, 0)[0])
+    before, started = time.process_time(), time.perf_counter()
+    list(symsurf.batch([tmp_path / "large.xyz"] * 5, "asymmetry", method="plane", threads=1))
+    assert time.process_time() - before < 1.2 * (time.perf_counter() - started)
+
+
 def test_what_is_left_is_dropped_when_the_caller_has_enough(files):
     rows = symsurf.batch(list(files) * 1000, jobs=2)
     assert len(list(islice(rows, 2))) == 2
@@ -167,6 +176,22 @@ def test_table_of_the_command_line(files, tmp_path):
                 assert row[name] == str(value)
         assert set(row) >= {"kind", "volume_index", "matrix", "signed_mean", "seconds", "version"}
         assert row["version"] == symsurf.__version__
+
+
+def test_lengths_in_input_units(files, tmp_path):
+    path = next(iter(files))
+    diagonal = float(np.linalg.norm(np.ptp(symsurf.read(path).points, axis=0)))
+    rows = [
+        list(symsurf.batch([path], "asymmetry", max_distance=0.05)),
+        list(symsurf.batch([path], "asymmetry", max_distance=0.05 * diagonal, absolute=True)),
+    ]
+    assert rows[0][0]["rms"] == rows[1][0]["rms"]
+    words = ("--absolute", "--max-distance", 0.05 * diagonal, "--json")
+    record = json.loads(run("asymmetry", path, *words).stdout)
+    assert record["parameters"]["max_distance"] == pytest.approx(0.05, rel=1e-12)
+    words = ("--method", "plane", "--absolute", "--pair-distance", 0.04 * diagonal, "--json")
+    record = json.loads(run("detect", path, *words).stdout)
+    assert record["parameters"]["pair_distance"] == pytest.approx(0.04, rel=1e-12)
 
 
 def test_names_that_are_no_text(files, tmp_path):

@@ -97,6 +97,24 @@ def test_command_line_examples(line, folder):
     assert done.returncode == 0, done.stderr
 
 
+COMMAND_LINE = (ROOT / "docs/command_line.md").read_text()
+
+
+@pytest.mark.parametrize("example", examples("python", COMMAND_LINE))
+def test_examples_of_batches(example, folder):
+    if "dask" in example:
+        pytest.importorskip("distributed")
+    output_of(example, folder)
+
+
+@pytest.mark.parametrize("line", examples("console", COMMAND_LINE)[0].splitlines())
+def test_examples_of_many_files(line, folder):
+    pytest.importorskip("trame_vtk")
+    command = [sys.executable, "-m", "symsurf", *line.removeprefix("$ symsurf ").split()]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
 def test_there_are_examples():
     assert examples("python") and command_lines()
 

@@ -93,7 +93,6 @@ def test_the_page_turns(ball, browse, tmp_path):
     """A drag by the mouse shows another side, a page that is left alone does not change."""
     from symsurf.drawing import new_plotter
     from symsurf.operation_plotting import draw
-
     from symsurf.report.scene import viewer_page
 
     plotter = new_plotter(off_screen=True)

@@ -261,3 +261,86 @@ def test_vertices_that_are_not_plain_are_named(box, tmp_path):
     made, said = done("align", tmp_path / "a.ply")
     assert "nothing of the file is kept but points and faces" in said
     assert len(symsurf.read(made).points) == len(points)
+
+
+@pytest.fixture
+def broken_ball():
+    """A bumpy mesh that mirrors in x, with a hole on one side: points, faces and normals."""
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Icosphere(radius=1, nsub=4)
+    points = np.array(mesh.points, dtype=float)
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    normals = points.astype("f4").astype(float)
+    _, y, z = points.T
+    points *= (1 + 0.2 * np.sin(3 * y + 1) + 0.15 * np.cos(2 * z + 0.7) * y + 0.1 * z)[:, None]
+    kept = np.linalg.norm(points - points[points[:, 0].argmax()], axis=1) > 0.35
+    faces = mesh.regular_faces[kept[mesh.regular_faces].all(axis=1)]
+    return points[kept], ((np.cumsum(kept) - 1)[faces]).tolist(), normals[kept]
+
+
+def plain_ply(points, faces, normals):
+    """With nothing behind the corners of the faces."""
+    content = ply_text(points, faces, normals)
+    head, _, body = content.decode().partition("end_header\n")
+    head = head.replace("property short part\n", "").replace("element edge 1\n", "")
+    rows = body.splitlines()[:-1]
+    polygons = [row.rsplit(" ", 1)[0] for row in rows[len(points) :]]
+    head = head.replace("property int vertex1\n", "").replace("uchar red", "int red")
+    return "\n".join([head + "end_header", *rows[: len(points)], *polygons, ""]).encode()
+
+
+def plain_big_ply(points, faces, normals):
+    content = plain_ply(points, faces, normals).replace(b"ascii", b"binary_big_endian")
+    body = b"".join(
+        struct.pack(">3dif3f", *p, i, 10 * i, *n) for i, (p, n) in enumerate(zip(points, normals))
+    )
+    body += b"".join(struct.pack(">B3i", 3, *face) for face in faces)
+    return content[: content.index(b"end_header\n") + 11] + body
+
+
+COMPLETED = {
+    "a.ply": plain_ply,
+    "b.ply": plain_big_ply,
+    "c.ply": ply_text,
+    "a.obj": obj,
+    "a.off": off,
+}
+
+
+@pytest.mark.parametrize("name", COMPLETED)
+def test_what_is_added_takes_the_attributes_of_its_source(name, broken_ball, tmp_path):
+    file = tmp_path / name
+    file.write_bytes(COMPLETED[name](*broken_ball))
+    made, said = done("complete", file)
+    expected = symsurf.complete(file, symsurf.detect(file, "plane"))
+    before, after = symsurf.read(file), symsurf.read(made)
+    assert len(after.points) > len(before.points)
+    np.testing.assert_array_equal(after.points, expected.shape.points)
+    np.testing.assert_array_equal(after.faces, expected.shape.faces)
+    if name == "c.ply":  # its faces have a part, of which what is added has none
+        assert "nothing of the file is kept but points and faces" in said
+        return
+    texts = made.read_bytes().split(b"\n")
+    count = len(after.points)
+    if name == "a.ply":
+        start = texts.index(b"end_header") + 1
+        assert [
+            int(row.split()[3]) for row in texts[start : start + count]
+        ] == expected.sources.tolist()
+    elif name == "a.obj":
+        colours = [float(row.split()[6]) for row in texts if row.startswith(b"v ")]
+        assert colours == (expected.sources / 16).tolist()
+        assert texts[:2] == file.read_bytes().split(b"\n")[:2]
+    elif name == "a.off":
+        assert [int(row.split()[3]) for row in texts[2 : 2 + count]] == expected.sources.tolist()
+
+
+def test_a_cloud_is_completed_in_its_columns(broken_ball, tmp_path):
+    points, _, normals = broken_ball
+    (tmp_path / "a.csv").write_bytes(csv_text(points, [], normals))
+    made, _ = done("complete", tmp_path / "a.csv")
+    expected = symsurf.complete(points, symsurf.detect(points, "plane", normals=normals))
+    rows = made.read_text().splitlines()[1:]
+    assert rows[0] == "id,x,y,z,nx,ny,nz,origin" or rows[0] == "id,x,y,z,origin"
+    assert [int(row.split(",")[0]) for row in rows[1:]] == expected.sources.tolist()
+    np.testing.assert_array_equal(symsurf.read(made).points, expected.shape.points)

@@ -48,6 +48,16 @@ def add_table_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_absolute(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--absolute",
+        action="store_const",
+        const={"absolute": True},
+        default={},
+        help="lengths among the parameters are in input units, not fractions of the diagonal",
+    )
+
+
 def jobs_and_threads(arguments: argparse.Namespace) -> tuple[int, Any]:
     jobs = whole(arguments.jobs)
     require_jobs(jobs)

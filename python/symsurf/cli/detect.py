@@ -11,6 +11,7 @@ from .._core import InvalidParameter
 from ..file_task import DETECT, SUMMARY_SUFFIX, FileTask, Record
 from ..saving import FORMATS
 from .batch_options import (
+    add_absolute,
     add_batch_options,
     add_files,
     jobs_and_threads,
@@ -58,6 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
         "are then pairs of these",
     )
+    add_absolute(parser)
     add_method_options(parser)
 
 
@@ -71,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
             path,
             DETECT,
             arguments.method,
-            given_parameters(arguments),
+            given_parameters(arguments) | arguments.absolute,
             seed=whole(arguments.seed),
             threads=threads,
             nonfinite=arguments.nonfinite,

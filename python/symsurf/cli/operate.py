@@ -10,6 +10,7 @@ from ..file_task import FileTask, Record
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
 from .batch_options import (
+    add_absolute,
     add_batch_options,
     add_files,
     jobs_and_threads,
@@ -49,6 +50,7 @@ class OperationCommand:
         parser.add_argument(
             "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
         )
+        add_absolute(parser)
         add_parameters(parser, self._operation)
 
     def run(self, arguments: argparse.Namespace) -> int:
@@ -62,7 +64,7 @@ class OperationCommand:
                 path,
                 name,
                 arguments.method,
-                given_values(arguments),
+                given_values(arguments) | arguments.absolute,
                 threads=threads,
                 unit=arguments.unit,
                 outputs=tuple(outputs.get(path, ())),

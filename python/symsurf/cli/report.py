@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .._core import operations
 from ..file_task import FileTask, Record
-from .batch_options import add_files, add_table_options, jobs_and_threads, run_tasks
+from .batch_options import add_absolute, add_files, add_table_options, jobs_and_threads, run_tasks
 from .described_options import add_parameters, given_values
 
 SUMMARY = "Write an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures"
@@ -27,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
     )
+    add_absolute(parser)
     add_parameters(parser, operations()["asymmetry"])
 
 
@@ -38,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     asked = FileTask(
         Path(),
         method=arguments.method,
-        parameters=given_values(arguments),
+        parameters=given_values(arguments) | arguments.absolute,
         threads=threads,
         unit=arguments.unit,
     )

@@ -46,8 +46,17 @@ class NewShape:
         return self.faces[self.old_faces :]
 
     @property
+    def adds_points(self) -> bool:
+        return bool((self.sources != np.arange(len(self.points))).any())
+
+    @property
+    def changes_points(self) -> bool:
+        return self.moved or self.adds_points
+
+    @property
     def keeps_normals(self) -> bool:
-        return not self.moved or self.turn is not None
+        """Not where points are images of others: their normals are too."""
+        return not self.changes_points or self.turn is not None
 
     def turned(self, normals: NDArray[Any]) -> NDArray[np.float64]:
         return normals if self.turn is None else normals @ self.turn.T
@@ -78,7 +87,7 @@ class NewShape:
         return [f"{format_name} holds no {', '.join(self.arrays)}; PLY and VTP do"]
 
 
-LOST_NORMALS = "the normals are left out, as the points no longer move as a whole"
+LOST_NORMALS = "the normals are left out, which are not those of the new shape"
 
 
 def texts(values: NDArray[Any]) -> list[bytes]:

@@ -15,7 +15,7 @@ _CORNER = re.compile(rb"(\S+?/[^/\s]*)/[^/\s]*")
 
 def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
     lines = content.split(b"\n")
-    coordinates = row_texts(new.points) if new.moved or _adds(new) else []
+    coordinates = row_texts(new.points) if new.changes_points else []
     made: list[bytes] = []
     rests: list[bytes] = []
     is_face = lost = False
@@ -27,10 +27,10 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
             rests.append(words[4].rstrip() if len(words) > 4 else b"")
             if new.moved:
                 line = _vertex(coordinates[len(rests) - 1], rests[-1])
-        elif keyword == b"vn" and new.moved:
-            if new.turn is None:
-                lost = True
-                continue
+        elif keyword == b"vn" and not new.keeps_normals:
+            lost = True
+            continue
+        elif keyword == b"vn" and new.turn is not None:
             normal = new.turned(np.array([words[1:4]], dtype=float))
             line = b"vn " + b" ".join(row_texts(normal)[0])
         elif keyword.startswith(b"#"):
@@ -40,7 +40,7 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
         made.append(line)
     if space := new.missing_space(line for line in lines if line.startswith(b"#")):
         made.insert(0, b"# " + space)
-    if _adds(new):
+    if new.adds_points or len(new.added_faces):
         made = b"\n".join(made).rstrip().split(b"\n")
         made += [
             _vertex(coordinates[i], rests[new.sources[i]])
@@ -50,10 +50,6 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
         made.append(b"")
     notices = [LOST_NORMALS] if lost else []
     return Rewritten(b"\n".join(made), notices + new.lost_arrays("OBJ"))
-
-
-def _adds(new: NewShape) -> bool:
-    return len(new.added_faces) > 0 or bool((new.sources != np.arange(len(new.points))).any())
 
 
 def _vertex(coordinates: list[bytes], rest: bytes) -> bytes:

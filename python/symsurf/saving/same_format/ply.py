@@ -102,7 +102,7 @@ def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list
     ]
     properties = [
         b"property double " + words[1]
-        if new.moved and words[1] in (b"x", b"y", b"z")
+        if new.changes_points and words[1] in (b"x", b"y", b"z")
         else b"property " + b" ".join(words)
         for _, words in _kept(vertices, new)
     ]
@@ -136,7 +136,7 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
     kept = _kept(vertices, new)
     names = [words[1] for _, words in kept]
     made = [[rows[source][i] for i, _ in kept] for source in new.sources.tolist()]
-    if new.moved or len(new.points) > len(rows):
+    if new.changes_points:
         _replace(made, names, (b"x", b"y", b"z"), new.points)
     if new.turn is not None and b"nx" in names:
         columns = [names.index(name) for name in (b"nx", b"ny", b"nz")]
@@ -171,7 +171,7 @@ def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: st
     columns: dict[bytes, NDArray[Any]] = {}
     for i, (_, name) in kept:
         columns[name] = table[f"{i}"][new.sources]
-    if new.moved:
+    if new.changes_points:
         for name, values in zip((b"x", b"y", b"z"), new.points.T):
             columns[name] = values.astype(order + "f8")
     if new.turn is not None and b"nx" in columns:

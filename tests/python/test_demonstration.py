@@ -1,0 +1,30 @@
+"""What `make demo` shows is true: every mirror is found, and what is done with it comes out."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("pyvista", reason="its examples are the meshes")
+
+from symsurf.demonstration import cases, deeds, find
+
+
+def test_mirrors_are_found_and_used():
+    done = {}
+    for case in cases():
+        finding = find(case)
+        assert finding.result.verdict == "found", case
+        assert finding.result.mirror.kind == case.truth.kind
+        # The ant's sides differ by 0.5 % of the diagonal, and noise moves the airplane's.
+        limit = 0.5 if case.name == "ant" or case.change == "noisy" else 1e-3
+        assert finding.error < limit, case.change
+        for deed in deeds(finding):
+            done[case.name, deed.result.operation] = deed
+    assert set(done) == {
+        ("ant", "straighten"),
+        ("airplane", "straighten"),
+        ("airplane", "complete"),
+        ("airplane", "asymmetry"),
+    }
+    for (name, _), deed in done.items():
+        assert deed.value == pytest.approx(deed.truth, abs=0.1 if name == "ant" else 0.01)
