@@ -96,6 +96,8 @@ class MirrorDetection(Algorithm):
         count = result.statistics.get("nonfinite_points")
         if count:
             self._warn(f"{count} points are not finite and were left out; they have no partners")
+        if "warning" in result.statistics:
+            self._warn(result.statistics["warning"])
         return result
 
 
