@@ -28,11 +28,11 @@ std::vector<LongCall> long_calls() {
       {"match", [](const Context& context) {
          match(points, Plane({1, 0, 0}, 0), 0.05, context);
        }}};
-  static const Points few = RandomCloud(0).sphere(200);
+  static const Points few = RandomCloud(0).sphere(60);
   for (const Method& method : methods()) {
     Options options{.method = method.name};
     // Its work grows with the cube of it.
-    if (method.name == "sphere_thesis") options.parameters["sample_size"] = Index{100};
+    if (method.name == "sphere_thesis") options.parameters["sample_size"] = Index{60};
     calls.push_back(
         {method.name, [options](const Context& context) { detect(few, options, context); }});
   }
@@ -64,39 +64,45 @@ TEST(Context, ReportsFromZeroToOneNeverBackwardsOnTheCallingThread) {
     }
 }
 
+class LongCalls : public testing::TestWithParam<std::size_t> {
+ protected:
+  const LongCall call = long_calls()[GetParam()];
+};
+
 // The wish comes at a random moment, and is heard at the next report.
-TEST(Context, CancelsAtRandomMoments) {
+TEST_P(LongCalls, AreCancelledAtRandomMoments) {
   constexpr int threads = 2, cancels = 100;
   using Clock = std::chrono::steady_clock;
   RandomCloud random(17);
-  for (const LongCall& call : long_calls()) {
-    const Clock::time_point begin = Clock::now();
-    call.run(Context([](double) { return true; }, threads));
-    const Clock::duration whole = Clock::now() - begin;
-    int cancelled = 0;
-    for (int i = 0; i < cancels; ++i) {
-      const auto wish =
-          Clock::now() + std::chrono::duration_cast<Clock::duration>(random.uniform(0, 1) * whole);
-      bool told = false;
-      const Context context(
-          [&](double) {
-            EXPECT_FALSE(told) << call.name << " reported after it was cancelled";
-            told = Clock::now() >= wish;
-            return !told;
-          },
-          threads);
-      try {
-        call.run(context);
-        // A run that is quicker than the first may be over before.
-        EXPECT_FALSE(told) << call.name << " went on";
-      } catch (const Cancelled&) {
-        EXPECT_TRUE(told) << call.name;
-        ++cancelled;
-      }
+  const Clock::time_point begin = Clock::now();
+  call.run(Context([](double) { return true; }, threads));
+  const Clock::duration whole = Clock::now() - begin;
+  int cancelled = 0;
+  for (int i = 0; i < cancels; ++i) {
+    const auto wish =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(random.uniform(0, 1) * whole);
+    bool told = false;
+    const Context context(
+        [&](double) {
+          EXPECT_FALSE(told) << call.name << " reported after it was cancelled";
+          told = Clock::now() >= wish;
+          return !told;
+        },
+        threads);
+    try {
+      call.run(context);
+      // A run that is quicker than the first may be over before.
+      EXPECT_FALSE(told) << call.name << " went on";
+    } catch (const Cancelled&) {
+      EXPECT_TRUE(told) << call.name;
+      ++cancelled;
     }
-    EXPECT_GT(cancelled, 0) << call.name;
   }
+  EXPECT_GT(cancelled, 0) << call.name;
 }
+
+INSTANTIATE_TEST_SUITE_P(Every, LongCalls, testing::Range(std::size_t{0}, long_calls().size()),
+                         [](const auto& tested) { return long_calls()[tested.param].name; });
 
 TEST(Context, HandsOnWhatTheCallbackThrows) {
   for (const LongCall& call : long_calls())
