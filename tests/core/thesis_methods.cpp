@@ -198,12 +198,7 @@ TEST(SphereThesis, WarnsOfMorePointsThanItIsFor) {
   const Points points = RandomCloud(1).box(10'001);
   const auto detected = [&](Index count) {
     const Options options{.method = "sphere_thesis", .parameters = {{"sample_size", Index{10}}}};
-<<<<<<< HEAD
     return detect(Points(points.topRows(count)), options).statistics;
-=======
-    const Points some = points.topRows(count);
-    return detect(some, options).statistics;
->>>>>>> survival
   };
   EXPECT_EQ(detected(10'000).count("warning"), 0u);
   const Values statistics = detected(10'001);
