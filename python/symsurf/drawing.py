@@ -198,7 +198,7 @@ def place_camera(
     try:
         direction = np.asarray(camera, dtype=float)
     except (TypeError, ValueError):
-        direction = np.empty(0)
+        direction = np.empty(0)  # the name of a position, or one of three points
     if direction.shape == (3,) and np.isfinite(direction).all() and direction.any():
         direction = direction / np.linalg.norm(direction)
         upright = np.eye(3)[2 if abs(direction[2]) < 0.99 else 1]
@@ -206,6 +206,8 @@ def place_camera(
         look(plotter, direction, up / np.linalg.norm(up), drawn, title, has_bar)
         return
     try:
+        if direction.shape == (3,):
+            raise ValueError("no direction")
         plotter.camera_position = camera
     except Exception as error:
         raise InvalidParameter(

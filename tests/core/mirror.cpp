@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <symsurf/errors.h>
+#include <symsurf/height_field.h>
 #include <symsurf/plane.h>
+#include <symsurf/sphere.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "expect_error.h"
 #include "mesh_area.h"
@@ -87,6 +90,39 @@ TEST(Plane, KnowsItsNumbers) {
   EXPECT_EQ(plane.signed_distance({1, 2, 5}), 3);
   EXPECT_EQ(plane.reflect({1, 2, 5}), Vector3(1, 2, -1));
   EXPECT_EQ(plane.numbers(), (Values{{"normal", Vector3(0, 0, 1)}, {"offset", -2.0}}));
+}
+
+TEST(Plane, HasAFrame) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Plane plane = random_plane(random);
+    const Matrix3 axes = plane.axes();
+    EXPECT_LE((axes * axes.transpose() - Matrix3::Identity()).norm(), 1e-14);
+    EXPECT_NEAR(axes.determinant(), 1, 1e-14);
+    EXPECT_EQ(axes.row(2).transpose(), plane.normal());
+    Index least;
+    plane.normal().cwiseAbs().minCoeff(&least);
+    EXPECT_EQ(axes(0, least), 0);
+    EXPECT_LE(std::abs(plane.signed_distance(plane.origin())), 1e-13);
+    EXPECT_LE(plane.origin().cross(plane.normal()).norm(), 1e-13);
+  }
+}
+
+TEST(Mirror, IsEqualToTheLastBit) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Plane plane = random_plane(random);
+    Plane same(plane.normal(), plane.offset());
+    same.set_footprint(std::make_shared<Points>(random.box(3)));
+    EXPECT_TRUE(plane == same);
+    EXPECT_FALSE(plane == Plane(plane.normal(), std::nextafter(plane.offset(), infinity)));
+    EXPECT_FALSE(plane == Sphere(plane.normal(), 1));
+  }
+  // Tables of other sizes are no error.
+  const HeightField three(Vector3::UnitZ(), Points::Identity(3, 3)),
+      two(Vector3::UnitZ(), Points::Identity(2, 3));
+  EXPECT_TRUE(three == three);
+  EXPECT_FALSE(three == two);
 }
 
 TEST(Plane, NeedsANormal) {

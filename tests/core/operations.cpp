@@ -277,6 +277,19 @@ TEST(Straighten, LaysTheMirrorFlatAndBendsBack) {
   EXPECT_LE(figure(left, "maximum_of_diagonal"), 1e-9);
 }
 
+TEST(Operations, RefuseAMirrorOfAnotherUnit) {
+  RandomCloud random(0);
+  Points points = random.box(200);
+  points.col(0).array() += 50;
+  const Plane plane(Vector3::UnitX(), -50);
+  const Points scaled = 1000 * points;
+  for (const Operation& each : operations()) {
+    EXPECT_NO_THROW(operate(each.name, {points}, plane));
+    expect_error<InvalidInput>("diagonals away from this plane; the mirror is to be in the unit",
+                               [&] { operate(each.name, {scaled}, plane); });
+  }
+}
+
 TEST(Operations, NameWhatIsWrong) {
   const Ball b = ball(0);
   const OperationInput input{b.points, b.faces};

@@ -80,6 +80,21 @@ TEST(Outliers, HaveNoPartnersOverAKnownMirror) {
 }
 
 // One, a tenth of the points; twice as far as the cloud is wide, or a thousand times.
+TEST(Outliers, DoNotCountForTheDiagonal) {
+  RandomCloud random(0);
+  const Points points = random.box(2000);
+  const double expected = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  const Points all = mixed(points, 100 * random.box(10));
+  EXPECT_DOUBLE_EQ(diagonal(points), expected);
+  EXPECT_DOUBLE_EQ(diagonal(all), expected);
+  Points some = all;
+  some(0, 0) = std::nan("");
+  EXPECT_DOUBLE_EQ(diagonal(some), expected);
+  Options thesis;  // whose methods leave none out
+  thesis.method = "sphere_thesis";
+  EXPECT_GT(diagonal(all, thesis), 10 * expected);
+}
+
 TEST(Outliers, AreLeftOutWhereverTheyAre) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
     for (const double far : {8, 30, 1000})

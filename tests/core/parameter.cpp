@@ -36,6 +36,13 @@ TEST(Parameter, TakesWhatItAllows) {
   EXPECT_EQ(position.checked(Vector3(1, 2, 3)), Value(Vector3(1, 2, 3)));
 }
 
+TEST(Parameter, NamesItsUnit) {
+  EXPECT_EQ(integer.allowed(), "[1, 100] points");
+  EXPECT_EQ(real.allowed(), "[0, 1]");
+  EXPECT_EQ(open.allowed(), "[0, inf) of the diagonal");
+  EXPECT_EQ(choice.allowed(), "regression | pca");
+}
+
 TEST(Parameter, RefusesTheRestNamingItselfTheValueAndTheRange) {
   struct Case {
     Parameter parameter;
@@ -81,10 +88,9 @@ TEST(ParameterValues, AreTheDefaultsButForWhatIsGiven) {
 }
 
 TEST(ParameterValues, RefuseNamesThereAreNotListingThoseThereAre) {
-  expect_error<InvalidParameter>("'test' has no parameter 'counts'; it has count, share",
-                                 [] {
-                                   ParameterValues("test", {integer, real}, {{"counts", Index{7}}});
-                                 });
+  expect_error<InvalidParameter>("'test' has no parameter 'counts'; it has count, share", [] {
+    ParameterValues("test", {integer, real}, {{"counts", Index{7}}});
+  });
   expect_error<InvalidParameter>("'test' has no parameter 'count'; it has none", [] {
     ParameterValues("test", {}, {{"count", Index{7}}});
   });

@@ -79,7 +79,7 @@ def test_complete_carries_attributes_to_what_it_adds() -> None:
     whole["height"] = whole.points[:, 2]
     whole.cell_data["level"] = whole.cell_centers().points[:, 2]
     lost = (whole.points[:, 0] > 0.2) & (whole.points[:, 2] > -0.3)
-    broken = whole.remove_points(lost)[0]
+    broken = whole.remove_points(ind=np.flatnonzero(lost))
     broken.symmetry.result = symsurf.match(broken, symsurf.Plane((1, 0, 0), 0))
     made = broken.symmetry.complete()
     assert isinstance(made, pyvista.PolyData)
