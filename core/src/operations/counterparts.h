@@ -17,7 +17,7 @@ struct Counterpart {
   Vector3 on_surface = nowhere;  ///< what it is the image of
   Index nearest = -1;  ///< a point of the input: of a cloud the one whose image is closest, of a
                        ///< mesh the corner of the face whose image is
-  Index face = -1;                    ///< of a mesh, whose image the place lies on
+  Index face = -1;     ///< of a mesh, whose image the place lies on
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
   double gap = 0;                     ///< from the point to the mirrored surface, input units
   double agreement = 0;               ///< cosine between the normals there, 0 to 1
