@@ -305,6 +305,13 @@ TEST(Operations, NameWhatIsWrong) {
                              [&] { operate("asymmetry", input, Sphere(Vector3::Zero(), 0.01)); });
   Points broken = b.points;
   broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  // Its square is no double.
+  Points far = b.points;
+  far(7, 2) = 1e300;
+  for (const Operation& each : operations())
+    expect_error<InvalidInput>("allowed are coordinates up to 1e+50", [&] {
+      operate(each.name, {far, b.faces}, middle);
+    });
   expect_error<InvalidInput>("point 3", [&] { operate("asymmetry", {broken, b.faces}, middle); });
 }
 
