@@ -14,7 +14,7 @@ from .damage import noise
 from .poses import Points, diagonal, random_rotation
 from .solids import MESHES, bent, mirrored_mesh, sampled
 
-COUNT = 4096
+COUNT = 10000
 NEAR = 0.01  # of the diagonal: an image that lies as near to the true one is right
 AMPLITUDES = (0.03, 0.1)  # of the diagonal, how far the mirror bends away from its plane
 RADIUS = 0.8  # of the diagonal, of the cylinder
