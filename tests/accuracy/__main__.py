@@ -8,12 +8,34 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from itertools import chain
 
-from . import bodies, cad_planes, candidates, curved, deformed, exact, kinds, planes, scores, without_mirror
+from . import (
+    bodies,
+    cad_planes,
+    candidates,
+    curved,
+    deformed,
+    exact,
+    kinds,
+    planes,
+    scores,
+    without_mirror,
+)
 from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, scores, without_mirror)
+MODULES = (
+    bodies,
+    curved,
+    deformed,
+    kinds,
+    planes,
+    cad_planes,
+    candidates,
+    exact,
+    scores,
+    without_mirror,
+)
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -58,7 +58,11 @@ def body(
 
 
 def bent_body(
-    points: Points, plane: Plane, bend: str, rng: np.random.Generator, amplitude: float | None = None
+    points: Points,
+    plane: Plane,
+    bend: str,
+    rng: np.random.Generator,
+    amplitude: float | None = None,
 ) -> tuple[Points, Points]:
     """Points about a plane after it was bent, and their true images, in a pose of their own."""
     rotation = random_rotation(rng)
