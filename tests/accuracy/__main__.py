@@ -9,13 +9,15 @@ from concurrent.futures import ProcessPoolExecutor
 from itertools import chain
 
 from . import (
-@@    cad_planes,
+    bodies,
+    cad_planes,
     candidates,
     curved,
     deformed,
     exact,
     kinds,
-@@    planes,
+    operations,
+    planes,
     scores,
     without_mirror,
 )
@@ -23,7 +25,9 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-@@CASES = {case.name: case for module in MODULES for case in module.CASES}
+MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
+           without_mirror)  # fmt: skip
+CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5
 """One of so many trials is run by default: all cases in a quarter of an hour on two cores."""
