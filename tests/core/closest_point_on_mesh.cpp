@@ -199,8 +199,8 @@ TEST(ClosestPointOnMesh, OfFacesThatFaceADirectionIsThatOfThoseAlone) {
     const ClosestPointOnMesh all(points, faces), those(points, facing);
     for (int k = 0; k < 20; ++k) {
       const Vector3 query = 2 * random.in_box();
-      EXPECT_EQ(all.facing(query, direction, 0.5, 100).squared_distance,
-                those(query).squared_distance);
+      EXPECT_NEAR(all.facing(query, direction, 0.5, 100).squared_distance,
+                  those(query).squared_distance, 1e-12);
     }
   }
 }
