@@ -135,6 +135,7 @@ def test_command_runs(python, scan):
     [
         ("demo", "report"),
         ("demo --no-pictures", "plot"),
+        ("demo thesis", "plot"),
         ("report scan.xyz --output report.html", "report"),
         ("detect scan.xyz --plot --output pictures", "plot"),
         ("asymmetry scan.xyz --plot --output pictures --jobs 2", "plot"),
