@@ -6,10 +6,9 @@ import os
 import signal
 from collections import deque
 from collections.abc import Iterable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import BrokenExecutor, Executor
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._core import InvalidParameter
@@ -17,6 +16,9 @@ from .file_task import DETECT, FileTask, Record, failed, perform
 from .result_table import row_of
 from .saving.output_files import output_files
 from .saving.shape_files import output_suffix
+
+if TYPE_CHECKING:
+    from concurrent.futures import ProcessPoolExecutor
 
 __all__ = ["batch"]
 
@@ -155,6 +157,10 @@ def _by_itself(task: FileTask) -> Record:
 
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
+    # Here: `import symsurf` alone needs no multiprocessing.
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     # Spawned: a fork would copy the locks of the core's threads, not the threads.
     return ProcessPoolExecutor(jobs, get_context("spawn"), _die_quietly)
 

@@ -14,6 +14,7 @@ from ._core import Cylinder, Mirror, Plane
 from .detection import detect
 from .mirror_operations import OperationResult
 from .mirror_operations.operate import operate
+from .optional import require
 from .result import Result
 from .shape import Shape, read
 
@@ -62,6 +63,7 @@ class Deed:
 
 def cases() -> Iterator[Case]:
     """The meshes that PyVista ships, straight and bent, and one of them damaged."""
+    require("the demonstration's meshes", "pyvista")
     from pyvista import examples
 
     # Both are modelled mirrored in x: the ant about 0, the airplane about half its span. The ant's

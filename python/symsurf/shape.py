@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import InvalidInput
+from .optional import require
 
 if TYPE_CHECKING:
     import pyvista
@@ -38,6 +39,7 @@ class Shape:
 
         Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
         """
+        require("PyVista's meshes", "pyvista")
         from .grids import shape_of
 
         return cls(*shape_of(mesh))
@@ -45,6 +47,7 @@ class Shape:
     def to_pyvista(self) -> pyvista.PolyData:
         """The faces, or the points of a bare cloud as vertices, in double precision; the normals are
         the active ones. ``from_pyvista`` makes the same shape of it. Needs PyVista."""
+        require("PyVista's meshes", "pyvista")
         from .grids import poly_data
 
         return poly_data(self.points, self.faces, self.normals)

@@ -11,6 +11,7 @@ from typing import Any
 
 from .._core import InvalidParameter
 from ..batching import records, require_jobs, threads_of_each
+from ..drawing import import_pyvista
 from ..file_task import PICTURE_SUFFIX, FileTask, Record, perform
 from ..result_table import csv_bytes, row_of
 from ..saving import write_whole
@@ -72,6 +73,8 @@ def planned_outputs(
         if arguments.plot:
             raise InvalidParameter("plot is given without output; allowed is with a folder")
         return {}
+    if arguments.plot:
+        import_pyvista()  # missing, it is missed before the work is done
     picture = [PICTURE_SUFFIX] if arguments.plot else []
     return output_files(
         arguments.files, arguments.output, lambda path: [*suffixes_of(path), *picture]

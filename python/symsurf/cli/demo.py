@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
         from ..report import require_viewer
 
         require_viewer()
-    arguments.output.mkdir(parents=True, exist_ok=True)
+        arguments.output.mkdir(parents=True, exist_ok=True)
     print("Lengths are shares of the diagonal of the bounding box.\n")
     print(ROW.format(*HEADINGS))
     findings: list[Finding] = []
