@@ -17,12 +17,13 @@ from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
+from .reading import read
 from .result import Result
 from .sampling import downsample
 from .saving import write_whole
 from .saving.json_format import mirror_record, plain, record_bytes, summary
 from .saving.shape_files import save_shape
-from .shape import Shape, read
+from .shape import Shape
 
 DETECT = "detect"
 SUMMARY_SUFFIX = ".summary.json"
