@@ -6,6 +6,7 @@ import math
 import time
 import warnings
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
-from .reading import read
+from .reading import read, suffix_of
 from .result import Result
 from .sampling import downsample
 from .saving import write_whole
@@ -39,6 +40,7 @@ class FileTask:
     """A file and what is done with it. It pickles: another process can do it."""
 
     file: Path
+    """For ``content`` the name that records and outputs have."""
     operation: str = DETECT
     """Or the name of one of ``operations()``."""
     method: str = "auto"
@@ -51,10 +53,21 @@ class FileTask:
     use_normals: bool = False
     downsample: float | None = None
     """Work on about one point in so many."""
+    input_format: str | None = None
+    """Of the file; without it its suffix tells."""
+    content: bytes | None = None
+    """What is read in place of a file, such as standard input; it needs ``input_format``."""
+    threshold: float | None = None
+    """Of a mask or an image."""
     unit: str = ""
     """Of the coordinates: a label."""
     outputs: tuple[Path, ...] = ()
     """The files to write, each in the format of its suffix, and PNGs to draw."""
+
+    @property
+    def suffix(self) -> str:
+        """Of the format that the file is read in."""
+        return suffix_of(self.file) if self.input_format is None else f".{self.input_format}"
 
 
 def perform(task: FileTask, progress: Progress | None = None) -> Record:
@@ -86,7 +99,8 @@ def failed(task: FileTask, reason: str) -> Record:
 def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     notices: list[str] = []
     record["notices"] = notices
-    shape = read(task.file)
+    given = task.file if task.content is None else BytesIO(task.content)
+    shape = read(given, task.input_format, threshold=task.threshold)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     record["points"] = len(shape.points)
@@ -129,7 +143,7 @@ def _operate(
 
             write_whole(output, shape_page(record, result))
         else:
-            notices += save_shape(output, result, shape, source=task.file)
+            notices += save_shape(output, result, shape, task.file, task.suffix, task.content)
 
 
 def _write_result(found: Result, record: Record, task: FileTask) -> None:

@@ -12,7 +12,7 @@ from ..shape import Shape
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
 from .location import located
 
-__all__ = ["files_in", "known_names", "read", "require_format", "stem_of"]
+__all__ = ["files_in", "known_names", "read", "require_format", "stem_of", "suffix_of"]
 
 
 def read(
@@ -118,11 +118,15 @@ def _read(
     except InvalidParameter:
         raise
     except OSError as error:
-        raise InvalidInput(f"{name}: {error.strerror or error}") from error
+        reason = error.strerror or f"broken {described.name} ({_one_line(error)})"
+        raise InvalidInput(f"{name}: {reason}") from error
     except Exception as error:  # what a package says of a broken file may be anything
-        reason = " ".join((str(error) or type(error).__name__).split())
-        raise InvalidInput(f"{name}: broken {described.name} ({reason})") from error
+        raise InvalidInput(f"{name}: broken {described.name} ({_one_line(error)})") from error
     return shape
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join((str(error) or type(error).__name__).split())
 
 
 def _require_sound(shape: Shape) -> None:
