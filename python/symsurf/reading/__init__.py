@@ -25,7 +25,7 @@ def read(
     """Reads a mesh, a cloud, or the points of a mask.
 
     PLY, OBJ, OFF, STL, XYZ, CSV and TXT; with ``symsurf[formats]`` VTP, VTU, VTK, VTI, GLB, GLTF,
-    3MF, LAS, LAZ, NRRD and NIfTI; with ``symsurf[pcd]`` PCD; each also compressed, as ``.ply.gz``.
+    3MF, LAS, LAZ, NRRD and NIfTI (NII); with ``symsurf[pcd]`` PCD; each also compressed, as ``.ply.gz``.
     Coordinates keep every digit a double holds, in the unit and the axes of the file. Of masks and
     images they are the centres of voxels in world coordinates: RAS of NIfTI, the header's space
     (LPS of 3D Slicer) of NRRD.
