@@ -70,6 +70,14 @@ class FileTask:
         return suffix_of(self.file) if self.input_format is None else f".{self.input_format}"
 
 
+class _Content(BytesIO):
+    """An open file that errors name."""
+
+    def __init__(self, content: bytes, name: str) -> None:
+        super().__init__(content)
+        self.name = name
+
+
 def perform(task: FileTask, progress: Progress | None = None) -> Record:
     """Does the task. What is wrong with the file is in the record; what is wrong with the
     parameters is raised."""
@@ -99,7 +107,7 @@ def failed(task: FileTask, reason: str) -> Record:
 def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     notices: list[str] = []
     record["notices"] = notices
-    given = task.file if task.content is None else BytesIO(task.content)
+    given = task.file if task.content is None else _Content(task.content, str(task.file))
     shape = read(given, task.input_format, threshold=task.threshold)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)

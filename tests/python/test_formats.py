@@ -371,6 +371,15 @@ def test_standard_input(cloud, tmp_path):
         symsurf.read(tmp_path / "made/stdin.xyz").points,
         symsurf.align(cloud, symsurf.detect(cloud, "plane")).shape.points,
     )
+    words = ("detect", "-", "--input-format", "ply", "--method", "plane")
+    done = subprocess.run(
+        [sys.executable, "-m", "symsurf", *words],
+        input="no shape",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1 and done.stderr.startswith("symsurf: stdin.ply: ")
     done = run("detect", "-")
     assert done.returncode == 2 and "needs --input-format" in done.stderr
 

@@ -35,7 +35,9 @@ def world_points(
             f"the image has {values.ndim} axes and values of type {values.dtype}; allowed are 3 axes "
             "and real numbers"
         )
-    if values.dtype.kind == "f" and (values == np.floor(values)).all():
-        values = values.astype(np.int64)  # a mask that was saved as an image
+    if threshold is None and values.dtype.kind == "f" and values.size:
+        low, high = values.min(), values.max()
+        if low != high and ((values == low) | (values == high)).all():
+            values = values == high  # a mask that was saved as an image
     rows = np.argwhere(above(values, threshold, "image"))
     return Shape(np.ascontiguousarray(rows @ affine[:3, :3].T + affine[:3, 3]))
