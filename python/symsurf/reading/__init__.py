@@ -70,13 +70,15 @@ def require_format(name: object) -> str:
 def files_in(paths: Iterable[Path]) -> list[Path]:
     """The paths, with the files of known suffixes, by name, in place of a folder; not those of the
     folders in it. A folder without any stays."""
-    files: list[Path] = []
-    for path in paths:
-        inside: list[Path] = []
-        if path.is_dir():
-            inside = sorted(file for file in path.iterdir() if _is_readable(file))
-        files += inside or [path]
-    return files
+    return [file for path in paths for file in _readable_in(path) or [path]]
+
+
+def _readable_in(folder: Path) -> list[Path]:
+    """Nothing of what is no folder, or may not be looked into."""
+    try:
+        return sorted(file for file in folder.iterdir() if _is_readable(file))
+    except OSError:
+        return []
 
 
 def _is_readable(file: Path) -> bool:
@@ -85,7 +87,7 @@ def _is_readable(file: Path) -> bool:
 
 def _require_file(name: str) -> None:
     if os.path.isdir(name):
-        count = len([file for file in Path(name).iterdir() if _is_readable(file)])
+        count = len(_readable_in(Path(name)))
         raise InvalidInput(
             f"{name}: this is not a file but a folder, with {count} that can be read"
         )
