@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._core import InvalidParameter
 from .file_task import DETECT, FileTask, Record, failed, perform
+from .reading import files_in
 from .result_table import row_of
 from .saving.output_files import output_files
 from .saving.shape_files import output_suffix
@@ -33,6 +34,7 @@ def batch(
     threads: int = 0,
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
+    threshold: float | None = None,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
     """Finds the mirror of each of many files, and does the operation with it.
@@ -40,7 +42,7 @@ def batch(
     >>> pandas.DataFrame(symsurf.batch(files, "asymmetry", jobs=8))
 
     Args:
-        files: those that ``read`` takes.
+        files: those that ``read`` takes; a folder stands for those in it.
         operation: "detect", or the name of one of ``operations()``.
         executor: of ``concurrent.futures``, or one that is like those, such as Dask's
             ``Client.get_executor()``. Its workers must see the files under the same names.
@@ -54,6 +56,7 @@ def batch(
             in PLY where that cannot hold what the operation gives each point; of "detect" a small
             JSON file each.
         unit: of the coordinates, such as "mm": a label for the rows.
+        threshold: of masks and images; see ``read``.
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
@@ -66,7 +69,7 @@ def batch(
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
             ``jobs`` beside an executor; two files of one name with an output folder.
     """
-    paths = [Path(file) for file in files]
+    paths = files_in(Path(file) for file in files)
     require_operation(operation)
     if executor is not None and jobs != 1:
         raise InvalidParameter(
@@ -85,6 +88,7 @@ def batch(
             dict(parameters),
             threads=each,
             unit=unit,
+            threshold=threshold,
             outputs=tuple(outputs.get(path, ())),
         )
         for path in paths

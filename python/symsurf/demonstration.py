@@ -15,8 +15,9 @@ from .detection import detect
 from .mirror_operations import OperationResult
 from .mirror_operations.operate import operate
 from .optional import require
+from .reading import read
 from .result import Result
-from .shape import Shape, read
+from .shape import Shape
 
 BEND = 0.8  # of the diagonal: the radius that a shape is bent over
 NOISE = 0.01  # of the diagonal: its standard deviation in each direction

@@ -1,16 +1,13 @@
-"""Point sets and meshes from files."""
+"""Point sets and meshes."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
-from ._core import InvalidInput
 from .optional import require
 
 if TYPE_CHECKING:
@@ -51,14 +48,3 @@ class Shape:
         from .grids import poly_data
 
         return poly_data(self.points, self.faces, self.normals)
-
-
-def read(path: str | os.PathLike[str]) -> Shape:
-    """Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix.
-
-    Coordinates keep every digit a double holds. Raises InvalidInput naming the file and the reason:
-    unknown suffix, not readable, larger than half of the memory, broken, truncated, no points.
-    """
-    if not isinstance(path, (str, bytes, os.PathLike)) or "\0" in os.fsdecode(path):
-        raise InvalidInput(f"path is {path!r}; allowed is the name of a file")
-    return Shape(**_core.read(path))
