@@ -193,6 +193,7 @@ TEST(SurfaceMirror, HasFeetOfPointsFarAway) {
     const SurfaceMirror mirror(surface(name), Mapping::Perpendicular);
     for (const double far : {1e3, 6.2387e11, -3e14})
       EXPECT_TRUE(mirror.foot(Vector3(far, 0.7 * far, 0.1 * far)).allFinite()) << name << far;
+    mirror.foot(Vector3(1, -1e308, 1));  // whose distance is no double
   }
 }
 

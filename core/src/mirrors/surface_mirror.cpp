@@ -101,7 +101,9 @@ Vector3 closest_point(const Surface& surface, const Vector3& p) {
   if (surface.name == "f6") return closest_on_half_sphere(p);
   Search search(surface, p);
   // The closest point is no farther than the one straight above or below.
-  search.start(std::sqrt(search.squared(p.head<2>())));
+  const double reach = std::sqrt(search.squared(p.head<2>()));
+  if (!std::isfinite(reach)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  search.start(reach);
   search.walk(1e-4);
   const Eigen::Vector2d coarse = search.at;
   if (!search.newton()) {
