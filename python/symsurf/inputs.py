@@ -46,7 +46,7 @@ def as_input(
     if isinstance(given, (str, os.PathLike)):
         given = read(given, threshold=threshold, scalars=scalars)
         threshold = scalars = None
-    pyvista = sys.modules.get("pyvista")  # whoever has a data set has imported it
+    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
     if is_data_set:
         from . import grids
