@@ -1,5 +1,11 @@
+#include <symsurf/free_form.h>
+
+#include <algorithm>
+#include <optional>
+
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
+#include "methods/nearest_simple.h"
 #include "methods/registry.h"
 #include "preprocess/volumetric.h"
 
@@ -15,8 +21,10 @@ constexpr double enough = 0.75;
 // with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
 // the best of the wrong ones 0.26 less at least, where a mirror was found.
 constexpr double tie = 0.01, free_form_gain = 0.12;
-constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
-constexpr Index few = 1000;            // points whose score tells little
+constexpr double well_explained = 0.6;  // by a free form
+constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
+constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
+constexpr Index few = 1000;             // points whose score tells little
 
 // Only where every point has an exact partner: else a freer mirror may improve on it.
 bool is_exact(const Result& result) { return result.score >= 1; }
@@ -72,6 +80,19 @@ bool explains_more(const Result& freer, const Result& simpler) {
   return explained(freer) > explained(simpler) + free_form_gain;
 }
 
+// A free form that maps the shape well and better than a plane, and is far from all mirrors of a
+// kind: none of these comes near it.
+bool is_ruled_out(std::string_view kind, const Result& free_form, const Result& plane,
+                  const Cloud& cloud) {
+  if (!free_form.mirror || explained(free_form) < well_explained ||
+      explained(free_form) < explained(plane) + free_form_gain)
+    return false;
+  const auto& mirror = dynamic_cast<const FreeForm&>(*free_form.mirror);
+  const double distance =
+      kind == "sphere" ? distance_from_sphere(mirror) : distance_from_cylinder(mirror);
+  return distance > another_shape * cloud.diagonal;
+}
+
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const MethodImplementation& plane = implementation("plane");
   Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
@@ -89,13 +110,23 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     const MethodImplementation* winner = &plane;
     std::string others = "plane " + text(explained(best));
     double done = 0.2, least_score = 0;
+    // Beside a plane that maps the shape well a free form meets hardly each point. Elsewhere it
+    // comes first: it says which of the others may fit.
+    std::optional<Result> free_form;
+    const MethodImplementation& bending = implementation("perpendicular");
+    if (!content && cloud.points.size() >= bending.minimum_points)
+      free_form = run_with_defaults(bending, cloud, context.stage(done, 0.5));
     for (const MethodImplementation& freer : implementations()) {
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
       if (is_exact(best)) break;
-      if (content && freer.name == "perpendicular") continue;  // it meets hardly each point
-      Result result = run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
-      done += 0.2;
+      const bool is_free_form = freer.name == bending.name;
+      if (is_free_form && !free_form) continue;
+      if (!is_free_form && free_form && is_ruled_out(freer.name, *free_form, best, cloud)) continue;
+      Result result =
+          is_free_form ? std::move(*free_form)
+                       : run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
+      done = std::min(0.8, done + 0.2);
       scores["score_" + freer.name] = result.score;
       others += ", " + freer.name + " " + text(explained(result));
       if (!(is_exact(result) ? result.score > best.score : !content && explains_more(result, best)))
@@ -105,7 +136,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
       best = std::move(result);
       winner = &freer;
     }
-    if (winner != &plane && thinned.is_thinner())
+    if (winner != &plane && winner != &bending && thinned.is_thinner())
       best = run_with_defaults(*winner, cloud, context.stage(done, 1));
     if (best.mirror) best.score = std::max(best.score, least_score);
     reason = content && winner == &plane
