@@ -1,0 +1,8 @@
+"""
+Map the asymmetry of a face
+===========================
+
+Text
+"""
+
+import symsurf
