@@ -8,9 +8,9 @@ HERE = Path(__file__).resolve().parent
 BUILD = Path(os.environ["SYMSURF_DOCS_BUILD"])
 sys.path.insert(0, str(HERE / "extensions"))
 
-import pictures_of_examples  # noqa: E402
+import pictures_of_examples
 
-import symsurf  # noqa: E402
+import symsurf
 
 project = "symsurf"
 author = "The symsurf authors"
@@ -26,11 +26,15 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "breathe",
     "from_descriptions",
+    "internal_links",
 ]
 nitpicky = True
 # What other projects document. Nothing is downloaded while the site is built, so no inventories.
 nitpick_ignore_regex = [
-    ("py:.*", r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*"),
+    (
+        "py:.*",
+        r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*",
+    ),
     ("py:.*", r"(Any|Callable|Path|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
     ("py:.*", r"(Iterable|Sequence|Executor|concurrent|ValueError|RuntimeError|UserWarning)\b.*"),
     ("cpp:identifier", r"(std|Eigen|vtk\w*|VTK\w*|ostream)(::.*)?"),
@@ -44,6 +48,8 @@ myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_class_signature = "separated"
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "Progress")}
+maximum_signature_line_length = 88
 napoleon_numpy_docstring = False
 
 # The examples run whenever the site is built; an error in one fails it.
@@ -51,10 +57,11 @@ sphinx_gallery_conf = {
     "examples_dirs": [str(HERE.parent / "examples" / "python")],
     "gallery_dirs": ["how_to"],
     "filename_pattern": r"/",
-    "ignore_pattern": r"/shapes\.py",
+    "ignore_pattern": r"^shapes\.py",
     "image_scrapers": (pictures_of_examples.scraper,),
     "reset_modules": (),
     "run_stale_examples": True,
+    "capture_repr": (),
     "remove_config_comments": True,
     "download_all_examples": False,
     "show_signature": False,

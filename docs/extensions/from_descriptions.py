@@ -71,8 +71,13 @@ def arrays(operation: symsurf.Operation) -> str:
 def _shown(value: Any) -> str:
     if isinstance(value, str):
         return f'"{value}"'
-    return str(value.tolist()) if hasattr(value, "tolist") else f"{value:g}" \
-        if isinstance(value, float) else str(value)
+    return (
+        str(value.tolist())
+        if hasattr(value, "tolist")
+        else f"{value:g}"
+        if isinstance(value, float)
+        else str(value)
+    )
 
 
 def functions(names: Iterable[str]) -> str:
@@ -135,7 +140,7 @@ def vtk_classes() -> str:
     xml = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "doxygen" / "xml"
     names = sorted(path.stem[5:] for path in xml.glob("classvtk*.xml"))
     return "\n\n".join(
-        f"## {name}\n\n```{{doxygenclass}} {name}\n:members:\n```" for name in names
+        f"### {name}\n\n```{{doxygenclass}} {name}\n:members:\n```" for name in names
     )
 
 
@@ -170,7 +175,7 @@ def _said(described: ElementTree.Element) -> str:
 
 def meshlab() -> str:
     """Every filter with its parameters as pymeshlab prints them."""
-    printed = (HOSTS / "meshlab" / "filters.txt").read_text()
+    printed = (HOSTS / "meshlab.txt").read_text()
     return "\n\n".join(
         f"## {name}\n\n```text\n{parameters.strip()}\n```"
         for name, parameters in re.findall(
@@ -204,6 +209,12 @@ def escape(app: Sphinx, what: str, *described: Any) -> None:
         lines.insert(0, "\\")
 
 
+def name_aliases(*described: Any) -> tuple[str | None, str | None]:
+    """Sphinx shows names of types by an own class of its where they are one of several."""
+    return tuple(text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text)
+                 for text in described[-2:])  # fmt: skip
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     app.config.myst_substitutions = {
         function.__name__: function
@@ -211,5 +222,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
                          vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
     }  # fmt: skip
     app.connect("source-read", add_parameters)
+    app.connect("autodoc-process-signature", name_aliases)
     app.connect("autodoc-process-docstring", escape, priority=400)  # before Napoleon
     return {"parallel_read_safe": True}

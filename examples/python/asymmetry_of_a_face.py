@@ -1,8 +1,0 @@
-"""
-Map the asymmetry of a face
-===========================
-
-Text
-"""
-
-import symsurf
