@@ -315,7 +315,7 @@ TEST(Operations, RefuseAMirrorOfAnotherUnit) {
 TEST(Operations, NameWhatIsWrong) {
   const Ball b = ball(0);
   const OperationInput input{b.points, b.faces};
-  expect_error<InvalidParameter>("unknown operation 'melt'; allowed: asymmetry, ",
+  expect_error<InvalidParameter>("there is no operation 'melt'; there are asymmetry, ",
                                  [&] { operate("melt", input, middle); });
   expect_error<InvalidParameter>("strength", [&] {
     operate("symmetrize", input, middle, {{"strength", 1.5}});

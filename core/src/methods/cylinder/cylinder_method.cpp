@@ -9,6 +9,7 @@
 #include "methods/common_parameters.h"
 #include "methods/parametric/pair_hypotheses.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/surface_slide.h"
 #include "methods/parametric/unit_cylinder.h"
 #include "methods/registry.h"
 #include "score/matching.h"
@@ -132,7 +133,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
     if (i == 0 || candidates[i].support > chance_explains)
-      candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
+      candidates[i] = refinement.fitted_to_exact_pairs(
+          refinement.fitted(slid_along_surfaces(candidates[i], refinement), 3000, 40));
   suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
   drop_weakly_supported(candidates);
   context.report(0.7);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "methods/free_form/bent_plane.h"
 #include "methods/free_form/growth.h"
+#include "methods/free_form/plane_bending.h"
 #include "methods/free_form/seeds.h"
 
 namespace symsurf::perpendicular {
@@ -181,7 +181,8 @@ std::vector<GrownSurface> assemble(const SearchCloud& cloud, std::vector<GrownSu
   for (std::size_t k = 0; k < std::min(surfaces.size(), most_refined); ++k) {
     context.report(static_cast<double>(k) / most_refined);
     if (rank(surfaces[k]) < least_rank * rank(surfaces[0])) break;
-    if (surfaces[k].bent && !surfaces[k].exact) {
+    const bool laid = surfaces[k].support >= 1;
+    if (laid || (surfaces[k].bent && !surfaces[k].exact)) {
       wholes.push_back(surfaces[k]);
       continue;
     }
@@ -223,10 +224,11 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
       std::any_of(search.surfaces.begin(), search.surfaces.end(), [](const GrownSurface& surface) {
         return surface.support > (surface.exact ? enough_exact : enough_inexact);
       });
-  const bool thinned = search.cloud.size() < cloud.points.size();
-  if (!found && !(thinned && lay_exact_planes(cloud, search.cloud, search.surfaces,
-                                              context.stage(0.75, 0.77))))
-    bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.77, 0.85));
+  // Of a thinned cloud even a surface that grows on exact partners is bent where they are lost.
+  const bool laid =
+      search.cloud.size() < cloud.points.size() &&
+      lay_exact_planes(cloud, search.cloud, search.surfaces, context.stage(0.75, 0.77));
+  if (!found && !laid) bend_planes(cloud, search.cloud, search.surfaces, context.stage(0.77, 0.85));
   search.surfaces = assemble(search.cloud, std::move(search.surfaces), context.stage(0.85, 1));
   return search;
 }
