@@ -170,18 +170,44 @@ def _proxy(proxy: ElementTree.Element) -> str:
 
 
 def _said(described: ElementTree.Element) -> str:
-    return " ".join((described.findtext("Documentation") or "").split())
+    """Its documentation; of a choice without what is said of each, which stands elsewhere."""
+    text = " ".join((described.findtext("Documentation") or "").split())
+    choices = [choice.get("value") for choice in described.iter("String")]
+    if not choices:
+        return text
+    return text.split(f" {choices[0]}: ")[0] + f" One of {', '.join(choices)}."
 
 
 def meshlab() -> str:
-    """Every filter with its parameters as pymeshlab prints them."""
+    """Every filter with the parameters that pymeshlab prints."""
     printed = (HOSTS / "meshlab.txt").read_text()
-    return "\n\n".join(
-        f"## {name}\n\n```text\n{parameters.strip()}\n```"
-        for name, parameters in re.findall(
-            r"^(\w+) filter - list of parameter names:\n((?:\t.*\n?)*)", printed, re.MULTILINE
-        )
-    )
+    texts = []
+    for name, lines in re.findall(
+        r"^(\w+) filter - list of parameter names:\n((?:\t.*\n?)*)", printed, re.MULTILINE
+    ):
+        described = _described_by_filter(name)
+        rows = (re.match(r"\t(\w+) : (\S+) = (.*)", line).groups() for line in lines.splitlines())
+        texts.append(f"## {name}\n\n" + (described.summary if described else "") + "\n\n" + table(
+            ("parameter", "default", "what it is"),
+            ((f"`{parameter}`", f"`{default}`", _parameter_text(described, parameter))
+             for parameter, _, default in rows),
+        ))  # fmt: skip
+    return "\n\n".join(texts)
+
+
+def _described_by_filter(name: str) -> symsurf.Method | symsurf.Operation | None:
+    word = name.split("_", 1)[1]
+    operations = {
+        each.title.lower().replace(" ", "_"): each for each in symsurf.operations().values()
+    }
+    return operations.get(word) or symsurf.methods().get(word.removeprefix("mirror_"))
+
+
+def _parameter_text(described: symsurf.Method | symsurf.Operation | None, parameter: str) -> str:
+    own = described.parameters if described else []
+    texts = {each.name: f"{each.doc} Allowed: {each.allowed}." for each in own}
+    # Which parameters every filter has, docs/meshlab.md says.
+    return texts.get(parameter, "[as everywhere](/meshlab.md#the-filters)")
 
 
 def add_parameters(app: Sphinx, page: str, source: list[str]) -> None:

@@ -31,5 +31,5 @@ completed.plot("completed.png", camera=(0.5, 1, 1))
 print(completed.shape)
 print(completed.patch)
 lost = whole.points[(x > 11) & (y > 10)]
-print(f"lost up to x = {lost[:, 0].max():.1f} mm, restored up to "
-      f"{completed.patch.points[:, 0].max():.1f} mm")  # fmt: skip
+print("lost up to x =", lost[:, 0].max().round(1), "mm")
+print("restored up to", completed.patch.points[:, 0].max().round(1), "mm")

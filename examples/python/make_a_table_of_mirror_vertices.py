@@ -20,8 +20,8 @@ pairs.plot("pairs.png", camera=(0, -1, 0.35))
 # vertex itself.
 
 print(pairs.index[:10])
-print(f"{100 * pairs.statistics['paired_share']:.0f} % have one, "
-      f"{np.count_nonzero(pairs.index == np.arange(len(pairs.index)))} are their own")  # fmt: skip
+print(f"{100 * pairs.statistics['paired_share']:.0f} % have one")
+print(np.count_nonzero(pairs.index == np.arange(len(pairs.index))), "are their own")
 
 # %%
 # Weights that were painted on one side, on both:
