@@ -1,7 +1,7 @@
 # make setup | demo | wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
-# bench | accuracy: each sets up what it needs first, and only what is missing.
+# bench | accuracy | compare: each sets up what it needs first, and only what is missing.
 .PHONY: setup demo wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
-  bench-meshlab accuracy
+  bench-meshlab accuracy compare
 
 setup:
 	@.ci/setup python tests
@@ -64,6 +64,12 @@ bench:
 accuracy:
 	@.ci/setup accuracy
 	@cd tests && ../build/venv/bin/python -m accuracy $(OPTIONS)
+
+# symsurf's planes beside those of others that the registries have, on the same points: a quarter of
+# an hour; OPTIONS="--seeds 1" asks for less.
+compare:
+	@.ci/setup compare
+	@cd tests && ../build/compare/bin/python -m benchmarks.compare $(OPTIONS)
 
 meshlab:
 	@.ci/setup meshlab
