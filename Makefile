@@ -1,6 +1,6 @@
-# make setup | demo | wheel | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
+# make setup | demo | wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
 # bench | accuracy: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo wheel paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+.PHONY: setup demo wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
   bench-meshlab accuracy
 
 setup:
@@ -14,6 +14,12 @@ demo:
 wheel:
 	@.ci/setup wheel
 	@ls -sh build/dist/*
+
+# The documentation site; every example in it runs.
+docs:
+	@.ci/setup docs
+	@.ci/docs
+	@echo "The site: $(CURDIR)/build/docs/index.html"
 
 paraview:
 	@.ci/setup paraview

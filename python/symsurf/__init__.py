@@ -5,6 +5,8 @@
 >>> result.mirror, result.score, result.verdict
 """
 
+from typing import TYPE_CHECKING
+
 from . import detectors, metrics, synthetic
 from ._core import (
     Cancelled,
@@ -28,7 +30,6 @@ from ._core import (
     operations,
     straight_mirror,
 )
-from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
@@ -47,6 +48,9 @@ from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
+
+if TYPE_CHECKING:
+    from .batching import batch
 
 __all__ = [
     "Alignment",
@@ -90,3 +94,13 @@ __all__ = [
 ]
 __all__ += detectors.__all__
 __all__ += functions.__all__
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # `import symsurf` does not wait for what works on many files.
+        if name == "batch":
+            from .batching import batch
+
+            return batch
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
