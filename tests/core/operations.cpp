@@ -289,6 +289,19 @@ TEST(Symmetrize, MovesNothingOutsideOfTheMask) {
   EXPECT_GT((result.points - points).norm(), 0.01);
 }
 
+// The average of others may come near to the image of a point that nothing mirrored before.
+TEST(Symmetrize, LeavesWhatHasNoCounterpart) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Points points = RandomCloud(seed).box(13);
+    const OperationResult result = operate("symmetrize", {points}, middle);
+    const Eigen::MatrixXd& paired = result.arrays.at("paired");
+    for (Index i = 0; i < points.rows(); ++i)
+      if (paired(i, 0) == 0) {
+        EXPECT_EQ(result.points.row(i), points.row(i)) << seed << ", " << i;
+      }
+  }
+}
+
 TEST(Straighten, LaysTheMirrorFlatAndBendsBack) {
   const Ball b = ball(8);
   const Points bent = wrapped(b.points);

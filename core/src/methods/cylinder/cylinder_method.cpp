@@ -60,7 +60,7 @@ std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const
     }
   };
   return best_of_each_size(
-      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
+      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through, context),
       [](const UnitCylinder& cylinder) { return cylinder.radius; }, surfels, map, count, context);
 }
 
@@ -100,18 +100,24 @@ std::vector<CylinderCandidate> refined_cylinders(const Surfels& surfels, std::ui
   const SurfelMap map(surfels);
   std::vector<CylinderCandidate> candidates =
       candidate_cylinders(surfels, map, seed, started, context);
-  for (CylinderCandidate& candidate : candidates)
+  for (CylinderCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  }
   suppress_non_maxima(surfels, candidates, alike_cylinders, started);
   if (!candidates.empty()) drop_weakly_supported(candidates);
-  for (CylinderCandidate& candidate : candidates)
+  for (CylinderCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  }
   suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   const std::size_t found = std::min(rescanned, candidates.size());
   for (std::size_t i = 0; i < found; ++i)
-    for (const double angle : angles)
+    for (const double angle : angles) {
+      context.check();
       candidates.push_back(refined_on_surfels(
           surfels, map, CylinderCandidate{turned(candidates[i].shape, angle)}, 0.02, 0.012, 4, 1));
+    }
   suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   return candidates;
 }
