@@ -43,6 +43,7 @@ from .mirror_operations import (
     functions,
 )
 from .mirror_operations.functions import *  # one for each in operations()
+from .point_group import Axis, Symmetries, symmetries
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape, read
@@ -50,6 +51,7 @@ from .shape import Shape, read
 __all__ = [
     "Alignment",
     "Asymmetry",
+    "Axis",
     "Cancelled",
     "Completed",
     "Correspondences",
@@ -71,6 +73,7 @@ __all__ = [
     "Sphere",
     "Straightened",
     "SurfaceMirror",
+    "Symmetries",
     "Symmetrized",
     "__version__",
     "batch",
@@ -85,6 +88,7 @@ __all__ = [
     "operations",
     "read",
     "straight_mirror",
+    "symmetries",
     "synthetic",
 ]
 __all__ += detectors.__all__

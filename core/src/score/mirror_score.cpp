@@ -170,10 +170,8 @@ MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
   return {std::move(images), std::move(weights)};
 }
 
-double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
-                              double& surface) const {
+double MirrorScore::supported(const Sample& sample, const Ball& image, double& surface) const {
   constexpr double least = 3;
-  const Ball image = ball_of(mirrored, sample.position);
   if (image.count < least) return 0;
   const Spread own(sample.ball.covariance, radius_), other(image.covariance, radius_);
   const Vector3 gap = sample.ball.mean - image.mean;
@@ -200,11 +198,36 @@ double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
-  const Freedom freedom = freedom_of(mirror.kind());
   std::optional<MirrorLayers> layers;
-  if (freedom.any_shape)
+  if (freedom_of(mirror.kind()).any_shape)
     layers.emplace(0.7 * fine_.spacing() * frame.size, layer_of_noise * noise_ * frame.size,
                    frame.size);
+  std::optional<PointSet> images;  // made for the first ball, as a mirror may move nothing
+  return fit([&](const Vector3& x) { return mirror.reflect(x); },
+             [&](const Vector3& x) {
+               if (!images) images.emplace(mirrored(mirror));
+               return ball_of(*images, x);
+             },
+             stride, layers ? &*layers : nullptr);
+}
+
+MirrorFit MirrorScore::fit(const Eigen::Isometry3d& map) const {
+  const PrincipalFrame& frame = cloud_.frame;
+  const Eigen::Isometry3d back = map.inverse();
+  return fit([&](const Vector3& x) -> Vector3 { return frame.from_frame(map * frame.to_frame(x)); },
+             [&](const Vector3& x) {
+               Ball ball = ball_of(thinned_, back * x);
+               ball.mean = map.linear() * ball.mean;
+               ball.covariance = map.linear() * ball.covariance * map.linear().transpose();
+               return ball;
+             },
+             1, nullptr);
+}
+
+template <typename Image, typename ImageBall>
+MirrorFit MirrorScore::fit(const Image& image_of, const ImageBall& image_ball, std::size_t stride,
+                           MirrorLayers* layers) const {
+  const PrincipalFrame& frame = cloud_.frame;
   struct Moved {
     const Sample* sample;
     double distance;  // from the mirror
@@ -215,7 +238,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   for (std::size_t k = 0; k < samples_.size(); k += stride) {
     const Sample& sample = samples_[k];
     all += sample.weight();
-    const Vector3 x = frame.from_frame(sample.position), image = mirror.reflect(x);
+    const Vector3 x = frame.from_frame(sample.position), image = image_of(x);
     if (!image.allFinite()) {
       weights += sample.weight();
       continue;
@@ -228,7 +251,6 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
     images.push_back(image);
   }
   if (asked.empty()) return {};
-  const PointSet image_set = mirrored(mirror);
   const std::vector<Vector3> partners = points_.nearest(images, far * frame.size);
   std::vector<double> partnered{0};
   for (std::size_t k = 0; k < asked.size(); ++k)
@@ -247,7 +269,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
     const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
     double surface = sample->surface;
-    const double on_surface = supported(*sample, image_set, surface);
+    const double on_surface = supported(*sample, image_ball(sample->position), surface);
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
     const double density = sample->ball.count * static_cast<double>(cloud_.partition.total()) /
                            static_cast<double>(thinned_.points.rows());

@@ -4,6 +4,7 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@
 #include "spatial/point_tree.h"
 
 namespace symsurf {
+
+class MirrorLayers;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
@@ -46,6 +49,8 @@ class MirrorScore {
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The same of a third of the points: enough to see which mirrors are worth refining.
   MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
+  /// The same of a rotation, a reflection or both, in the principal frame.
+  MirrorFit fit(const Eigen::Isometry3d& map) const;
 
   /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
@@ -84,6 +89,10 @@ class MirrorScore {
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
+  // image(x) in input units; image_ball(x), of the cloud's image around x, in the principal frame.
+  template <typename Image, typename ImageBall>
+  MirrorFit fit(const Image& image, const ImageBall& image_ball, std::size_t stride,
+                MirrorLayers* layers) const;
   void choose_radius();
   double measured_noise() const;
   // The thinned points, or their images.
@@ -98,7 +107,7 @@ class MirrorScore {
   Ball ball_of(const PointSet& set, const Vector3& x) const;
   static PointSet thinned(const Surfels& fine);
   PointSet mirrored(const Mirror& mirror) const;
-  double supported(const Sample& sample, const PointSet& mirrored, double& surface) const;
+  double supported(const Sample& sample, const Ball& image, double& surface) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
