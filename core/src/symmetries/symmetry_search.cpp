@@ -63,9 +63,9 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
   return pose;
 }
 
-class Search {
+class SymmetrySearch {
  public:
-  Search(const Cloud& cloud, double minimum_score, const Context& context)
+  SymmetrySearch(const Cloud& cloud, double minimum_score, const Context& context)
       : cloud_(cloud),
         context_(context),
         minimum_score_(minimum_score),
@@ -82,7 +82,8 @@ class Search {
     place_centre();
     find_axes();
     context_.report(0.8);
-    for (const auto& propose : {&Search::spherical, &Search::polyhedral, &Search::axial})
+    for (const auto& propose :
+         {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral, &SymmetrySearch::axial})
       if (const std::optional<Placed> placed = (this->*propose)())
         if (std::optional<Symmetries> found = verified(*placed)) return *found;
     for (const Direction& plane : planes_)
@@ -428,7 +429,7 @@ class Search {
 }  // namespace
 
 Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context) {
-  return Search(cloud, minimum_score, context).run();
+  return SymmetrySearch(cloud, minimum_score, context).run();
 }
 
 }  // namespace symsurf
