@@ -116,7 +116,7 @@ def symmetries(
     shape: object,
     *,
     faces: ArrayLike | None = None,
-    minimum_score: float = 0.8,
+    minimum_score: float = 0.7,
     nonfinite: str = "skip",
     threads: int = 0,
     progress: Progress | None = None,
@@ -126,8 +126,9 @@ def symmetries(
     Args:
         shape: points, a mesh or a file, as ``detect`` takes them.
         faces: (m, 3) indices of points, where ``shape`` does not bring them.
-        minimum_score: what each element must score, [0, 1]. Elements that score 0.08 less than the
-            best one are none, either.
+        minimum_score: what each element must score, [0, 1]. It must also reach 2 best - 1.05, ``best``
+            being the greatest score, so that a part which spoils the shape's symmetry counts where
+            another symmetry holds for it.
         nonfinite, threads, progress: as for ``detect``.
 
     Raises:

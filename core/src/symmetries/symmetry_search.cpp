@@ -19,9 +19,10 @@ namespace symsurf {
 namespace {
 
 constexpr Index surfels = 1000;
-// Scores within this of the best are those of symmetries, too: where a tenth of the shape is cut
-// away, elements that map the hole onto itself score 1, others 0.9.
-constexpr double below_best = 0.08;
+// Where a part is cut away no element scores 1: one may map the hole beside itself, and another
+// leave out twice as much as the best does. Beyond that scores differ by this.
+constexpr double below_best = 0.05;
+constexpr double below_axis = 0.1;  // of the best turns about the same axis
 constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 constexpr double rough_tolerance = 0.015, rough_support = 0.45;
 constexpr std::size_t most_planes = 12;      // fitted to the full cloud; a few tell of all others
@@ -110,7 +111,7 @@ class SymmetrySearch {
   };
 
   bool is_symmetry(double score) const {
-    return score >= std::max(minimum_score_, best_ - below_best);
+    return score >= std::max(minimum_score_, best_ - (1 - best_) - below_best);
   }
 
   double score_of(const GroupPose& pose, const std::vector<Matrix3>& elements) const {
@@ -207,14 +208,19 @@ class SymmetrySearch {
       });
       if (is_known) continue;
       const GroupPose start = GroupPose::along(guess, centre_);
-      if (std::optional<Direction> axis = tried(start, any_turns())) {
+      std::optional<Direction> axis = tried(start, any_turns());
+      if (axis) {
         axis->order = 0;
         best_ = std::max(best_, axis->score);
-        axes_.push_back(*axis);
-        if (is_symmetry(axis->score)) break;  // what else there is, spherical() and axial() find
-        continue;
+        if (axis->score >= best_ - below_best) {
+          axes_.push_back(*axis);
+          break;  // what else there is, spherical() and axial() find
+        }
       }
-      if (const std::optional<Direction> axis = finite_axis(start)) axes_.push_back(*axis);
+      // Of a gear any turn maps the faces onto themselves, and some the teeth, too.
+      const std::optional<Direction> finite = finite_axis(start);
+      if (finite && (!axis || finite->score > axis->score + below_best)) axis = finite;
+      if (axis) axes_.push_back(*axis);
     }
     std::erase_if(axes_, [this](const Direction& axis) { return !is_symmetry(axis.score); });
     std::stable_sort(axes_.begin(), axes_.end(), [](const Direction& a, const Direction& b) {
@@ -235,9 +241,11 @@ class SymmetrySearch {
         best_ = std::max(best_, axis->score);
         found.emplace_back(prime, *axis);
       }
+    double most = 0;
+    for (const auto& [prime, axis] : found) most = std::max(most, axis.score);
     std::optional<Direction> whole;
     for (const auto& [prime, axis] : found) {
-      if (!is_symmetry(axis.score)) continue;
+      if (!is_symmetry(axis.score) || axis.score < most - below_axis) continue;
       if (!whole) {
         whole = axis;
         continue;
@@ -382,7 +390,7 @@ class SymmetrySearch {
       if (element.isIdentity()) continue;
       least = std::min(least, score_.fit(pose.placed(element)).share);
       // A product may leave a little more out than its factors do.
-      if (!is_symmetry(least + below_best / 4)) return {};
+      if (!is_symmetry(least + below_best / 2)) return {};
     }
     return described({placed.group, pose}, least);
   }

@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--minimum-score",
-        default="0.8",
+        default="0.7",
         metavar="VALUE",
         help="of each element, [0, 1], default %(default)s",
     )
