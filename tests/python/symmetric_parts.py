@@ -80,7 +80,9 @@ def turned(radius: Sequence[float], height: Sequence[float], steps: int = 180) -
         ]
     )
     a, b, c, d = circles[:-1, :-1], circles[:-1, 1:], circles[1:, 1:], circles[1:, :-1]
-    return np.concatenate([np.stack(three, axis=2).reshape(-1, 3, 3) for three in ((a, b, c), (a, c, d))])
+    return np.concatenate(
+        [np.stack(three, axis=2).reshape(-1, 3, 3) for three in ((a, b, c), (a, c, d))]
+    )
 
 
 def gear(teeth: int, slant: float = 0.0) -> Array:
@@ -145,9 +147,7 @@ def rotation_about(axis: Sequence[float], angle: float) -> Array:
 _BRACKET = np.array([(0, 0), (2, 0), (2, 0.4), (0.4, 0.4), (0.4, 1.3), (0, 1.3)])
 
 PARTS = {
-    "hexagonal nut": Part(
-        "D6h", ring(polygon(6), 0.55 * polygon(6), 0.8), 7, [6] + 6 * [2]
-    ),
+    "hexagonal nut": Part("D6h", ring(polygon(6), 0.55 * polygon(6), 0.8), 7, [6] + 6 * [2]),
     "gear of 7": Part("D7h", gear(7), 8, [7] + 7 * [2]),
     "gear of 24": Part("D24h", gear(24), 25, [24] + 24 * [2]),
     "slanted gear": Part("C9h", gear(9, slant=0.15), 1, [9]),
