@@ -70,7 +70,7 @@ TEST(Symmetries, OfABoxAreThoseOfItsPlanes) {
 TEST(Symmetries, RefusesScoresThatThereAreNot) {
   const Points points = RandomCloud(0).box(100);
   EXPECT_THROW(find_symmetries(points, {.minimum_score = -0.1}), InvalidParameter);
-  EXPECT_THROW(find_symmetries(points.topRows(2)), InvalidInput);
+  EXPECT_THROW(find_symmetries(Points(points.topRows(2))), InvalidInput);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr Index surfels = 1000;
 // Where a part is cut away no element scores 1: one may map the hole beside itself, and another
 // leave out twice as much as the best does. Beyond that scores differ by this.
 constexpr double below_best = 0.05;
-constexpr double below_axis = 0.1;  // of the best turns about the same axis
+constexpr double below_axis = 0.06;  // of the best turns about the same axis
 constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 constexpr double rough_tolerance = 0.015, rough_support = 0.45;
 constexpr std::size_t most_planes = 12;      // fitted to the full cloud; a few tell of all others
@@ -219,7 +219,9 @@ class SymmetrySearch {
       }
       // Of a gear any turn maps the faces onto themselves, and some the teeth, too.
       const std::optional<Direction> finite = finite_axis(start);
-      if (finite && (!axis || finite->score > axis->score + below_best)) axis = finite;
+      if (finite &&
+          (!axis || !is_symmetry(axis->score) || finite->score > axis->score + below_best))
+        axis = finite;
       if (axis) axes_.push_back(*axis);
     }
     std::erase_if(axes_, [this](const Direction& axis) { return !is_symmetry(axis.score); });
