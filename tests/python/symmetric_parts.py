@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,8 +98,9 @@ def gear(teeth: int, slant: float = 0.0) -> Array:
 
 
 def box(x: float, y: float, z: float) -> Array:
-    outline = np.array([(-x, -y), (x, -y), (x, y), (-x, y)]) / 2
-    return extruded(outline, z)
+    corners = np.array(list(product((-0.5, 0.5), repeat=3))) * (x, y, z)
+    sides = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
+    return corners[[three for a, b, c, d in sides for three in ((a, b, c), (a, c, d))]]
 
 
 def propeller(blades: int) -> Array:
