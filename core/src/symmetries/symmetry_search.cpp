@@ -31,6 +31,7 @@ constexpr double same_direction = 0.05;      // radians, of axes fitted well: 3 
 constexpr double same_guess = 0.035;
 constexpr std::array<Index, 11> primes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31};
 constexpr Index greatest_power = 64;
+constexpr Index greatest_order = 128;  // a body of which more orders hold is one of revolution
 constexpr std::size_t samples = 1500;  // a step, for one element
 
 const Matrix3 mirror_across = reflection(Vector3::UnitZ());
@@ -255,6 +256,7 @@ class SymmetrySearch {
       whole->order *= whole->order % prime == 0 ? prime : axis.order;
       whole->score = std::min(whole->score, axis.score);
     }
+    if (whole && whole->order > greatest_order) return {};
     return whole;
   }
 
