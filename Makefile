@@ -1,7 +1,7 @@
-# make setup | demo | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz | bench |
-# accuracy: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench bench-meshlab \
-  accuracy
+# make setup | demo | wheel | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
+# bench | accuracy: each sets up what it needs first, and only what is missing.
+.PHONY: setup demo wheel paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+  bench-meshlab accuracy
 
 setup:
 	@.ci/setup python tests
@@ -9,6 +9,11 @@ setup:
 demo:
 	@.ci/setup report
 	@build/venv/bin/symsurf demo --output build/demo
+
+# A wheel for this machine's Python and for Linux of its C library's age, and the source distribution.
+wheel:
+	@.ci/setup wheel
+	@ls -sh build/dist/*
 
 paraview:
 	@.ci/setup paraview

@@ -44,9 +44,10 @@ from .mirror_operations import (
 )
 from .mirror_operations.functions import *  # one for each in operations()
 from .point_group import Axis, Symmetries, symmetries
+from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
-from .shape import Shape, read
+from .shape import Shape
 
 __all__ = [
     "Alignment",

@@ -6,17 +6,20 @@ import os
 import signal
 from collections import deque
 from collections.abc import Iterable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import BrokenExecutor, Executor
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._core import InvalidParameter
 from .file_task import DETECT, FileTask, Record, failed, perform
+from .reading import files_in
 from .result_table import row_of
 from .saving.output_files import output_files
 from .saving.shape_files import output_suffix
+
+if TYPE_CHECKING:
+    from concurrent.futures import ProcessPoolExecutor
 
 __all__ = ["batch"]
 
@@ -31,6 +34,7 @@ def batch(
     threads: int = 0,
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
+    threshold: float | None = None,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
     """Finds the mirror of each of many files, and does the operation with it.
@@ -38,7 +42,7 @@ def batch(
     >>> pandas.DataFrame(symsurf.batch(files, "asymmetry", jobs=8))
 
     Args:
-        files: those that ``read`` takes.
+        files: those that ``read`` takes; a folder stands for those in it.
         operation: "detect", or the name of one of ``operations()``.
         executor: of ``concurrent.futures``, or one that is like those, such as Dask's
             ``Client.get_executor()``. Its workers must see the files under the same names.
@@ -52,6 +56,7 @@ def batch(
             in PLY where that cannot hold what the operation gives each point; of "detect" a small
             JSON file each.
         unit: of the coordinates, such as "mm": a label for the rows.
+        threshold: of masks and images; see ``read``.
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
@@ -64,7 +69,7 @@ def batch(
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
             ``jobs`` beside an executor; two files of one name with an output folder.
     """
-    paths = [Path(file) for file in files]
+    paths = files_in(Path(file) for file in files)
     require_operation(operation)
     if executor is not None and jobs != 1:
         raise InvalidParameter(
@@ -83,6 +88,7 @@ def batch(
             dict(parameters),
             threads=each,
             unit=unit,
+            threshold=threshold,
             outputs=tuple(outputs.get(path, ())),
         )
         for path in paths
@@ -155,6 +161,10 @@ def _by_itself(task: FileTask) -> Record:
 
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
+    # Here: `import symsurf` alone needs no multiprocessing.
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     # Spawned: a fork would copy the locks of the core's threads, not the threads.
     return ProcessPoolExecutor(jobs, get_context("spawn"), _die_quietly)
 

@@ -14,8 +14,10 @@ from ._core import Cylinder, Mirror, Plane
 from .detection import detect
 from .mirror_operations import OperationResult
 from .mirror_operations.operate import operate
+from .optional import require
+from .reading import read
 from .result import Result
-from .shape import Shape, read
+from .shape import Shape
 
 BEND = 0.8  # of the diagonal: the radius that a shape is bent over
 NOISE = 0.01  # of the diagonal: its standard deviation in each direction
@@ -62,6 +64,7 @@ class Deed:
 
 def cases() -> Iterator[Case]:
     """The meshes that PyVista ships, straight and bent, and one of them damaged."""
+    require("the demonstration's meshes", "pyvista")
     from pyvista import examples
 
     # Both are modelled mirrored in x: the ant about 0, the airplane about half its span. The ant's

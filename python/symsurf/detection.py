@@ -48,8 +48,8 @@ def detect(
             are used but these.
         nonfinite: "skip": points with a NaN or infinite coordinate are left out, with an
             ``InputWarning``, and have no partners; "refuse": they are an error.
-        threshold: of a grid, the number that the scalars of the points to take are above. A mask of
-            booleans or of two whole numbers needs none.
+        threshold: of a grid or a file with an image, the number that the scalars of the points to
+            take are above. A mask of booleans or of two whole numbers needs none.
         scalars: the name of the grid's scalars; without it the active ones.
         absolute: True: parameters that are lengths (those of the unit "diagonal") are in input
             units, in place of fractions of the diagonal of the bounding box. ``Result.parameters``

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import InvalidInput, InvalidParameter, Mirror
+from .optional import require
 from .saving import write_whole
 from .shape import Shape
 
@@ -81,11 +82,7 @@ def add_title(plotter: pyvista.Plotter, title: str) -> None:
 
 
 def import_pyvista() -> Any:
-    try:
-        import pyvista
-    except ImportError as error:
-        raise ImportError("pictures need PyVista: pip install 'symsurf[plot]'") from error
-    return pyvista
+    return require("pictures", "pyvista")
 
 
 def finite_object(shape: Shape) -> tuple[pyvista.PolyData, NDArray[np.int64]]:

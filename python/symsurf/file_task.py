@@ -6,6 +6,7 @@ import math
 import time
 import warnings
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,13 @@ from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
+from .reading import read, suffix_of
 from .result import Result
 from .sampling import downsample
 from .saving import write_whole
 from .saving.json_format import mirror_record, plain, record_bytes, summary
 from .saving.shape_files import save_shape
-from .shape import Shape, read
+from .shape import Shape
 
 DETECT = "detect"
 SUMMARY_SUFFIX = ".summary.json"
@@ -38,6 +40,7 @@ class FileTask:
     """A file and what is done with it. It pickles: another process can do it."""
 
     file: Path
+    """For ``content`` the name that records and outputs have."""
     operation: str = DETECT
     """Or the name of one of ``operations()``."""
     method: str = "auto"
@@ -50,10 +53,29 @@ class FileTask:
     use_normals: bool = False
     downsample: float | None = None
     """Work on about one point in so many."""
+    input_format: str | None = None
+    """Of the file; without it its suffix tells."""
+    content: bytes | None = None
+    """What is read in place of a file, such as standard input; it needs ``input_format``."""
+    threshold: float | None = None
+    """Of a mask or an image."""
     unit: str = ""
     """Of the coordinates: a label."""
     outputs: tuple[Path, ...] = ()
     """The files to write, each in the format of its suffix, and PNGs to draw."""
+
+    @property
+    def suffix(self) -> str:
+        """Of the format that the file is read in."""
+        return suffix_of(self.file) if self.input_format is None else f".{self.input_format}"
+
+
+class _Content(BytesIO):
+    """An open file that errors name."""
+
+    def __init__(self, content: bytes, name: str) -> None:
+        super().__init__(content)
+        self.name = name
 
 
 def perform(task: FileTask, progress: Progress | None = None) -> Record:
@@ -85,7 +107,8 @@ def failed(task: FileTask, reason: str) -> Record:
 def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     notices: list[str] = []
     record["notices"] = notices
-    shape = read(task.file)
+    given = task.file if task.content is None else _Content(task.content, str(task.file))
+    shape = read(given, task.input_format, threshold=task.threshold)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     record["points"] = len(shape.points)
@@ -128,7 +151,7 @@ def _operate(
 
             write_whole(output, shape_page(record, result))
         else:
-            notices += save_shape(output, result, shape, source=task.file)
+            notices += save_shape(output, result, shape, task.file, task.suffix, task.content)
 
 
 def _write_result(found: Result, record: Record, task: FileTask) -> None:

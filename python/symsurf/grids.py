@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
-from ._core import InvalidInput, InvalidParameter
+from ._core import InvalidInput
+from .thresholds import above
 
 _FLAT_CELLS = {
     int(kind)
@@ -141,25 +142,11 @@ def points_above(
     """
     kind = type(grid).__name__
     values, of_cells = _scalars(grid, scalars, kind)
-    if threshold is None:
-        chosen = _mask(values, kind)
-    else:
-        if not _is_number(threshold):
-            raise InvalidParameter(f"threshold is {threshold!r}; allowed is a number")
-        chosen = values > threshold
-    if not chosen.any():
-        raise InvalidInput(
-            f"no scalar of the {kind} is above threshold={threshold}; they end at {values.max()}"
-        )
+    chosen = above(values, threshold, kind)
     numbers = np.flatnonzero(chosen)
     if not of_cells:
         return np.ascontiguousarray(np.asarray(grid.points, dtype=float)[numbers])
     return np.ascontiguousarray(np.asarray(grid.cell_centers().points, dtype=float)[numbers])
-
-
-def _is_number(value: Any) -> bool:
-    text = isinstance(value, (str, bytes))
-    return not text and np.isscalar(value) and not np.isnan(value)
 
 
 def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArray[Any], bool]:
@@ -186,22 +173,6 @@ def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArra
     raise InvalidInput(
         f"scalars={name!r} are not there; there are "
         + (", ".join(map(repr, [*grid.point_data, *grid.cell_data])) or "none")
-    )
-
-
-def _mask(values: NDArray[Any], kind: str) -> NDArray[np.bool_]:
-    if values.dtype.kind == "b":
-        return values
-    if values.dtype.kind in "iu" and values.size:
-        low, high = values.min(), values.max()
-        if low != high and ((values == low) | (values == high)).all():
-            return values == high
-    raise InvalidInput(
-        f"the {kind} is a regular grid, whose own symmetry is not asked for, and its scalars are no "
-        f"mask of two values; give threshold=NUMBER to choose the points above it (they go from "
-        f"{values.min()} to {values.max()})"
-        if values.size
-        else f"the {kind} has no points"
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import InvalidInput, InvalidParameter
-from .shape import read
+from .reading import read
 
 
 class InputWarning(UserWarning):
@@ -44,8 +44,9 @@ def as_input(
         threshold, scalars: of grids; see ``symsurf.detect``.
     """
     if isinstance(given, (str, os.PathLike)):
-        given = read(given)
-    pyvista = sys.modules.get("pyvista")  # whoever has a data set has imported it
+        given = read(given, threshold=threshold, scalars=scalars)
+        threshold = scalars = None
+    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
     if is_data_set:
         from . import grids

@@ -17,7 +17,7 @@ def reflected(mesh: Any, mirror: Mirror) -> Any:
     if isinstance(mesh, Shape):
         faces = None if mesh.faces is None else _turned(mesh.faces)
         return Shape(mirror.reflect(np.asarray(mesh.points)), faces)
-    pyvista = sys.modules.get("pyvista")  # whoever has a data set has imported it
+    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     if pyvista is not None and isinstance(mesh, pyvista.DataSet):
         from . import grids
 

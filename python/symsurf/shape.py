@@ -1,16 +1,14 @@
-"""Point sets and meshes from files."""
+"""Point sets and meshes."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
-from ._core import InvalidInput
+from .optional import require
 
 if TYPE_CHECKING:
     import pyvista
@@ -38,6 +36,7 @@ class Shape:
 
         Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
         """
+        require("PyVista's meshes", "pyvista")
         from .grids import shape_of
 
         return cls(*shape_of(mesh))
@@ -45,17 +44,7 @@ class Shape:
     def to_pyvista(self) -> pyvista.PolyData:
         """The faces, or the points of a bare cloud as vertices, in double precision; the normals are
         the active ones. ``from_pyvista`` makes the same shape of it. Needs PyVista."""
+        require("PyVista's meshes", "pyvista")
         from .grids import poly_data
 
         return poly_data(self.points, self.faces, self.normals)
-
-
-def read(path: str | os.PathLike[str]) -> Shape:
-    """Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix.
-
-    Coordinates keep every digit a double holds. Raises InvalidInput naming the file and the reason:
-    unknown suffix, not readable, larger than half of the memory, broken, truncated, no points.
-    """
-    if not isinstance(path, (str, bytes, os.PathLike)) or "\0" in os.fsdecode(path):
-        raise InvalidInput(f"path is {path!r}; allowed is the name of a file")
-    return Shape(**_core.read(path))

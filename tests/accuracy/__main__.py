@@ -9,6 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from itertools import chain
 
 from . import (
+    bodies,
     cad_planes,
     candidates,
     curved,
@@ -24,7 +25,7 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
+MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
            without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

@@ -180,5 +180,30 @@ TEST(ClosestPointOnMesh, FarFromTheOrigin) {
   }
 }
 
+TEST(ClosestPointOnMesh, OfFacesThatFaceADirectionIsThatOfThoseAlone) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = random.box(60);
+    Triangles faces(80, 3);
+    for (Index f = 0; f < faces.rows(); ++f)
+      for (int c = 0; c < 3; ++c) faces(f, c) = random.below(points.rows());
+    const Vector3 direction = random.direction();
+    Triangles facing(faces.rows(), 3);
+    Index count = 0;
+    for (const auto& f : faces.rowwise()) {
+      const Vector3 a = points.row(f[0]), b = points.row(f[1]), c = points.row(f[2]);
+      const Vector3 normal = (b - a).cross(c - a);
+      if (normal.dot(direction) >= 0.5 * normal.norm()) facing.row(count++) = f;
+    }
+    facing.conservativeResize(count, 3);
+    const ClosestPointOnMesh all(points, faces), those(points, facing);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3 query = 2 * random.in_box();
+      EXPECT_NEAR(all.facing(query, direction, 0.5, 100).squared_distance,
+                  those(query).squared_distance, 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace symsurf

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <symsurf/operation.h>
+#include <symsurf/sphere.h>
 
 #include <cmath>
 #include <functional>
@@ -230,6 +231,22 @@ TEST(Complete, FillsTheHoleOfACloud) {
     for (Index i = cut.rows(); i < result.points.rows(); ++i)
       EXPECT_LT((result.points.row(i).transpose() - Vector3(1, 0, 0)).norm(), 0.5 + spacing)
           << seed;
+  }
+}
+
+// Beyond the centre of a sphere points have no image, and still can lie far from the mirrored
+// surface. Found by fuzzing.
+TEST(Complete, AddsNoImagesWhereThereAreNone) {
+  for (std::uint64_t seed = 0; seed < 4 * seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = random.sphere(52);
+    Triangles faces(33, 3);
+    for (Index f = 0; f < faces.rows(); ++f)
+      for (int c = 0; c < 3; ++c) faces(f, c) = random.below(points.rows());
+    const Sphere sphere(Vector3(0, -1.5, 2), 1.7);
+    for (const TrianglesView& given : {TrianglesView(faces), TrianglesView()})
+      EXPECT_TRUE(operate("complete", {points, given}, sphere, {{"max_distance", 0.01}})
+                      .points.allFinite());
   }
 }
 

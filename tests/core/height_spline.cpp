@@ -61,23 +61,39 @@ TEST(HeightSpline, KeepsItsHeightsWhenSubdivided) {
   }
 }
 
-// By the midpoint rule over many positions.
-TEST(HeightSpline, HasTheBendingEnergyOfItsHeights) {
+// By the midpoint rule over many positions, third derivatives by differences of second ones.
+TEST(HeightSpline, HasTheCurvatureVariationOfItsHeights) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);
     const HeightSpline spline = random_spline(random);
     constexpr int side = 200;
+    constexpr double step = 1e-4;
     double sum = 0;
     for (int a = 0; a < side; ++a)
       for (int b = 0; b < side; ++b) {
         const At share((a + 0.5) / side, (b + 0.5) / side);
-        const auto jet =
-            spline.jet(spline.low() + (spline.high() - spline.low()).cwiseProduct(share));
-        sum += jet.uu * jet.uu + 2 * jet.uv * jet.uv + jet.vv * jet.vv;
+        const At at = spline.low() + (spline.high() - spline.low()).cwiseProduct(share);
+        const auto left = spline.jet(at - At(step, 0)), right = spline.jet(at + At(step, 0));
+        const auto below = spline.jet(at - At(0, step)), above = spline.jet(at + At(0, step));
+        const auto squared = [](double x) { return x * x; };
+        sum += (squared(right.uu - left.uu) + 3 * squared(right.uv - left.uv) +
+                3 * squared(above.uv - below.uv) + squared(above.vv - below.vv)) /
+               squared(2 * step);
       }
     const Eigen::VectorXd& c = spline.coefficients();
-    EXPECT_NEAR(c.dot(spline.bending_energy() * c), sum / (side * side), 0.1 * sum / (side * side));
+    EXPECT_NEAR(c.dot(spline.curvature_variation() * c), sum / (side * side),
+                0.1 * sum / (side * side));
   }
+}
+
+// A saddle's curvature is the same everywhere: the coefficients' products i j make u v.
+TEST(HeightSpline, LetsASaddleBendForNothing) {
+  HeightSpline spline(At(0, 0), At(4, 3), 1);
+  Eigen::VectorXd product(spline.size());
+  for (Index k = 0; k < product.size(); ++k) product[k] = static_cast<double>((k / 6) * (k % 6));
+  spline.step(product);
+  EXPECT_NEAR(spline.jet(At(1, 1)).uv, 1, 1e-12);
+  EXPECT_NEAR(product.dot(spline.curvature_variation() * product), 0, 1e-9);
 }
 
 }  // namespace

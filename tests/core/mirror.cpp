@@ -3,6 +3,7 @@
 #include <symsurf/height_field.h>
 #include <symsurf/plane.h>
 #include <symsurf/sphere.h>
+#include <symsurf/surface_mirror.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -184,6 +185,16 @@ TEST(PlaneMesh, SaysWhatIsWrong) {
   Points broken = points;
   broken(3, 1) = std::nan("");
   expect_error<InvalidInput>("point 3", [&] { plane.mesh(broken); });
+}
+
+// The search for the closest point went on for hours. Found by fuzzing.
+TEST(SurfaceMirror, HasFeetOfPointsFarAway) {
+  for (const char* name : {"f1", "f2", "f3", "f4", "f5", "f6"}) {
+    const SurfaceMirror mirror(surface(name), Mapping::Perpendicular);
+    for (const double far : {1e3, 6.2387e11, -3e14})
+      EXPECT_TRUE(mirror.foot(Vector3(far, 0.7 * far, 0.1 * far)).allFinite()) << name << far;
+    mirror.foot(Vector3(1, -1e308, 1));  // whose distance is no double
+  }
 }
 
 }  // namespace

@@ -96,6 +96,28 @@ TEST(Asymmetry, IsAsHighAsABumpAndNothingElsewhere) {
   }
 }
 
+// A disc as thick as a twentieth of the shift: the mirrored rear is closer to the front than the
+// mirrored front is.
+TEST(Asymmetry, OfThinPartsIsFromFrontToFront) {
+  Ball b = ball(2);
+  const double shift = 0.05;
+  for (Index i = 0; i < b.points.rows(); ++i) {
+    b.points.row(i).normalize();
+    b.points(i, 2) *= 0.01;
+    const double x = b.points(i, 0);
+    if (x > 0) b.points(i, 2) += shift * x * x * (3 - 2 * x);
+  }
+  const OperationResult result = operate("asymmetry", {b.points, b.faces}, middle);
+  EXPECT_GT(figure(result, "matched_share"), 0.9);
+  const Eigen::MatrixXd& distance = result.arrays.at("distance");
+  for (Index i = 0; i < b.points.rows(); ++i) {
+    const Vector3 x = b.points.row(i).transpose();
+    if (x.head<2>().norm() > 0.9 || result.arrays.at("matched")(i, 0) == 0) continue;
+    const double raised = shift * x.x() * x.x() * (3 - 2 * std::abs(x.x()));
+    EXPECT_NEAR(distance(i, 0), raised, 0.15 * raised + 0.002) << x.transpose();
+  }
+}
+
 TEST(Asymmetry, OfACloudIsThatOfItsSurface) {
   const Ball b = ball(2);
   Eigen::VectorXd raised;
@@ -305,6 +327,13 @@ TEST(Operations, NameWhatIsWrong) {
                              [&] { operate("asymmetry", input, Sphere(Vector3::Zero(), 0.01)); });
   Points broken = b.points;
   broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  // Its square is no double.
+  Points far = b.points;
+  far(7, 2) = 1e300;
+  for (const Operation& each : operations())
+    expect_error<InvalidInput>("allowed are coordinates up to 1e+50", [&] {
+      operate(each.name, {far, b.faces}, middle);
+    });
   expect_error<InvalidInput>("point 3", [&] { operate("asymmetry", {broken, b.faces}, middle); });
 }
 

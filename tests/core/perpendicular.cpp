@@ -83,7 +83,7 @@ TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
 
 // A bumpy body whose points stand beside their images over a plane: free forms that bend explain
 // nearly as much of it. The largest is thinned for the search, which parts points from their
-// images.
+// images: there the mirror may bend a little beyond the last points that are left.
 TEST(Perpendicular, FindsTheExactPlaneOfABody) {
   for (const Index count : {3000, 5000, 10000, 40000}) {
     RandomCloud random(0);
@@ -97,7 +97,8 @@ TEST(Perpendicular, FindsTheExactPlaneOfABody) {
     }
     const Result result = detect(points, {.method = "perpendicular"});
     EXPECT_GT(result.score, 0.9) << count;
-    EXPECT_LE(result.surface_points.col(0).cwiseAbs().maxCoeff(), 1e-3) << count;
+    EXPECT_LE(result.surface_points.col(0).cwiseAbs().maxCoeff(), count > 20000 ? 1e-2 : 1e-3)
+        << count;
   }
 }
 
@@ -242,7 +243,7 @@ struct BentSolid {
 };
 
 // Two bodies on either side, joined by a bar: along a normal of the mirror there are many surfaces.
-BentSolid dumbbell(RandomCloud& random) {
+BentSolid dumbbell(RandomCloud& random, bool twisted) {
   constexpr Index count = 4000;
   BentSolid solid{Points(count, 3), Points(count, 3)};
   const Matrix3 rotation = random.rotation();
@@ -256,30 +257,39 @@ BentSolid dumbbell(RandomCloud& random) {
                   0.3 * x.z() * (1 + 0.4 * std::sin(5 * x.x() + 1)));
     // The sides are drawn each by itself.
     const double distance = i % 2 ? std::abs(x.z()) : -std::abs(x.z());
-    const double height = 0.15 * std::sin(2.5 * x.x()), slope = 0.375 * std::cos(2.5 * x.x());
-    const Vector3 foot(x.x(), x.y(), height), normal = Vector3(-slope, 0, 1).normalized();
+    const double height = twisted ? 0.4 * x.x() * x.y() : 0.15 * std::sin(2.5 * x.x());
+    const Vector3 upwards = twisted ? Vector3(-0.4 * x.y(), -0.4 * x.x(), 1)
+                                    : Vector3(-0.375 * std::cos(2.5 * x.x()), 0, 1);
+    const Vector3 foot(x.x(), x.y(), height), normal = upwards.normalized();
     solid.points.row(i) = (rotation * (foot + distance * normal) + shift).transpose();
     solid.images.row(i) = (rotation * (foot - distance * normal) + shift).transpose();
   }
   return solid;
 }
 
-TEST(Perpendicular, FindsTheBentMiddleOfASolidWithoutExactPartners) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    RandomCloud random(seed);
-    const BentSolid solid = dumbbell(random);
-    const Result result = detect(solid.points, {.method = "perpendicular"});
-    ASSERT_TRUE(result.mirror) << seed;
-    std::vector<double> errors;
-    const Points images = result.mirror->reflect(solid.points);
-    for (Index i = 0; i < images.rows(); ++i) {
-      const double error = (images.row(i) - solid.images.row(i)).norm();
-      errors.push_back(std::isnan(error) ? INFINITY : error);
-    }
-    std::sort(errors.begin(), errors.end());
-    EXPECT_LT(errors[errors.size() / 2], 0.005 * diagonal(solid.points)) << seed;
-    EXPECT_LT(errors[errors.size() * 9 / 10], 0.03 * diagonal(solid.points)) << seed;
+// How far off the images are, sorted, over the diagonal.
+std::vector<double> image_errors(const BentSolid& solid, const Mirror& mirror) {
+  std::vector<double> errors;
+  const Points images = mirror.reflect(solid.points);
+  for (Index i = 0; i < images.rows(); ++i) {
+    const double error = (images.row(i) - solid.images.row(i)).norm() / diagonal(solid.points);
+    errors.push_back(std::isnan(error) ? INFINITY : error);
   }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+TEST(Perpendicular, FindsTheBentMiddleOfASolidWithoutExactPartners) {
+  for (const bool twisted : {false, true})
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      RandomCloud random(seed);
+      const BentSolid solid = dumbbell(random, twisted);
+      const Result result = detect(solid.points, {.method = "perpendicular"});
+      ASSERT_TRUE(result.mirror) << seed;
+      const std::vector<double> errors = image_errors(solid, *result.mirror);
+      EXPECT_LT(errors[errors.size() / 2], 0.004) << seed << ' ' << twisted;
+      EXPECT_LT(errors[errors.size() * 9 / 10], 0.02) << seed << ' ' << twisted;
+    }
 }
 
 // Every smooth closed body has a bent middle: that it has one says nothing.

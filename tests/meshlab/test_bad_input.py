@@ -146,19 +146,30 @@ def test_layers_that_hold_no_mirror(filter_name):
     assert_refused(mesh().mesh_set(), filter_name, "no layer 7", mirror_layer=7)
 
 
+def with_tiny_sphere(away):
+    """A shape, and so many diagonals from it along each axis a sphere of another scale."""
+    shape = mesh()
+    sphere = np.random.default_rng(0).normal(size=(50, 3))
+    sphere *= (0.01 / np.linalg.norm(sphere, axis=1))[:, None]
+    mesh_set = shape.mesh_set()
+    mesh_set.add_mesh(pymeshlab.Mesh(sphere + shape.points[0] + away * shape.diagonal), "tiny")
+    mesh_set.set_current_mesh(0)
+    return mesh_set
+
+
+@pytest.mark.parametrize("filter_name", OPERATIONS)
+def test_a_mirror_far_away(filter_name):
+    assert_refused(with_tiny_sphere(9), filter_name, "diagonals away from this", mirror_layer=1)
+
+
 # Those that ask for the images of points; the others need their feet alone.
 @pytest.mark.parametrize(
     "filter_name",
     [f for f in OPERATIONS if "alignment" not in f and "straightening" not in f],
 )
 def test_a_mirror_of_another_scale(filter_name):
-    shape = mesh()
-    sphere = np.random.default_rng(0).normal(size=(50, 3))
-    sphere *= (0.01 / np.linalg.norm(sphere, axis=1))[:, None]
-    mesh_set = shape.mesh_set()
-    mesh_set.add_mesh(pymeshlab.Mesh(sphere + shape.points[0] + 9 * shape.diagonal), "tiny")
-    mesh_set.set_current_mesh(0)
-    assert_refused(mesh_set, filter_name, "only 0 of 240 points have an image", mirror_layer=1)
+    reason = "only 0 of 240 points have an image"
+    assert_refused(with_tiny_sphere(2), filter_name, reason, mirror_layer=1)
 
 
 @pytest.mark.parametrize("filter_name", OPERATIONS)

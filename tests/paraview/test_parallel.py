@@ -73,7 +73,10 @@ def test_a_process_without_points(run_host: Callable[..., Any], tmp_path: Path) 
         warned = [rank[2]["WarningEvent"] for rank in ranks]
         if name.startswith("nobody"):
             # The filter's sentence on each process, in which VTK reports it.
-            assert said[0] == said[1] == said[2] and len(said[0]) == 1, (method, name, said)
+            sentences = [
+                re.sub(r"\(0x[0-9a-f]+\)", "", error) for errors in said for error in errors
+            ]
+            assert len(sentences) == 3 and len(set(sentences)) == 1, (method, name, said)
             assert "0 points given" in said[0][0] or "0 of 150 points given" in said[0][0]
             continue
         assert said == [[], [], []], (method, name)

@@ -80,7 +80,7 @@ def assert_refused_and_the_rest_done(path, reason, refuse=False):
     errors = done.stderr.splitlines()
     assert len(errors) == 1 and path.name in errors[0] and reason in errors[0]
     assert json.loads(done.stdout)["file"] == "good.xyz"
-    assert {file.stem for file in output.iterdir()} == {"good"}
+    assert {file.name for file in output.iterdir()} == {"good.summary.json"}
 
 
 def nothing(path):

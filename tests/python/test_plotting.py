@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import builtins
 import dataclasses
+import sys
 from itertools import pairwise
 
 import numpy as np
@@ -144,14 +144,7 @@ def test_points_that_do_not_belong(result):
 
 
 def test_without_pyvista(result, monkeypatch):
-    real = builtins.__import__
-
-    def without(name, *arguments, **keywords):
-        if name == "pyvista":
-            raise ImportError(name)
-        return real(name, *arguments, **keywords)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setitem(sys.modules, "pyvista", None)
     with pytest.raises(ImportError, match=r"symsurf\[plot\]"):
         result.plot("never.png")
 

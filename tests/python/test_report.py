@@ -186,7 +186,7 @@ def test_a_shape_without_a_mirror_has_no_page(tmp_path):
 def test_without_the_packages_one_sentence(ball, monkeypatch):
     import sys
 
-    monkeypatch.setitem(sys.modules, "trame_vtk.tools.vtksz2html", None)
+    monkeypatch.setitem(sys.modules, "trame_vtk", None)
     done = run_here("report ball.ply --output report.html", ball.parent)
     assert done.returncode == 2
     assert done.stderr == (

@@ -65,9 +65,9 @@ struct OperationResult {
 
 /// Runs an operation over a mirror of any kind, in the unit and pose of the points.
 /// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where a point is
-/// not finite, a face names no point, the mask is not one value in [0, 1] a point or the operation
-/// takes none, the mirror has images for less than half of the points, or lies more than ten
-/// diagonals away from them; Cancelled.
+/// not finite or has a coordinate beyond 1e50, a face names no point, the mask is not one value in
+/// [0, 1] a point or the operation takes none, the mirror has images for less than half of the
+/// points, or lies more than ten diagonals away from them; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 

@@ -27,8 +27,8 @@ struct Result {
   /// reports; and, where there are some, how many "nonfinite_points" were left out as not finite
   /// and how many "outliers" as lying far off: they have no partners. "surface_samples": how many
   /// points were added on the faces. "boundary_points" of a volumetric cloud, where the mirror and
-  /// the score are those of its boundary: how many it has. "warning": a sentence for whoever
-  /// called, where the method is not for such a cloud.
+  /// the score are those of its boundary: how many it has. "warning": a sentence for the
+  /// caller, where the method is not for such a cloud.
   Values statistics;
   double seconds = 0;
 

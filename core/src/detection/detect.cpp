@@ -78,6 +78,11 @@ Result detect_in_one(PointsView points, const Options& options, const MethodImpl
   return *run_pipeline(method, values, cloud, options.refuse_nonfinite, context);
 }
 
+// By all pairs: a process without points has none of its own.
+void judge_whole(Result& result, const ParameterValues& values) {
+  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+}
+
 // Several processes see the points only, not the faces.
 Result detect_distributed(PointsView own, const Options& options,
                           const MethodImplementation& method, const ParameterValues& values,
@@ -92,11 +97,13 @@ Result detect_distributed(PointsView own, const Options& options,
     if (result) return *result;
   }
   // The context of the host: the root is the one to be cancelled.
-  return run_on_root(own, options.normals, *context.communicator(),
-                     [&](PointsView points, PointsView normals) {
-                       return *run_pipeline(method, values, cloud_of(points, normals, options),
-                                            options.refuse_nonfinite, context);
-                     });
+  return run_on_root(
+      own, options.normals, *context.communicator(), [&](PointsView points, PointsView normals) {
+        Result whole = *run_pipeline(method, values, cloud_of(points, normals, options),
+                                     options.refuse_nonfinite, context);
+        judge_whole(whole, values);
+        return whole;
+      });
 }
 
 }  // namespace
@@ -108,7 +115,7 @@ Result detect(PointsView points, const Options& options, const Context& context)
   const auto run = context.communicator() ? detect_distributed : detect_in_one;
   Result result = run(points, options, method, values, context);
   if (result.parameters.empty()) result.parameters = values.all();
-  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+  if (!result.statistics.contains("verdict")) judge_whole(result, values);
   context.report(1);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -114,7 +114,15 @@ std::int32_t ClosestPointOnMesh::build(std::int32_t begin, std::int32_t end,
 struct ClosestPointOnMesh::Search {
   const ClosestPointOnMesh& mesh;
   Vector3 query;
-  ClosestPoint best;
+  Vector3 direction = Vector3::Zero();  // that faces are to face; zero: any
+  double cosine = 0;
+  ClosestPoint best = {};
+
+  bool allows(const Triangle& t) const {
+    if (direction.isZero(0)) return true;
+    const Vector3 normal = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+    return normal.dot(direction) >= cosine * normal.norm();
+  }
 
   // Boxes as far as the best are entered: a lower face may be as close there.
   bool may_hold(double squared) const {
@@ -126,7 +134,8 @@ struct ClosestPointOnMesh::Search {
     const Node& node = mesh.nodes_[at];
     if (node.second < 0) {
       for (std::int32_t t = node.begin; t < node.end; ++t)
-        try_triangle(mesh.triangles_[t].corner, query, mesh.triangles_[t].face, best);
+        if (allows(mesh.triangles_[t]))
+          try_triangle(mesh.triangles_[t].corner, query, mesh.triangles_[t].face, best);
       return;
     }
     std::pair near(mesh.nodes_[at + 1].squared_distance(query), at + 1);
@@ -137,14 +146,23 @@ struct ClosestPointOnMesh::Search {
   }
 };
 
-ClosestPoint ClosestPointOnMesh::operator()(const Vector3& query, double limit) const {
-  if (nodes_.empty() || !query.allFinite()) return {};
-  Search search{*this, query - origin_, {}};
+ClosestPoint ClosestPointOnMesh::found(Search search, double limit) const {
+  if (nodes_.empty() || !search.query.allFinite()) return {};
   search.best.squared_distance = limit;
   search.visit(0);
   if (search.best.face < 0) return {};
   search.best.point += origin_;
   return search.best;
+}
+
+ClosestPoint ClosestPointOnMesh::operator()(const Vector3& query, double limit) const {
+  return found({.mesh = *this, .query = query - origin_}, limit);
+}
+
+ClosestPoint ClosestPointOnMesh::facing(const Vector3& query, const Vector3& direction,
+                                        double cosine, double limit) const {
+  return found({.mesh = *this, .query = query - origin_, .direction = direction, .cosine = cosine},
+               limit);
 }
 
 }  // namespace symsurf

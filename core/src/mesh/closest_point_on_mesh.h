@@ -33,6 +33,10 @@ class ClosestPointOnMesh {
   ClosestPoint operator()(const Vector3& query,
                           double limit = std::numeric_limits<double>::infinity()) const;
 
+  /// The same among the faces whose normal makes at least this cosine with a unit direction.
+  ClosestPoint facing(const Vector3& query, const Vector3& direction, double cosine,
+                      double limit) const;
+
  private:
   struct Triangle {
     std::array<Vector3, 3> corner;  // from the middle of the mesh
@@ -49,6 +53,7 @@ class ClosestPointOnMesh {
   };
   struct Search;
 
+  ClosestPoint found(Search search, double limit) const;
   std::int32_t build(std::int32_t begin, std::int32_t end, const Context& context);
 
   Vector3 origin_ = Vector3::Zero();

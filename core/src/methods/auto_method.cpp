@@ -11,7 +11,10 @@ namespace {
 // airplane score 0.8 and more as they are, 0.6 and less once bent about a cylinder of three
 // diagonals' radius.
 constexpr double enough = 0.75;
-constexpr double tie = 0.01;           // of two scores as close the simpler mirror's wins
+// Explained share of the shape that a freer kind has to gain. On 24 bent bodies of 10,000 points
+// with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
+// the best of the wrong ones 0.26 less at least, where a mirror was found.
+constexpr double tie = 0.01, free_form_gain = 0.12;
 constexpr Index thinned_size = 20000;  // points that freer kinds are tried on
 constexpr Index few = 1000;            // points whose score tells little
 
@@ -56,6 +59,19 @@ Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
   return result;
 }
 
+double explained(const Result& result) {
+  const auto share = result.statistics.find("explained_share");
+  return share == result.statistics.end() ? 0 : std::get<double>(share->second);
+}
+
+// The one evaluation of all kinds: the share of the shape that they explain, less a prior on their
+// freedom. The score would not do: it answers whether chance explains a mirror, not which fits.
+bool explains_more(const Result& freer, const Result& simpler) {
+  if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
+  if (freer.mirror->kind() != "free-form") return freer.score > simpler.score + tie;
+  return explained(freer) > explained(simpler) + free_form_gain;
+}
+
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const MethodImplementation& plane = implementation("plane");
   Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
@@ -71,8 +87,8 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   } else {
     const ThinnedCloud thinned(cloud, context.stage(0.2, 0.2));
     const MethodImplementation* winner = &plane;
-    std::string others = "plane " + text(best.score);
-    double done = 0.2;
+    std::string others = "plane " + text(explained(best));
+    double done = 0.2, least_score = 0;
     for (const MethodImplementation& freer : implementations()) {
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
@@ -81,17 +97,20 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
       Result result = run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
       done += 0.2;
       scores["score_" + freer.name] = result.score;
-      others += ", " + freer.name + " " + text(result.score);
-      if (!(is_exact(result) ? result.score > best.score
-                             : !content && result.score > best.score + tie))
+      others += ", " + freer.name + " " + text(explained(result));
+      if (!(is_exact(result) ? result.score > best.score : !content && explains_more(result, best)))
         continue;
+      // Simple mirrors are free forms too: one that explains more is no less certain.
+      least_score = std::max(least_score, best.score);
       best = std::move(result);
       winner = &freer;
     }
     if (winner != &plane && thinned.is_thinner())
       best = run_with_defaults(*winner, cloud, context.stage(done, 1));
-    reason = content && winner == &plane ? contented
-                                         : winner->name + " is the simplest of the best: " + others;
+    if (best.mirror) best.score = std::max(best.score, least_score);
+    reason = content && winner == &plane
+                 ? contented
+                 : winner->name + " is the simplest of those that explain most: " + others;
   }
   scores["reason"] = reason;
   best.statistics.merge(scores);

@@ -35,11 +35,13 @@ class Search {
     step_ = reach / half;
   }
 
-  // Compass search: slow, but creases and rims do not stop it.
+  // Compass search: slow, but creases and rims do not stop it. Far away the waves of a surface
+  // would keep it going for ever: where one step is better than the last by rounding only.
   void walk(double until) {
+    constexpr int most_moves = 256;  // of a length; near a surface there are a few
     for (; step_ > until; step_ /= 2) {
       bool moved = true;
-      while (moved) {
+      for (int moves = 0; moved && moves < most_moves; ++moves) {
         moved = false;
         for (const Position& way :
              {Position(1, 0), Position(-1, 0), Position(0, 1), Position(0, -1), Position(1, 1),
@@ -99,7 +101,9 @@ Vector3 closest_point(const Surface& surface, const Vector3& p) {
   if (surface.name == "f6") return closest_on_half_sphere(p);
   Search search(surface, p);
   // The closest point is no farther than the one straight above or below.
-  search.start(std::sqrt(search.squared(p.head<2>())));
+  const double reach = std::sqrt(search.squared(p.head<2>()));
+  if (!std::isfinite(reach)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  search.start(reach);
   search.walk(1e-4);
   const Eigen::Vector2d coarse = search.at;
   if (!search.newton()) {

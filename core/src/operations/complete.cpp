@@ -136,7 +136,7 @@ class Completion {
     std::vector<Vector3> images, shifts;
     for (Index i = 0; i < input_.points.size(); ++i) {
       const Counterpart& c = counterparts_[i];
-      if (!c.matched || missing_[i]) continue;
+      if (!c.matched || missing_[i] || !counterparts_.image(i).allFinite()) continue;
       images.push_back(counterparts_.image(i));
       shifts.push_back(c.on_surface - images.back());
     }

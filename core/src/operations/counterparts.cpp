@@ -93,37 +93,45 @@ void Counterparts::match_mesh(const OperationInput& input, const Limits& limits,
   const double outwards = is_closed && volume_of(input.points, input.faces) < 0 ? -1 : 1;
 
   const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
+  const auto settle_at = [&](Index i, const ClosestPoint& closest) {
+    Counterpart& c = all_[i];
+    const Vector3 x = input.points[i];
+    const Index* corners = input.faces[closest.face];
+    c.face = closest.face;
+    c.weights = closest.weights;
+    c.place = closest.point;
+    c.gap = std::sqrt(closest.squared_distance);
+    c.on_surface = Vector3::Zero();
+    Vector3 normal = Vector3::Zero();
+    c.on_rim = true;
+    double longest = 0, nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 y = image(corners[k]);
+      c.on_surface += closest.weights[k] * input.points[corners[k]];
+      normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
+      c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
+      longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
+      const double squared = (y - x).squaredNorm();
+      if (squared < nearest) {
+        nearest = squared;
+        c.nearest = corners[k];
+      }
+    }
+    normal.stableNormalize();
+    const Vector3 gap = x - closest.point;
+    c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+    settle(i, limits, cosine_between(normal, normals_.row(i).transpose()));
+  };
   parallel_for(context.stage(0.2, 1), input.points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      Counterpart& c = all_[i];
-      const Vector3 x = input.points[i];
-      const ClosestPoint closest = mirrored(x);
+      const ClosestPoint closest = mirrored(input.points[i]);
       if (closest.face < 0) continue;
-      const Index* corners = input.faces[closest.face];
-      c.face = closest.face;
-      c.weights = closest.weights;
-      c.place = closest.point;
-      c.gap = std::sqrt(closest.squared_distance);
-      c.on_surface = Vector3::Zero();
-      Vector3 normal = Vector3::Zero();
-      c.on_rim = true;
-      double longest = 0, nearest = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 3; ++k) {
-        const Vector3 y = image(corners[k]);
-        c.on_surface += closest.weights[k] * input.points[corners[k]];
-        normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
-        c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
-        longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
-        const double squared = (y - x).squaredNorm();
-        if (squared < nearest) {
-          nearest = squared;
-          c.nearest = corners[k];
-        }
-      }
-      normal.stableNormalize();
-      const Vector3 gap = x - closest.point;
-      c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
-      settle(i, limits, cosine_between(normal, normals_.row(i).transpose()));
+      settle_at(i, closest);
+      if (all_[i].agreement >= limits.cosine) continue;
+      // Where the sides of a thin part differ, the closest layer is the wrong one.
+      const ClosestPoint facing = mirrored.facing(input.points[i], -normals_.row(i).transpose(),
+                                                  limits.cosine, limits.distance * limits.distance);
+      if (facing.face >= 0) settle_at(i, facing);
     }
   });
   normals_ *= outwards;

@@ -78,6 +78,13 @@ double farthest_above(const Counterparts& counterparts, Index count) {
   return std::max(usual_gaps * usual, widths * counterparts.spacing());
 }
 
+// Nothing can be added where the mirror has no image of the other side.
+std::vector<bool> with_images(std::vector<bool> missing, const Counterparts& counterparts) {
+  for (Index i = 0; i < static_cast<Index>(missing.size()); ++i)
+    missing[i] = missing[i] && counterparts.image(i).allFinite();
+  return missing;
+}
+
 }  // namespace
 
 std::vector<bool> missing_points(const OperationInput& input, const Counterparts& counterparts,
@@ -94,7 +101,7 @@ std::vector<bool> missing_points(const OperationInput& input, const Counterparts
       doubtful[i] = c.face >= 0 && (!c.matched || c.gap > apart);
     }
     spread_over_mesh(missing, counterparts.mesh(), doubtful, context);
-    return missing;
+    return with_images(std::move(missing), counterparts);
   }
   const double gap = cloud_gap * counterparts.spacing();
   const double reach = cloud_reach * counterparts.spacing();
@@ -111,7 +118,7 @@ std::vector<bool> missing_points(const OperationInput& input, const Counterparts
     for (const Neighbour& n : near)
       if (n.squared_distance < reach * reach && counterparts[n.index].past_rim) visit(n.index);
   });
-  return missing;
+  return with_images(std::move(missing), counterparts);
 }
 
 }  // namespace symsurf

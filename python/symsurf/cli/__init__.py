@@ -4,6 +4,7 @@ run(arguments), which returns the exit status."""
 from __future__ import annotations
 
 import argparse
+import codecs
 import os
 import signal
 import sys
@@ -32,8 +33,9 @@ COMMANDS: dict[str, Any] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
-    if isinstance(sys.stdout, TextIOWrapper):  # a file's name may be any bytes
-        sys.stdout.reconfigure(errors="surrogateescape")
+    if isinstance(sys.stdout, TextIOWrapper):
+        codecs.register_error("symsurf", _encoded)
+        sys.stdout.reconfigure(errors="symsurf")
     try:
         chosen = parser().parse_args(attach_negative_numbers(words))
         status = chosen.run(chosen)
@@ -53,6 +55,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     except KeyboardInterrupt:
         return 130
+
+
+def _encoded(error: UnicodeError) -> tuple[str | bytes, int]:
+    """A character that the terminal has not: the byte of a file's name as it is, others as \\x, \\u."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    first = UnicodeEncodeError(
+        error.encoding, error.object, error.start, error.start + 1, error.reason
+    )
+    try:
+        return codecs.lookup_error("surrogateescape")(first)
+    except UnicodeEncodeError:
+        return codecs.backslashreplace_errors(first)
 
 
 def _drop_output() -> None:

@@ -6,23 +6,64 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
 from ..batching import records, require_jobs, threads_of_each
+from ..drawing import import_pyvista
 from ..file_task import PICTURE_SUFFIX, FileTask, Record, perform
+from ..reading import files_in, known_names, require_format
 from ..result_table import csv_bytes, row_of
 from ..saving import write_whole
 from ..saving.output_files import output_files
 from .progress_bar import ProgressBar
-from .values import whole
+from .values import number, whole
+
+STANDARD_INPUT = Path("-")
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "files", nargs="+", type=Path, metavar="FILE", help="PLY, OBJ, OFF, STL, XYZ, CSV or TXT"
+        "files",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help=f"{known_names()}; a folder: the files in it that can be read; -: standard input",
     )
+    parser.add_argument(
+        "--input-format",
+        metavar="WORD",
+        help="of the files, such as ply or ply.gz, in place of their suffixes; standard input needs it",
+    )
+    parser.add_argument(
+        "--threshold",
+        metavar="NUMBER",
+        help="of images: the voxels above it are the points; a mask of two values needs none",
+    )
+
+
+def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
+    """A task for each file on the command line, with what says how it is read."""
+    suffix = arguments.input_format and require_format(arguments.input_format)
+    input_format = arguments.input_format = suffix and suffix[1:]
+    asked = FileTask(
+        Path(),
+        input_format=input_format,
+        threshold=None if arguments.threshold is None else number(arguments.threshold),
+        unit=arguments.unit,
+    )
+    tasks = []
+    for path in files_in(arguments.files):
+        if path != STANDARD_INPUT:
+            tasks.append(replace(asked, file=path))
+        elif input_format is None:
+            raise InvalidParameter("- is standard input, which needs --input-format, such as ply")
+        else:
+            content = sys.stdin.buffer.read()
+            tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
+    return tasks
 
 
 def add_batch_options(parser: argparse.ArgumentParser) -> None:
@@ -65,16 +106,22 @@ def jobs_and_threads(arguments: argparse.Namespace) -> tuple[int, Any]:
 
 
 def planned_outputs(
-    arguments: argparse.Namespace, suffixes_of: Callable[[Path], Sequence[str]]
+    arguments: argparse.Namespace,
+    tasks: Sequence[FileTask],
+    suffixes_of: Callable[[Path], Sequence[str]],
 ) -> dict[Path, list[Path]]:
     """The files to write for each file to read, a picture last."""
     if arguments.output is None:
         if arguments.plot:
             raise InvalidParameter("plot is given without output; allowed is with a folder")
         return {}
+    if arguments.plot:
+        import_pyvista()  # missing, it is missed before the work is done
     picture = [PICTURE_SUFFIX] if arguments.plot else []
     return output_files(
-        arguments.files, arguments.output, lambda path: [*suffixes_of(path), *picture]
+        [task.file for task in tasks],
+        arguments.output,
+        lambda path: [*suffixes_of(path), *picture],
     )
 
 

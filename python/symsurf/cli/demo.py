@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
         from ..report import require_viewer
 
         require_viewer()
-    arguments.output.mkdir(parents=True, exist_ok=True)
+        arguments.output.mkdir(parents=True, exist_ok=True)
     print("Lengths are shares of the diagonal of the bounding box.\n")
     print(ROW.format(*HEADINGS))
     findings: list[Finding] = []
@@ -84,7 +84,8 @@ def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
         write_whole(meshes[-1], shape_ply_bytes(finding.case.shape, {}))
     jobs = processors()
     page = folder / "report.html"
-    tasks = report_tasks(meshes, page, FileTask(Path(), threads=threads_of_each(0, jobs)))
+    threads = threads_of_each(0, jobs)
+    tasks = report_tasks([FileTask(mesh, threads=threads) for mesh in meshes], page)
     write_report(page, tasks, list(map(row_of, records(tasks, jobs=jobs))))
     print(f"report\n  {page}")
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 
+from ..drawing import import_pyvista
 from ..thesis_tables import Outcome, measure, rows
 
 
 def run(arguments: argparse.Namespace) -> int:
-    arguments.output.mkdir(parents=True, exist_ok=True)
+    if not arguments.no_pictures:
+        import_pyvista()  # missing, it is missed before the tables are made
+        arguments.output.mkdir(parents=True, exist_ok=True)
     heading = ""
     for row in rows():
         outcome = measure(row)

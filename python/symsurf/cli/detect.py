@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
-from ..file_task import DETECT, SUMMARY_SUFFIX, FileTask, Record
+from ..file_task import SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
 from .batch_options import (
     add_absolute,
     add_batch_options,
     add_files,
+    input_tasks,
     jobs_and_threads,
     planned_outputs,
     run_tasks,
@@ -65,25 +67,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     suffixes = _suffixes(arguments.formats)
-    outputs = planned_outputs(arguments, lambda _: suffixes)
+    given = input_tasks(arguments)
+    outputs = planned_outputs(arguments, given, lambda _: suffixes)
     divisor = arguments.downsample
     _, threads = jobs_and_threads(arguments)
     tasks = [
-        FileTask(
-            path,
-            DETECT,
-            arguments.method,
-            given_parameters(arguments) | arguments.absolute,
+        replace(
+            task,
+            method=arguments.method,
+            parameters=given_parameters(arguments) | arguments.absolute,
             seed=whole(arguments.seed),
             threads=threads,
             nonfinite=arguments.nonfinite,
             use_faces=not arguments.ignore_faces,
             use_normals=not arguments.ignore_normals,
             downsample=None if divisor is None else _divisor(divisor),
-            unit=arguments.unit,
-            outputs=tuple(outputs.get(path, ())),
+            outputs=tuple(outputs.get(task.file, ())),
         )
-        for path in arguments.files
+        for task in given
     ]
     return run_tasks(tasks, arguments, _text)[0]
 

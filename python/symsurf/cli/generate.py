@@ -7,8 +7,8 @@ from pathlib import Path
 
 from .. import _core
 from .._core import Generator
+from ..reading import read
 from ..saving.points_format import require_points_suffix
-from ..shape import read
 from ..synthetic import Sample
 from ..truth import Truth, write_sample
 from .described_options import add_kinds, given_values

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from .._core import Operation
-from ..file_task import FileTask, Record
+from ..file_task import Record
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
 from .batch_options import (
     add_absolute,
     add_batch_options,
     add_files,
+    input_tasks,
     jobs_and_threads,
     planned_outputs,
     run_tasks,
@@ -55,21 +57,23 @@ class OperationCommand:
 
     def run(self, arguments: argparse.Namespace) -> int:
         name = self._operation.name
+        given = input_tasks(arguments)
         outputs = planned_outputs(
-            arguments, lambda path: [output_suffix(path, name, arguments.format)]
+            arguments,
+            given,
+            lambda path: [output_suffix(path, name, arguments.format, arguments.input_format)],
         )
         _, threads = jobs_and_threads(arguments)
         tasks = [
-            FileTask(
-                path,
-                name,
-                arguments.method,
-                given_values(arguments) | arguments.absolute,
+            replace(
+                task,
+                operation=name,
+                method=arguments.method,
+                parameters=given_values(arguments) | arguments.absolute,
                 threads=threads,
-                unit=arguments.unit,
-                outputs=tuple(outputs.get(path, ())),
+                outputs=tuple(outputs.get(task.file, ())),
             )
-            for path in arguments.files
+            for task in given
         ]
         return run_tasks(tasks, arguments, _text)[0]
 

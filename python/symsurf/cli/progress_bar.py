@@ -18,7 +18,7 @@ class ProgressBar:
     def __call__(self, fraction: float) -> None:
         if self._shown:
             done = round(WIDTH * fraction)
-            bar = "━" * done + " " * (WIDTH - done)
+            bar = _mark(sys.stderr.encoding) * done + " " * (WIDTH - done)
             print(
                 f"\r{self._title} {bar} {fraction:4.0%}", end="\033[K", file=sys.stderr, flush=True
             )
@@ -37,3 +37,11 @@ class ProgressBar:
         trace: TracebackType | None,
     ) -> None:
         self.clear()
+
+
+def _mark(encoding: str) -> str:
+    try:
+        "━".encode(encoding)
+    except UnicodeEncodeError:
+        return "#"
+    return "━"

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from .._core import operations
-from ..file_task import FileTask, Record
-from .batch_options import add_absolute, add_files, add_table_options, jobs_and_threads, run_tasks
+from ..file_task import Record
+from .batch_options import (
+    add_absolute,
+    add_files,
+    add_table_options,
+    input_tasks,
+    jobs_and_threads,
+    run_tasks,
+)
 from .described_options import add_parameters, given_values
 
 SUMMARY = "Write an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures"
@@ -36,14 +44,16 @@ def run(arguments: argparse.Namespace) -> int:
 
     require_viewer()
     _, threads = jobs_and_threads(arguments)
-    asked = FileTask(
-        Path(),
-        method=arguments.method,
-        parameters=given_values(arguments) | arguments.absolute,
-        threads=threads,
-        unit=arguments.unit,
-    )
-    tasks = report_tasks(arguments.files, arguments.output, asked)
+    asked = [
+        replace(
+            task,
+            method=arguments.method,
+            parameters=given_values(arguments) | arguments.absolute,
+            threads=threads,
+        )
+        for task in input_tasks(arguments)
+    ]
+    tasks = report_tasks(asked, arguments.output)
     status, rows = run_tasks(tasks, arguments, _text)
     write_report(arguments.output, tasks, rows)
     if len(tasks) > 1 or status == 0:

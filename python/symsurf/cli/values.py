@@ -29,6 +29,14 @@ def whole(text: str) -> Any:
         return text
 
 
+def number(text: str) -> Any:
+    """The number; a text that is none is left for what takes it to refuse."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def shown(value: Any, digits: str = "g") -> str:
     """The value as it would be written on the command line; of a table only its size."""
     if isinstance(value, bool):

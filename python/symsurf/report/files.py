@@ -16,21 +16,16 @@ from .cohort import cohort_page
 OPERATION = "asymmetry"
 
 
-def report_tasks(files: Sequence[Path], page: Path, task: FileTask) -> list[FileTask]:
-    """A task a file that writes its page: of one file the page itself, of several one each in the
-    folder PAGE_files.
-
-    Args:
-        task: all else that is asked of each.
-    """
+def report_tasks(given: Sequence[FileTask], page: Path) -> list[FileTask]:
+    """The tasks, each writing the page of its file: of one file the page itself, of several one
+    each in the folder PAGE_files."""
     if page.suffix.lower() != PAGE_SUFFIX:
         raise InvalidParameter(f"output is {str(page)!r}; allowed is the suffix {PAGE_SUFFIX}")
+    files = [task.file for task in given]
     pages = {files[0]: [page]}
     if len(files) > 1:
         pages = output_files(files, page.with_name(f"{page.stem}_files"), lambda _: [PAGE_SUFFIX])
-    return [
-        replace(task, file=file, operation=OPERATION, outputs=tuple(pages[file])) for file in files
-    ]
+    return [replace(task, operation=OPERATION, outputs=tuple(pages[task.file])) for task in given]
 
 
 def write_report(page: Path, tasks: Sequence[FileTask], rows: Sequence[Mapping[str, Any]]) -> None:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..optional import require
+
 if TYPE_CHECKING:
     import pyvista
 
@@ -19,13 +21,7 @@ VIEW_ANGLE = 30.0  # degrees; vtk.js takes no other from a scene
 
 def require_viewer() -> None:
     """Raises ImportError where a package is missing."""
-    try:
-        import pyvista  # noqa: F401
-        import trame_vtk.tools.vtksz2html  # noqa: F401
-    except ImportError as error:
-        raise ImportError(
-            "reports need PyVista and trame-vtk: pip install 'symsurf[report]'"
-        ) from error
+    require("reports", "pyvista", "trame_vtk")
 
 
 def viewer_page(plotter: pyvista.Plotter) -> str:

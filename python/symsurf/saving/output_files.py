@@ -7,6 +7,7 @@ from itertools import chain
 from pathlib import Path
 
 from .._core import InvalidParameter
+from ..reading import stem_of
 
 
 def output_files(
@@ -14,7 +15,8 @@ def output_files(
 ) -> dict[Path, list[Path]]:
     """The files to write to the folder for each file to read: none twice, none over an input."""
     outputs = {
-        path: [folder / f"{path.stem}{suffix}" for suffix in suffixes_of(path)] for path in files
+        path: [folder / f"{stem_of(path)}{suffix}" for suffix in suffixes_of(path)]
+        for path in files
     }
     first: dict[Path, Path] = {}
     for path, made in outputs.items():

@@ -14,11 +14,13 @@ from . import SHAPE_FORMATS, write_whole
 from .same_format import REWRITERS, NewShape
 
 
-def output_suffix(file: Path, operation: str, format_name: str = "input") -> str:
+def output_suffix(
+    file: Path, operation: str, format_name: str = "input", input_format: str | None = None
+) -> str:
     """The suffix of what the operation makes of the file.
 
-    With the format "input" it is the file's own, and ``.ply`` where that cannot hold what the
-    operation gives each point, and gives nothing else.
+    With the format "input" it is the file's own, and ``.ply`` where that cannot be rewritten, or
+    cannot hold what the operation gives each point, and gives nothing else.
     """
     if operation not in _core.operations():
         return ".summary.json"
@@ -29,19 +31,29 @@ def output_suffix(file: Path, operation: str, format_name: str = "input") -> str
         return f".{format_name}"
     described = _core.operations()[operation]
     has_shape = described.moves_points or described.adds_points
-    return file.suffix if has_shape or file.suffix.lower() == ".ply" else ".ply"
+    suffix = file.suffix if input_format is None else f".{input_format}"
+    is_kept = suffix.lower() in REWRITERS and has_shape
+    return suffix if is_kept or suffix.lower() == ".ply" else ".ply"
 
 
-def save_shape(path: Path, result: OperationResult, shape: Shape, source: Path) -> list[str]:
+def save_shape(
+    path: Path,
+    result: OperationResult,
+    shape: Shape,
+    source: Path,
+    suffix: str,
+    content: bytes | None = None,
+) -> list[str]:
     """Writes the result whole or not at all; gives what of the source it does not hold.
 
     Args:
         path: in the source's format whatever the source holds is kept; other suffixes are those of
             ``result.save``.
         shape: what was read from the source.
+        suffix: of the format that the source was read in, such as ".ply" or ".ply.gz".
+        content: of the source, where that is no file.
     """
-    suffix = path.suffix.lower()
-    if suffix != source.suffix.lower():
+    if suffix not in REWRITERS or suffix != path.suffix.lower():
         result.save(path)
         return []
     count = len(result.shape.points)
@@ -59,6 +71,6 @@ def save_shape(path: Path, result: OperationResult, shape: Shape, source: Path) 
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
     )
-    rewritten = REWRITERS[suffix](source.read_bytes(), new)
+    rewritten = REWRITERS[suffix](source.read_bytes() if content is None else content, new)
     write_whole(path, rewritten.content)
     return rewritten.lost

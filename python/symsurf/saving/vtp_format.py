@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping, Sequence
+from html import escape  # xml.sax.saxutils would import urllib
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +57,7 @@ def poly_data(
     fields: Sequence[str] = (),
 ) -> bytes:
     """The file; the first array is the active scalars."""
-    active = f" Scalars={quoteattr(next(iter(arrays)))}" if arrays else ""
+    active = f' Scalars="{escape(next(iter(arrays)))}"' if arrays else ""
     lines = [
         '<?xml version="1.0"?>',
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">',
@@ -87,8 +87,7 @@ def _field_data(result: Result) -> list[str]:
     if result.mirror is not None:
         codes = " ".join(str(byte) for byte in result.mirror.kind.encode() + b"\0")
         fields.append(
-            '<Array type="String" Name="Kind" NumberOfTuples="1" format="ascii">'
-            f"{escape(codes)}</Array>"
+            f'<Array type="String" Name="Kind" NumberOfTuples="1" format="ascii">{codes}</Array>'
         )
         for name, value in result.mirror.numbers.items():
             if isinstance(value, (float, np.ndarray)):
@@ -109,6 +108,6 @@ def _array(name: str, values: NDArray[np.generic], tuples: bool = False) -> str:
     encoded = base64.b64encode(np.array([len(data)], "<u8").tobytes() + data).decode()
     length = f' NumberOfTuples="{len(values)}"' if tuples else ""
     return (
-        f'<DataArray type="{_TYPES[kind]}" Name={quoteattr(name)}'
+        f'<DataArray type="{_TYPES[kind]}" Name="{escape(name)}"'
         f' NumberOfComponents="{components}"{length} format="binary">{encoded}</DataArray>'
     )

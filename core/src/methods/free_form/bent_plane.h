@@ -20,7 +20,7 @@ class BentPlane {
   BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
 
   /// One Gauss-Newton step on the points of every `stride`-th position of the tree's order: images
-  /// are drawn to the tangent planes of their partners, against the bending energy times
+  /// are drawn to the tangent planes of their partners, against the variation of curvature times
   /// `stiffness`. Partners farther than `tolerance` weigh little.
   void step(double tolerance, double stiffness, Index stride);
 
@@ -52,6 +52,7 @@ class BentPlane {
 
   Vector3 to_frame(const Vector3& x) const { return axes_ * (x - origin_); }
   Foot foot(const Vector3& x, HeightSpline::At from) const;
+  Neighbour partner_of(const Vector3& image, const Vector3& normal, double tolerance, double reach);
   std::optional<Equation> equation_of(Index i, double tolerance);
 
   const SearchCloud* cloud_;
@@ -61,6 +62,7 @@ class BentPlane {
   Eigen::MatrixXd energy_;              // theirs
   std::vector<HeightSpline::At> feet_;  // of the points, as they were last
   double support_ = 0;
+  std::vector<Neighbour> near_;  // of the last image
 };
 
 /// Adds the planes that map the whole cloud onto itself, of which a thinned cloud does not have the

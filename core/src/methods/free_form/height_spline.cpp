@@ -11,7 +11,7 @@ constexpr int spline_support = 4;  // coefficients that are not 0 along a side
 
 // The cubic B-splines that overlap a cell, and their derivatives, at t of its length, 0 to 1.
 struct Cubics {
-  std::array<double, spline_support> value, first, second;
+  std::array<double, spline_support> value, first, second, third;
 
   Cubics(double t, double cell) {
     const double s = 1 - t;
@@ -19,10 +19,20 @@ struct Cubics {
              (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
     first = {-s * s / 2, (3 * t * t - 4 * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
     second = {s, 3 * t - 2, 3 * s - 2, t};
+    third = {-1, 3, -3, 1};
     for (double& f : first) f /= cell;
     for (double& f : second) f /= cell * cell;
+    for (double& f : third) f /= cell * cell * cell;
   }
 };
+
+HeightSpline::Weights::Row product(const std::array<double, spline_support>& u,
+                                   const std::array<double, spline_support>& v) {
+  HeightSpline::Weights::Row row;
+  for (int i = 0, k = 0; i < spline_support; ++i)
+    for (int j = 0; j < spline_support; ++j, ++k) row[k] = u[i] * v[j];
+  return row;
+}
 
 // The refinement mask of cubic splines, (1 4 6 4 1) / 8, along the columns.
 Eigen::MatrixXd subdivided_columns(const Eigen::MatrixXd& c) {
@@ -60,25 +70,28 @@ HeightSpline HeightSpline::subdivided() const {
   return finer;
 }
 
-HeightSpline::Weights HeightSpline::weights(const At& at) const {
+HeightSpline::Cell HeightSpline::cell_at(const At& at) const {
   const At position = (at - low_) / cell_;
   const Eigen::Vector2i cell =
       position.array().floor().cast<int>().max(0).min(cells_.array() - 1).matrix();
-  const At t = position - cell.cast<double>();
-  const Cubics along_u(t.x(), cell_), along_v(t.y(), cell_);
-  Weights w;
+  Cell found{{}, position - cell.cast<double>()};
   for (int i = 0, k = 0; i < spline_support; ++i)
-    for (int j = 0; j < spline_support; ++j, ++k) {
-      w.index[k] =
+    for (int j = 0; j < spline_support; ++j, ++k)
+      found.index[k] =
           static_cast<Index>(cell.x() + i) * (cells_.y() + spline_support - 1) + cell.y() + j;
-      w.h[k] = along_u.value[i] * along_v.value[j];
-      w.u[k] = along_u.first[i] * along_v.value[j];
-      w.v[k] = along_u.value[i] * along_v.first[j];
-      w.uu[k] = along_u.second[i] * along_v.value[j];
-      w.uv[k] = along_u.first[i] * along_v.first[j];
-      w.vv[k] = along_u.value[i] * along_v.second[j];
-    }
-  return w;
+  return found;
+}
+
+HeightSpline::Weights HeightSpline::weights(const At& at) const {
+  const Cell cell = cell_at(at);
+  const Cubics u(cell.along.x(), cell_), v(cell.along.y(), cell_);
+  return {cell.index,
+          product(u.value, v.value),
+          product(u.first, v.value),
+          product(u.value, v.first),
+          product(u.second, v.value),
+          product(u.first, v.first),
+          product(u.value, v.second)};
 }
 
 HeightSpline::Jet HeightSpline::jet(const At& at) const {
@@ -88,19 +101,23 @@ HeightSpline::Jet HeightSpline::jet(const At& at) const {
   return {w.h.dot(c), w.u.dot(c), w.v.dot(c), w.uu.dot(c), w.uv.dot(c), w.vv.dot(c)};
 }
 
-Eigen::MatrixXd HeightSpline::bending_energy() const {
+Eigen::MatrixXd HeightSpline::curvature_variation() const {
   const std::array<double, 2> gauss{0.5 - std::sqrt(3.0) / 6, 0.5 + std::sqrt(3.0) / 6};
   Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(size(), size());
   for (int x = 0; x < cells_.x(); ++x)
     for (int y = 0; y < cells_.y(); ++y)
       for (const double s : gauss)
         for (const double t : gauss) {
-          const Weights w = weights(low_ + cell_ * At(x + s, y + t));
+          const Cell cell = cell_at(low_ + cell_ * At(x + s, y + t));
+          const Cubics u(s, cell_), v(t, cell_);
+          const Weights::Row uuu = product(u.third, v.value), uuv = product(u.second, v.first),
+                             uvv = product(u.first, v.second), vvv = product(u.value, v.third);
           const Eigen::Matrix<double, Weights::count, Weights::count> products =
-              w.uu.transpose() * w.uu + 2 * w.uv.transpose() * w.uv + w.vv.transpose() * w.vv;
+              uuu.transpose() * uuu + 3 * uuv.transpose() * uuv + 3 * uvv.transpose() * uvv +
+              vvv.transpose() * vvv;
           for (int i = 0; i < Weights::count; ++i)
             for (int j = 0; j < Weights::count; ++j)
-              energy(w.index[i], w.index[j]) += products(i, j);
+              energy(cell.index[i], cell.index[j]) += products(i, j);
         }
   return energy / (4.0 * cells_.prod());
 }

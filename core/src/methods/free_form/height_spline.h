@@ -45,12 +45,19 @@ class HeightSpline {
   void step(const Eigen::VectorXd& by) { coefficients_ += by; }
   const Eigen::VectorXd& coefficients() const { return coefficients_; }
 
-  /// E with c' E c the mean over the rectangle of h_uu^2 + 2 h_uv^2 + h_vv^2, by Gauss's rule of
-  /// two points a side in each cell.
-  Eigen::MatrixXd bending_energy() const;
+  /// E with c' E c the mean over the rectangle of h_uuu^2 + 3 h_uuv^2 + 3 h_uvv^2 + h_vvv^2, by
+  /// Gauss's rule of two points a side in each cell: how much the curvature varies (Moreton and
+  /// Sequin 1992, "Functional optimization for fair surface design").
+  Eigen::MatrixXd curvature_variation() const;
 
  private:
+  struct Cell {
+    std::array<Index, Weights::count> index;
+    At along;  // 0 to 1
+  };
+
   HeightSpline(const At& low, double cell, const Eigen::Vector2i& cells);
+  Cell cell_at(const At& at) const;
 
   At low_;
   double cell_;

@@ -1,0 +1,102 @@
+"""The formats that shapes are read from: what reads each, and what has to be installed for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+from ..shape import Shape
+
+PACKED = ".gz"
+
+Reader = Callable[[Path, "float | None", "str | None"], Shape]
+"""Takes a file, a threshold and the name of scalars."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format, told by the suffix of a file's name."""
+
+    suffix: str
+    reader: str
+    """The module of this package that has the function ``read``."""
+    packages: tuple[str, ...] = ()
+    """The modules to import, of optional packages."""
+    extra: str = ""
+    """Of symsurf, which brings them."""
+    is_image: bool = False
+    """Whether it may hold a mask or an image, of which a threshold chooses the points."""
+
+    @property
+    def name(self) -> str:
+        return self.suffix[1:].upper()
+
+    def load(self) -> Reader:
+        """The function that reads it. Raises ImportError, naming the extra, without a package."""
+        for package in self.packages:
+            try:
+                import_module(package)
+            except ImportError as error:
+                raise ImportError(
+                    f"{self.name} needs the package {package}, which is not installed: "
+                    f"pip install 'symsurf[{self.extra}]'"
+                ) from error
+        return import_module(f".{self.reader}", __package__).read
+
+
+_OWN = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt")
+
+FORMATS: dict[str, Format] = {
+    each.suffix: each
+    for each in (
+        *(Format(suffix, "own") for suffix in _OWN),
+        Format(".vtp", "vtk_data", ("pyvista",), "formats"),
+        Format(".vtu", "vtk_data", ("pyvista",), "formats"),
+        Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True),
+        Format(".vti", "vtk_data", ("pyvista",), "formats", is_image=True),
+        Format(".glb", "scene", ("trimesh",), "formats"),
+        Format(".gltf", "scene", ("trimesh",), "formats"),
+        Format(".3mf", "scene", ("trimesh", "networkx", "lxml"), "formats"),
+        Format(".las", "las", ("laspy",), "formats"),
+        Format(".laz", "las", ("laspy", "lazrs"), "formats"),
+        Format(".nrrd", "nrrd_image", ("nrrd",), "formats", is_image=True),
+        Format(".nii", "nifti_image", ("nibabel",), "formats", is_image=True),
+        Format(".pcd", "pcd", ("pypcd4",), "pcd"),
+    )
+}
+
+
+def suffix_of(path: Path) -> str:
+    """The suffix that tells the format, in small letters; of "a.PLY.gz" it is ".ply.gz"."""
+    suffix = path.suffix.lower()
+    return path.with_suffix("").suffix.lower() + PACKED if suffix == PACKED else suffix
+
+
+def stem_of(path: Path) -> str:
+    """The name without what tells the format, as "scan" of "scan.ply.gz"."""
+    return Path(path.stem).stem if path.suffix.lower() == PACKED else path.stem
+
+
+def format_of(suffix: str) -> Format | None:
+    """The format of ".ply" or ".ply.gz"; None of others."""
+    return FORMATS.get(suffix.removesuffix(PACKED))
+
+
+def known_suffixes() -> str:
+    """What can be read, in the words of an error."""
+    groups: dict[str, list[str]] = {}
+    for each in FORMATS.values():
+        groups.setdefault(each.extra, []).append(each.suffix)
+    texts = [
+        f"with symsurf[{extra}] {' '.join(suffixes)}" if extra else " ".join(suffixes)
+        for extra, suffixes in groups.items()
+    ]
+    return f"{', '.join(texts)}; each also as {PACKED}"
+
+
+def known_names() -> str:
+    """What can be read, in the words of a help text."""
+    *names, last = [each.name for each in FORMATS.values()]
+    return f"{', '.join(names)} or {last}, each also as {PACKED}"

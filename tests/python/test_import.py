@@ -1,0 +1,14 @@
+"""What `import symsurf` does not wait for."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+HEAVY = ("matplotlib", "multiprocessing", "pyvista", "trame_vtk", "urllib.request", "vtkmodules")
+
+
+def test_import_is_light():
+    code = f"import symsurf, sys; print([name for name in {HEAVY} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout == "[]\n"
