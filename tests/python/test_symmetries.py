@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 
 import numpy as np
@@ -129,12 +130,28 @@ def test_the_command_line_says_the_same(tmp_path):
     np.savetxt(path, points, fmt="%.17g")
     found = symsurf.symmetries(points)
     record = json.loads(run("symmetries", path, "--json").stdout)
-    assert record.pop("file") == str(path)
-    assert record | {"seconds": 0} == found.to_json() | {"seconds": 0}
+    assert record["file"] == str(path)
+    assert record["bop"] == found.to_bop()
+    told = found.to_json() | {"seconds": 0}
+    assert {name: (record | {"seconds": 0})[name] for name in told} == told
     assert json.loads(run("symmetries", path, "--bop").stdout) == {str(path): found.to_bop()}
     done = run("symmetries", tmp_path / "none.xyz", path)
     assert done.returncode == 1
     assert "none.xyz" in done.stderr and "D2h" in done.stdout
+
+
+def test_the_command_line_makes_a_table_and_takes_other_formats(tmp_path):
+    points, _, _ = posed(PARTS["box"])
+    path = tmp_path / "box.dat"
+    np.savetxt(path, points, fmt="%.17g")
+    table = tmp_path / "table.csv"
+    run("symmetries", path, "--input-format", "xyz", "--jobs", "2", "--table", table)
+    with table.open() as file:
+        (row,) = csv.DictReader(file)
+    assert row["group"] == "D2h" and row["planes"] == "3" and row["axes"] == "3"
+    refused = run("symmetries", path, "--minimum-score", "much")
+    assert refused.returncode == 2
+    assert "minimum_score is much; allowed is [0, 1]" in refused.stderr
 
 
 def test_bad_input_is_named():

@@ -28,6 +28,15 @@ struct MirrorFit {
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
 };
 
+/// What a map does with one of the points that the score is measured at.
+struct PointFit {
+  std::size_t point = 0;  ///< which of them
+  double weight = 0;      ///< what it counts: less where the map hardly moves it
+  double support = 0;     ///< so much of that for the map; may be negative
+  double missing = 0;     ///< so much of that because there is nothing where its image falls
+  bool exact = false;     ///< its image is a point of the cloud, to rounding
+};
+
 /// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
 ///
 /// A point whose image is a point of the cloud has support 1. Around any other the cloud and its
@@ -49,8 +58,9 @@ class MirrorScore {
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The same of a third of the points: enough to see which mirrors are worth refining.
   MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
-  /// The same of a rotation, a reflection or both, in the principal frame.
-  MirrorFit fit(const Eigen::Isometry3d& map) const;
+  /// Of a rotation, a reflection or both, in the principal frame, what each point that it moves
+  /// says; of every `stride`-th.
+  std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, std::size_t stride = 1) const;
 
   /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
@@ -88,11 +98,19 @@ class MirrorScore {
     double weighed(double surface, double on_surface, double in_body) const;
   };
 
+  struct Support {
+    double on_surface;
+    double complete;  // 0..1: less where one of two balls has fewer points than the other
+    double surface;   // the sample's, where the image tells more
+  };
+
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
   // image(x) in input units; image_ball(x), of the cloud's image around x, in the principal frame.
   template <typename Image, typename ImageBall>
-  MirrorFit fit(const Image& image, const ImageBall& image_ball, std::size_t stride,
-                MirrorLayers* layers) const;
+  std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,
+                                   std::size_t stride, MirrorLayers* layers) const;
+  MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
+                     const MirrorLayers* layers) const;
   void choose_radius();
   double measured_noise() const;
   // The thinned points, or their images.
@@ -107,7 +125,7 @@ class MirrorScore {
   Ball ball_of(const PointSet& set, const Vector3& x) const;
   static PointSet thinned(const Surfels& fine);
   PointSet mirrored(const Mirror& mirror) const;
-  double supported(const Sample& sample, const Ball& image, double& surface) const;
+  Support supported(const Sample& sample, const Ball& image) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;

@@ -11,6 +11,7 @@
 #include "methods/plane/plane_candidates.h"
 #include "score/mirror_score.h"
 #include "spatial/point_tree.h"
+#include "symmetries/orbit_vote.h"
 #include "symmetries/point_group.h"
 #include "symmetries/symmetry_fit.h"
 
@@ -118,7 +119,7 @@ class SymmetrySearch {
   double score_of(const GroupPose& pose, const std::vector<Matrix3>& elements) const {
     double least = 1;
     for (const Matrix3& element : elements) {
-      least = std::min(least, score_.fit(pose.placed(element)).share);
+      least = std::min(least, orbit_vote(score_, pose, {element}).share());
       if (least < minimum_score_) break;
     }
     return least;
@@ -392,7 +393,7 @@ class SymmetrySearch {
     double least = 1;
     for (const Matrix3& element : elements) {
       if (element.isIdentity()) continue;
-      least = std::min(least, score_.fit(pose.placed(element)).share);
+      least = std::min(least, orbit_vote(score_, pose, {element}).share());
       // A product may leave a little more out than its factors do.
       if (!is_symmetry(least + below_best / 2)) return {};
     }

@@ -4,23 +4,29 @@ from __future__ import annotations
 
 import argparse
 import json
-from pathlib import Path
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 from .._core import InvalidParameter
-from ..point_group import Symmetries, symmetries
-from .batch_options import add_files
-from .each_file import for_each_file
-from .values import shown, whole
+from ..file_task import SYMMETRIES, FileTask, Record
+from .batch_options import (
+    add_files,
+    add_table_options,
+    input_tasks,
+    jobs_and_threads,
+    run_tasks,
+    tell,
+    worked_on,
+)
+from .values import shown
 
 SUMMARY = "Find all symmetries of each file: mirror planes, rotation axes and their group"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_files(parser)
-    form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
-    form.add_argument(
+    add_table_options(parser)
+    parser.add_argument(
         "--bop",
         action="store_true",
         help="print one JSON object: for each file an entry of the BOP toolkit's models_info, with "
@@ -32,26 +38,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="VALUE",
         help="of each element, [0, 1], default %(default)s",
     )
-    parser.add_argument("--threads", default="0", metavar="N", help="0: all there are")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    entries: dict[str, dict[str, Any]] = {}
-    minimum_score = _score(arguments.minimum_score)
-
-    def do(path: Path) -> None:
-        found = symmetries(path, minimum_score=minimum_score, threads=whole(arguments.threads))
-        if arguments.bop:
-            entries[str(path)] = found.to_bop()
-        elif arguments.json:
-            print(json.dumps({"file": str(path)} | found.to_json()), flush=True)
-        else:
-            print(_text(path, found), flush=True)
-
-    status = for_each_file(arguments.files, do)
-    if arguments.bop:
-        print(json.dumps(entries, indent=1))
-    return status
+    _, threads = jobs_and_threads(arguments)
+    parameters = {"minimum_score": _score(arguments.minimum_score)}
+    tasks = [
+        replace(task, operation=SYMMETRIES, parameters=parameters, threads=threads)
+        for task in input_tasks(arguments)
+    ]
+    if not arguments.bop:
+        return run_tasks(tasks, arguments, _text)[0]
+    for name in ("json", "table"):
+        if getattr(arguments, name):
+            raise InvalidParameter(f"{name} is given beside bop; allowed is one of them")
+    return _print_models_info(tasks, arguments)
 
 
 def _score(text: str) -> float:
@@ -61,22 +62,36 @@ def _score(text: str) -> float:
         raise InvalidParameter(f"minimum_score is {text}; allowed is [0, 1]") from None
 
 
-def _text(path: Path, found: Symmetries) -> str:
+def _print_models_info(tasks: Sequence[FileTask], arguments: argparse.Namespace) -> int:
+    entries = {}
+    status = 0
+    for record in worked_on(tasks, arguments):
+        status = max(status, tell(record))
+        if "bop" in record:
+            entries[record["file"]] = record["bop"]
+    print(json.dumps(entries, indent=1))
+    return status
+
+
+def _text(record: Record) -> str:
     lines = [
-        str(path),
-        f"  group     {found.group}, score {found.score:.3f}",
-        f"  centre    {shown(found.centre)}",
+        record["file"],
+        f"  group     {record['group']}, score {record['score']:.3f}",
+        f"  centre    {shown(record['centre'])}",
     ]
     lines += [
-        f"  plane     normal {shown(plane.normal)}, offset {plane.offset:g}"
-        for plane in found.planes
+        f"  plane     normal {shown(plane['normal'])}, offset {plane['offset']:g}"
+        for plane in record["planes"]
     ]
     lines += [
-        f"  axis      {'continuous' if axis.continuous else f'order {axis.order}'}, "
-        f"direction {shown(axis.direction)}"
-        for axis in found.axes
+        f"  axis      {_order(axis['order'])}, direction {shown(axis['direction'])}"
+        for axis in record["axes"]
     ]
-    if found.inversion:
+    if record["inversion"]:
         lines.append("  inversion")
-    lines.append(f"  time      {1000 * found.seconds:.1f} ms")
+    lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
     return "\n".join(lines)
+
+
+def _order(order: int | str) -> str:
+    return order if isinstance(order, str) else f"order {order}"

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "score/mirror_score.h"
+#include "symmetries/symmetry_fit.h"
+
+namespace symsurf {
+
+/// What the orbits of a cloud's points say of a group: of the images of a point under all elements,
+/// how many lie on the cloud.
+struct OrbitVote {
+  double support = 0;   ///< mean of all images that do not fall where the cloud has no points
+  double missing = 0;   ///< share of the images that do
+  double outliers = 0;  ///< share of the points that too few of their images confirm
+  double share() const { return support * (1 - missing); }
+};
+
+/// With part of a shape missing, most images of a point that is no part's alone still lie on the
+/// cloud; those of a feature that spoils the symmetry, such as a handle, do not. No single element
+/// can tell the two apart, as either has an image where the cloud has nothing.
+OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
+                     const std::vector<Matrix3>& elements);
+
+}  // namespace symsurf
