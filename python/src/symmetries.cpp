@@ -30,6 +30,7 @@ py::dict symmetries_fields(const PointsArgument& points, const FacesArgument& fa
   fields["inversion"] = found.inversion;
   fields["elements"] = found.elements;
   fields["score"] = found.score;
+  fields["missing"] = found.missing;
   fields["seconds"] = found.seconds;
   return fields;
 }

@@ -53,7 +53,9 @@ class Symmetries:
     """(n, 4, 4): every element on homogeneous columns, the identity first. Of a continuous group
     those that, with the turns about the continuous axes, make up all."""
     score: float
-    """The least of the elements' scores, 0 to 1: the share of the shape that it maps onto it."""
+    """How well the images under all elements lie on the shape where it has points, 0 to 1."""
+    missing: float
+    """The share of the images that fall where the shape has no points: what is cut away."""
     seconds: float
 
     @property
@@ -87,6 +89,7 @@ class Symmetries:
             "inversion": self.inversion,
             "elements": self.elements.tolist(),
             "score": self.score,
+            "missing": self.missing,
             "seconds": self.seconds,
         }
 

@@ -33,7 +33,8 @@ struct Symmetries {
   /// Every element on homogeneous columns (x, y, z, 1), the identity first; of a continuous group
   /// those that, with the turns about the continuous axes, make up all.
   std::vector<Matrix4> elements;
-  double score = 1;    ///< the least of the elements' scores, 0 to 1; those of mirrors
+  double score = 1;    ///< how well images lie on the shape where it has points, 0 to 1
+  double missing = 0;  ///< share of the images that fall where it has none: what is cut away
   double seconds = 0;  ///< that it took
 };
 

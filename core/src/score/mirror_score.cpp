@@ -74,12 +74,13 @@ MirrorScore::Spread::Spread(const Matrix3& covariance, double radius) {
   flatness = is_line ? 0 : 1 - std::sqrt(variances[0] / variances[1]);
 }
 
-MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
+MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context,
+                         Cells cells)
     : cloud_(cloud),
       points_(points),
       coarse_(cloud, sample_count, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
-      thinned_(thinned(fine_)) {
+      thinned_(thinned(fine_, cells)) {
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0, 1});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
@@ -144,12 +145,17 @@ double MirrorScore::Sample::weighed(double surface, double on_surface, double in
   return density * (surface * on_surface + in_volume * (1 - surface) * in_body);
 }
 
-MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine) {
+MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine, Cells cells) {
   Points positions(fine.size(), 3);
   std::vector<double> counts;
   for (Index k = 0; k < fine.size(); ++k) {
     positions.row(k) = fine[k].position.transpose();
     counts.push_back(fine[k].count);
+  }
+  if (cells == Cells::by_points) {
+    const double typical = median(counts);
+    for (double& count : counts) count /= typical;
+    return {std::move(positions), std::move(counts)};
   }
   const double full = sparse * median(counts);
   for (double& count : counts) count = std::min(1.0, count / full);
@@ -172,7 +178,7 @@ MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
 
 MirrorScore::Support MirrorScore::supported(const Sample& sample, const Ball& image) const {
   constexpr double least = 3;
-  if (image.count < least) return {0, 0, sample.surface};
+  if (image.count < least) return {0, 1, 0, sample.surface};
   const Spread own(sample.ball.covariance, radius_), other(image.covariance, radius_);
   const Vector3 gap = sample.ball.mean - image.mean;
   // Less twice the variance that few points leave to the gap.
@@ -193,7 +199,9 @@ MirrorScore::Support MirrorScore::supported(const Sample& sample, const Ball& im
   const double missed = offset / squared(far);
   const double on_surface = complete * (squared(1 - turned) / (1 + offset / squared(near)) -
                                         penalty * missed * std::exp(1 - missed));
-  return {on_surface, complete, std::max(sample.surface, other.surface() * sample.surface)};
+  const bool at_rim = more == image.count;
+  return {on_surface, at_rim ? 0 : 1 - complete, at_rim ? 1 - complete : 0,
+          std::max(sample.surface, other.surface() * sample.surface)};
 }
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
@@ -266,12 +274,12 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     const Sample& sample = samples_[index];
     const double gap = (partners[k] - images[k]).norm() / frame.size;  // NaN where there is none
     if (gap < rounding) {
-      fits.push_back({index, sample.weight(), sample.weight(), 0, true});
+      fits.push_back({index, sample.weight(), sample.weight(), 0, 0, true});
       continue;
     }
     const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
-    const auto [on_surface, complete, surface] = supported(sample, image_ball(sample.position));
+    const auto [on_surface, missing, rim, surface] = supported(sample, image_ball(sample.position));
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
     const double density = sample.ball.count * static_cast<double>(cloud_.partition.total()) /
                            static_cast<double>(thinned_.points.rows());
@@ -279,7 +287,8 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);
     fits.push_back({index, displacement * sample.weighed(surface, 1, 1),
                     displacement * sample.weighed(surface, on_surface, in_body),
-                    displacement * sample.weighed(surface, 1 - complete, std::isnan(gap) ? 1 : 0)});
+                    displacement * sample.weighed(surface, missing, std::isnan(gap) ? 1 : 0),
+                    displacement * sample.weighed(surface, rim, 0)});
   }
   return fits;
 }

@@ -33,7 +33,8 @@ struct PointFit {
   std::size_t point = 0;  ///< which of them
   double weight = 0;      ///< what it counts: less where the map hardly moves it
   double support = 0;     ///< so much of that for the map; may be negative
-  double missing = 0;     ///< so much of that because there is nothing where its image falls
+  double missing = 0;     ///< so much of that is lost as the cloud has less where its image falls
+  double rim = 0;         ///< so much of that is lost as the cloud has less around the point itself
   bool exact = false;     ///< its image is a point of the cloud, to rounding
 };
 
@@ -52,8 +53,13 @@ struct PointFit {
 /// counts.
 class MirrorScore {
  public:
+  /// What a cell of the thinned cloud counts: the same where it holds some points, so that density
+  /// hardly matters, or as many as it holds, so that where cells divide a noisy surface does not.
+  enum class Cells { alike, by_points };
+
   /// The cloud and its points must outlive the score. Collective, as all that follows.
-  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
+  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context,
+              Cells cells = Cells::alike);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The same of a third of the points: enough to see which mirrors are worth refining.
@@ -100,8 +106,8 @@ class MirrorScore {
 
   struct Support {
     double on_surface;
-    double complete;  // 0..1: less where one of two balls has fewer points than the other
-    double surface;   // the sample's, where the image tells more
+    double missing, rim;  // 0..1: where the image's or the sample's ball has fewer points
+    double surface;       // the sample's, where the image tells more
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
@@ -123,7 +129,7 @@ class MirrorScore {
   };
 
   Ball ball_of(const PointSet& set, const Vector3& x) const;
-  static PointSet thinned(const Surfels& fine);
+  static PointSet thinned(const Surfels& fine, Cells cells);
   PointSet mirrored(const Mirror& mirror) const;
   Support supported(const Sample& sample, const Ball& image) const;
 

@@ -10,7 +10,8 @@ namespace symsurf {
 /// What the orbits of a cloud's points say of a group: of the images of a point under all elements,
 /// how many lie on the cloud.
 struct OrbitVote {
-  double support = 0;   ///< mean of all images that do not fall where the cloud has no points
+  double support = 0;   ///< share of the images on the surface, of those where the cloud has points
+  double fit = 0;       ///< the mean of their supports, which tells how close they come
   double missing = 0;   ///< share of the images that do
   double outliers = 0;  ///< share of the points that too few of their images confirm
   double share() const { return support * (1 - missing); }

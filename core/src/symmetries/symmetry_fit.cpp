@@ -85,7 +85,21 @@ class SymmetryFit::Step {
 
 SymmetryFit::SymmetryFit(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
                          const Surfels& fine)
-    : cloud_(cloud), points_(points), coarse_(coarse), fine_(fine), map_(coarse) {}
+    : cloud_(cloud),
+      points_(points),
+      coarse_(coarse),
+      fine_(fine),
+      map_(coarse),
+      noise_(measured_noise()) {}
+
+SurfaceNoise SymmetryFit::measured_noise() const {
+  constexpr Index few_samples = 250;
+  std::vector<OnSurface> samples;
+  for (Index i = 0; i < fine_.size(); i += std::max<Index>(1, fine_.size() / few_samples))
+    if (const Surfel* surfel = surfel_at(fine_[i].sampled))
+      samples.push_back({fine_[i].sampled, surfel});
+  return {samples, neighbours_of(samples, cloud_.frame, points_)};
+}
 
 std::vector<SymmetryFit::Match> SymmetryFit::on_surfels(const Eigen::Isometry3d& map,
                                                         std::size_t stride) const {
@@ -102,22 +116,24 @@ std::vector<SymmetryFit::Match> SymmetryFit::on_surfels(const Eigen::Isometry3d&
 
 std::vector<SymmetryFit::Match> SymmetryFit::on_cloud(const Eigen::Isometry3d& map, double reach,
                                                       std::size_t stride) const {
-  const auto surfel_at = [&](const Vector3& x) { return flattest_at({&coarse_, &fine_}, x); };
   std::vector<Match> matches;
   std::vector<Vector3> images;
   for (Index i = 0; i < fine_.size(); i += static_cast<Index>(stride)) {
     const Vector3& x = fine_[i].sampled;
-    const Vector3 image = map * x;
-    matches.push_back({x, image, image, surfel_at(x), nullptr});
-    images.push_back(cloud_.frame.from_frame(image));
+    const Surfel* own = surfel_at(x);
+    if (!own) continue;
+    const Vector3 smoothed = noise_.smoothed(x, *own);
+    matches.push_back({smoothed, map * smoothed, x, own, nullptr});
+    images.push_back(cloud_.frame.from_frame(map * x));
   }
   const std::vector<Vector3> partners = points_.nearest(images, reach * cloud_.frame.size);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     if (!partners[k].allFinite()) continue;
-    matches[k].partner = cloud_.frame.to_frame(partners[k]);
-    matches[k].other = surfel_at(matches[k].partner);
+    const Vector3 partner = cloud_.frame.to_frame(partners[k]);
+    matches[k].other = surfel_at(partner);
+    if (matches[k].other) matches[k].partner = noise_.smoothed(partner, *matches[k].other);
   }
-  std::erase_if(matches, [](const Match& match) { return !match.own || !match.other; });
+  std::erase_if(matches, [](const Match& match) { return !match.other; });
   return matches;
 }
 
@@ -138,7 +154,8 @@ GroupPose SymmetryFit::roughly(GroupPose pose, const std::vector<Matrix3>& eleme
 GroupPose SymmetryFit::closely(GroupPose pose, const std::vector<Matrix3>& elements,
                                std::size_t looked) const {
   const std::size_t stride = std::max<std::size_t>(1, elements.size() * fine_.size() / looked);
-  for (const double tolerance : {0.015, 0.01, 0.006, 0.006, 0.004, 0.004}) {
+  for (const double narrow : {0.015, 0.01, 0.006, 0.006, 0.004, 0.004}) {
+    const double tolerance = std::max(narrow, noise_.deviation());  // noise agrees no closer
     Step step;
     for (const Matrix3& element : elements) {
       const Eigen::Isometry3d map = pose.placed(element);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
+#include "cloud/surface_noise.h"
 #include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
 #include "spatial/nearest_points.h"
@@ -43,10 +44,12 @@ class SymmetryFit {
  private:
   struct Match {
     Vector3 point, image, partner;
-    const Facet *own, *other;
+    const Surfel *own, *other;
   };
   class Step;
 
+  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
+  SurfaceNoise measured_noise() const;
   std::vector<Match> on_surfels(const Eigen::Isometry3d& map, std::size_t stride) const;
   std::vector<Match> on_cloud(const Eigen::Isometry3d& map, double reach, std::size_t stride) const;
 
@@ -54,6 +57,7 @@ class SymmetryFit {
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
   SurfelMap map_;
+  SurfaceNoise noise_;
 };
 
 }  // namespace symsurf
