@@ -129,9 +129,7 @@ def symmetries(
     Args:
         shape: points, a mesh or a file, as ``detect`` takes them.
         faces: (m, 3) indices of points, where ``shape`` does not bring them.
-        minimum_score: what each element must score, [0, 1]. It must also reach 2 best - 1.05, ``best``
-            being the greatest score, so that a part which spoils the shape's symmetry counts where
-            another symmetry holds for it.
+        minimum_score: what a group must score, [0, 1].
         nonfinite, threads, progress: as for ``detect``.
 
     Raises:

@@ -41,15 +41,16 @@ struct Symmetries {
 struct SymmetryOptions {
   TrianglesView faces = {};       ///< optional, between the points, as detect() takes them
   bool refuse_nonfinite = false;  ///< whether a point that is not finite is an error
-  double minimum_score = 0.7;     ///< of an element, [0, 1]
+  double minimum_score = 0.7;     ///< of a group, [0, 1]
 };
 
-/// Finds the point group of a shape. An element counts where it scores `minimum_score` and 2 best
-/// - 1.05, `best` being the greatest score: one that maps all but a small part, such as a bottle's
-/// turns beside its handle, is no symmetry where another maps all. Orders are products of primes up
-/// to 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any
-/// mirror (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput
-/// and Cancelled as detect() does, InvalidParameter for minimum_score.
+/// Finds the point group of a shape. A group counts where its elements map the shape onto itself
+/// wherever it has points, where hardly any point is confirmed by too few of its images, as a
+/// bottle's handle is when the bottle is turned, and where at most a third of the images fall where
+/// the shape has none. Orders are products of primes up to 31 and their powers up to 64, 128 at
+/// most. Groups of turns about several axes without any mirror (T, O, I) are found only where the
+/// principal axes are among theirs. Throws InvalidInput and Cancelled as detect() does,
+/// InvalidParameter for minimum_score.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});
 

@@ -19,9 +19,11 @@ constexpr double same_guess = 0.035;         // radians
 constexpr std::array<Index, 11> primes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31};
 constexpr Index greatest_power = 64;
 constexpr Index greatest_order = 128;  // a body of which more orders hold is one of revolution
-// Shares of points. Where part of a body of revolution is missing, as many any turn leaves out; a
-// gear's turns leave out so many fewer than any turn of its body does.
-constexpr double most_outliers = 0.08, fewer_outliers = 0.03, hardly_any = 0.02;
+// Shares of points: where part of a body of revolution is missing, as many any turn leaves out.
+constexpr double most_outliers = 0.08, hardly_any = 0.02;
+// Turns that fit so much worse than others about their axis are none of the shape's: of a gear any
+// turn maps the body, and some the teeth, too.
+constexpr double below_power = 0.025, below_best = 0.04, above_any = 0.03, good_fit = 0.95;
 
 const Matrix3 mirror_across = reflection(Vector3::UnitZ());
 
@@ -57,22 +59,23 @@ std::optional<FoundDirection> finite_axis(const SymmetryTest& test, const GroupP
     for (Index power = prime; power <= greatest_power; power *= prime) {
       const std::optional<FoundDirection> axis =
           turned_about(test, last ? last->pose : start, power);
-      if (!axis) break;
+      if (!axis || (last && axis->vote.fit < last->vote.fit - below_power)) break;
       last = axis;
     }
     if (last) found.push_back(*last);
   }
   std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.vote.share() > b.vote.share(); });
+                   [](const auto& a, const auto& b) { return a.vote.fit > b.vote.fit; });
   std::optional<FoundDirection> whole;
   for (const FoundDirection& axis : found) {
     if (!whole) {
       whole = axis;
       continue;
     }
+    if (axis.vote.fit < found.front().vote.fit - below_best) break;
     if (whole->order * axis.order > greatest_order) return {};
     const auto both = turned_about(test, whole->pose, whole->order * axis.order);
-    if (both) whole = both;
+    if (both && both->vote.fit >= found.front().vote.fit - below_best) whole = both;
   }
   return whole;
 }
@@ -83,13 +86,10 @@ std::optional<FoundDirection> axis_along(const SymmetryTest& test, const GroupPo
   const auto passed = test.tried(start, any_turns(fitted), any_turns(voting));
   if (passed && passed->vote.outliers <= most_outliers) {
     any = FoundDirection{passed->pose, passed->vote, 0};
-    if (any->vote.outliers <= hardly_any) return any;
+    if (any->vote.outliers <= hardly_any && any->vote.fit >= good_fit) return any;
   }
-  // Of a gear any turn maps the faces onto themselves, and some the teeth, too.
   const std::optional<FoundDirection> finite = finite_axis(test, start);
-  if (any && (!finite || finite->order <= 2 ||
-              finite->vote.outliers > any->vote.outliers - fewer_outliers))
-    return any;
+  if (any && (!finite || finite->vote.fit < any->vote.fit + above_any)) return any;
   return finite;
 }
 

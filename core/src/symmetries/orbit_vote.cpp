@@ -5,11 +5,11 @@
 namespace symsurf {
 
 OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
-                     const std::vector<Matrix3>& elements) {
-  constexpr std::size_t most_images = 12'000, points = 500;
-  constexpr double confirmed = 0.58;  // of the orbit: more than half, less than two of three
-  constexpr double on_surface = 0.3;  // support from which on an image lies on the surface
-  constexpr double rims = 4;          // what lies at the rim of a hole is judged less by this
+                     const std::vector<Matrix3>& elements, std::size_t most_images) {
+  constexpr std::size_t points = 500;  // that the score is measured at
+  constexpr double confirmed = 0.58;   // of the orbit: more than half, less than two of three
+  constexpr double on_surface = 0.3;   // support from which on an image lies on the surface
+  constexpr double rims = 4;           // what lies at the rim of a hole is judged less by this
   const std::size_t stride = std::max<std::size_t>(1, elements.size() * points / most_images);
   struct Orbit {
     double moved = 0, rim = 0, size = 0;  // weights

@@ -20,7 +20,8 @@ struct OrbitVote {
 /// With part of a shape missing, most images of a point that is no part's alone still lie on the
 /// cloud; those of a feature that spoils the symmetry, such as a handle, do not. No single element
 /// can tell the two apart, as either has an image where the cloud has nothing.
+/// Looks at about so many images; a few hundred points at most are asked for theirs.
 OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
-                     const std::vector<Matrix3>& elements);
+                     const std::vector<Matrix3>& elements, std::size_t most_images);
 
 }  // namespace symsurf

@@ -195,13 +195,19 @@ class SymmetrySearch {
     std::stable_sort(starts.begin(), starts.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr std::size_t most = 4;
+    constexpr double good_enough = 0.01;  // fit below that of the turns
     if (starts.size() > most) starts.resize(most);
     // With the turns, which hold the axis where it is.
     std::vector<Matrix3> elements{element};
     if (axis.order > 1) elements.push_back(turns_of(axis.order, 1).front());
-    for (const auto& [support, start] : starts)
-      if (const auto found = test_.tried(start, elements)) return found->pose;
-    return {};
+    std::optional<SymmetryTest::Passed> best;
+    for (const auto& [support, start] : starts) {
+      const auto found = test_.tried(start, elements);
+      if (found && (!best || found->vote.fit > best->vote.fit)) best = found;
+      if (best && best->vote.fit >= axis.vote.fit - good_enough) break;
+    }
+    if (!best) return {};
+    return best->pose;
   }
 
   std::optional<Symmetries> verified(const Placed& placed) const {
@@ -218,7 +224,6 @@ class SymmetrySearch {
                   turn(axis.direction, 2 * std::numbers::pi * std::numbers::phi * k) * element);
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
-    if (getenv("SYMDBG")) fprintf(stderr, "   expected %.3f\n", placed.expected);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
     return described({placed.group, passed->pose}, passed->vote);
   }

@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--minimum-score",
         default="0.7",
         metavar="VALUE",
-        help="of each element, [0, 1], default %(default)s",
+        help="of the group, [0, 1], default %(default)s",
     )
 
 
