@@ -74,8 +74,8 @@ def test_elements_are_a_group_that_keeps_the_centre():
     assert np.allclose([axis.point for axis in found.axes], found.centre)
 
 
-# Floors, of 15, below what draws of every part gave: 46 of 60 with noise, 22 of 30 when cut.
-@pytest.mark.parametrize(("damage", "least"), [("noisy", 9), ("cut", 9)])
+# Floors, of 15, below what draws of every part gave: 27 of 30 with noise, 25 of 30 when cut.
+@pytest.mark.parametrize(("damage", "least"), [("noisy", 12), ("cut", 12)])
 def test_damaged_parts_keep_their_group_mostly(damage, least):
     right = []
     for name, part in PARTS.items():
