@@ -44,6 +44,7 @@ from .mirror_operations import (
     functions,
 )
 from .mirror_operations.functions import *  # one for each in operations()
+from .point_group import Axis, Symmetries, symmetries
 from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Alignment",
     "Asymmetry",
+    "Axis",
     "Cancelled",
     "Completed",
     "Correspondences",
@@ -76,6 +78,7 @@ __all__ = [
     "Sphere",
     "Straightened",
     "SurfaceMirror",
+    "Symmetries",
     "Symmetrized",
     "__version__",
     "batch",
@@ -90,6 +93,7 @@ __all__ = [
     "operations",
     "read",
     "straight_mirror",
+    "symmetries",
     "synthetic",
 ]
 __all__ += detectors.__all__
