@@ -1,7 +1,7 @@
-# make setup | demo | wheel | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
-# bench | accuracy: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo wheel paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
-  bench-meshlab accuracy
+# make setup | demo | wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
+# bench | accuracy | compare: each sets up what it needs first, and only what is missing.
+.PHONY: setup demo wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+  bench-meshlab accuracy compare
 
 setup:
 	@.ci/setup python tests
@@ -14,6 +14,12 @@ demo:
 wheel:
 	@.ci/setup wheel
 	@ls -sh build/dist/*
+
+# The documentation site; every example in it runs.
+docs:
+	@.ci/setup docs
+	@.ci/docs
+	@echo "The site: $(CURDIR)/build/docs/index.html"
 
 paraview:
 	@.ci/setup paraview
@@ -58,6 +64,12 @@ bench:
 accuracy:
 	@.ci/setup accuracy
 	@cd tests && ../build/venv/bin/python -m accuracy $(OPTIONS)
+
+# symsurf's planes beside those of others that the registries have, on the same points: a quarter of
+# an hour; OPTIONS="--seeds 1" asks for less.
+compare:
+	@.ci/setup compare
+	@cd tests && ../build/compare/bin/python -m benchmarks.compare $(OPTIONS)
 
 meshlab:
 	@.ci/setup meshlab

@@ -5,6 +5,8 @@
 >>> result.mirror, result.score, result.verdict
 """
 
+from typing import TYPE_CHECKING
+
 from . import detectors, metrics, synthetic
 from ._core import (
     Cancelled,
@@ -28,7 +30,6 @@ from ._core import (
     operations,
     straight_mirror,
 )
-from .batching import batch
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
@@ -43,14 +44,19 @@ from .mirror_operations import (
     functions,
 )
 from .mirror_operations.functions import *  # one for each in operations()
+from .point_group import Axis, Symmetries, symmetries
 from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
 
+if TYPE_CHECKING:
+    from .batching import batch
+
 __all__ = [
     "Alignment",
     "Asymmetry",
+    "Axis",
     "Cancelled",
     "Completed",
     "Correspondences",
@@ -72,6 +78,7 @@ __all__ = [
     "Sphere",
     "Straightened",
     "SurfaceMirror",
+    "Symmetries",
     "Symmetrized",
     "__version__",
     "batch",
@@ -86,7 +93,18 @@ __all__ = [
     "operations",
     "read",
     "straight_mirror",
+    "symmetries",
     "synthetic",
 ]
 __all__ += detectors.__all__
 __all__ += functions.__all__
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # `import symsurf` does not wait for what works on many files.
+        if name == "batch":
+            from .batching import batch
+
+            return batch
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

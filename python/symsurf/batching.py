@@ -60,10 +60,10 @@ def batch(
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
-        A row a file, in the order of the files, each as soon as it and those before it are done:
-        what ``symsurf OPERATION --table`` writes, by the name of the column. A file that fails has
-        the reason in "error", which is "" for the others. Closing the iterator drops what was not
-        begun.
+        A row a file, in the order of the files, each as soon as it and those before it are done.
+        A row is what ``symsurf OPERATION --table`` writes, by the name of the column. A file that
+        fails has the reason in "error", which is "" for the others. Closing the iterator drops what
+        was not begun.
 
     Raises:
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;

@@ -18,6 +18,7 @@ from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
+from .point_group import symmetries
 from .reading import read, suffix_of
 from .result import Result
 from .sampling import downsample
@@ -27,6 +28,7 @@ from .saving.shape_files import save_shape
 from .shape import Shape
 
 DETECT = "detect"
+SYMMETRIES = "symmetries"
 SUMMARY_SUFFIX = ".summary.json"
 PICTURE_SUFFIX = ".png"
 PAGE_SUFFIX = ".html"
@@ -42,10 +44,11 @@ class FileTask:
     file: Path
     """For ``content`` the name that records and outputs have."""
     operation: str = DETECT
-    """Or the name of one of ``operations()``."""
+    """Or "symmetries", or the name of one of ``operations()``."""
     method: str = "auto"
     parameters: dict[str, Any] = field(default_factory=dict)
-    """Those of the operation, and of the method where only the mirror is found."""
+    """Those of the operation, and of the method where only the mirror is found; of "symmetries"
+    ``minimum_score``."""
     seed: int = 0
     threads: int = 0
     nonfinite: str = "skip"
@@ -112,6 +115,9 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     record["points"] = len(shape.points)
+    if task.operation == SYMMETRIES:
+        _find_symmetries(task, shape, record, progress)
+        return
     parameters = task.parameters if task.operation == DETECT else {}
     found = detect(
         shape.points,
@@ -132,6 +138,20 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         _write_result(found, record, task)
     else:
         _operate(task, shape, found, record, notices)
+
+
+def _find_symmetries(
+    task: FileTask, shape: Shape, record: Record, progress: Progress | None
+) -> None:
+    found = symmetries(
+        shape.points,
+        faces=shape.faces,
+        nonfinite=task.nonfinite,
+        threads=task.threads,
+        progress=progress,
+        **task.parameters,
+    )
+    record |= found.to_json() | {"bop": found.to_bop()}
 
 
 def _operate(

@@ -289,6 +289,19 @@ TEST(Symmetrize, MovesNothingOutsideOfTheMask) {
   EXPECT_GT((result.points - points).norm(), 0.01);
 }
 
+// The average of others may come near to the image of a point that nothing mirrored before.
+TEST(Symmetrize, LeavesWhatHasNoCounterpart) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Points points = RandomCloud(seed).box(13);
+    const OperationResult result = operate("symmetrize", {points}, middle);
+    const Eigen::MatrixXd& paired = result.arrays.at("paired");
+    for (Index i = 0; i < points.rows(); ++i)
+      if (paired(i, 0) == 0) {
+        EXPECT_EQ(result.points.row(i), points.row(i)) << seed << ", " << i;
+      }
+  }
+}
+
 TEST(Straighten, LaysTheMirrorFlatAndBendsBack) {
   const Ball b = ball(8);
   const Points bent = wrapped(b.points);
@@ -315,7 +328,7 @@ TEST(Operations, RefuseAMirrorOfAnotherUnit) {
 TEST(Operations, NameWhatIsWrong) {
   const Ball b = ball(0);
   const OperationInput input{b.points, b.faces};
-  expect_error<InvalidParameter>("unknown operation 'melt'; allowed: asymmetry, ",
+  expect_error<InvalidParameter>("there is no operation 'melt'; there are asymmetry, ",
                                  [&] { operate("melt", input, middle); });
   expect_error<InvalidParameter>("strength", [&] {
     operate("symmetrize", input, middle, {{"strength", 1.5}});

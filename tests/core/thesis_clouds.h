@@ -2,6 +2,10 @@
 
 #include <symsurf/points_view.h>
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -37,6 +41,16 @@ inline Points thesis_cloud(std::uint64_t seed) {
       return flat;
     }
   }
+}
+
+/// By x, then y, then z: in this order the methods take the first of equals, as loops over it do.
+inline Points ascending(const Points& points) {
+  std::vector<std::array<double, 3>> rows;
+  for (const auto& x : points.rowwise()) rows.push_back({x[0], x[1], x[2]});
+  std::sort(rows.begin(), rows.end());
+  Points sorted(points.rows(), 3);
+  for (Index i = 0; i < sorted.rows(); ++i) sorted.row(i) = Vector3(rows[i].data()).transpose();
+  return sorted;
 }
 
 }  // namespace symsurf

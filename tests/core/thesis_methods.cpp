@@ -65,7 +65,7 @@ void expect_trials(const Result& result, PointsView points, const Points* normal
 TEST(Separation, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < clouds; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = thesis_cloud(seed);
+    const Points points = ascending(thesis_cloud(seed));
     expect_trials(run(points, "separation"), points, nullptr, true);
   }
 }
@@ -73,7 +73,7 @@ TEST(Separation, MatchesBruteForce) {
 TEST(SeparationNormals, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < clouds; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = thesis_cloud(seed);
+    const Points points = ascending(thesis_cloud(seed));
     const char* estimation = seed % 2 ? "pca" : "regression";
     const Points normals = estimate_normals(points, 10, estimation);
     expect_trials(run(points, "separation_normals", {{"normal_estimation", estimation}}), points,
@@ -84,7 +84,7 @@ TEST(SeparationNormals, MatchesBruteForce) {
 TEST(NormalsOnly, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < clouds; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = thesis_cloud(seed);
+    const Points points = ascending(thesis_cloud(seed));
     const char* estimation = seed % 2 ? "pca" : "regression";
     const Points normals = estimate_normals(points, 10, estimation);
     expect_pairs(run(points, "normals_only", {{"normal_estimation", estimation}}),
@@ -109,7 +109,7 @@ TEST(NormalsOnly, MatchesBruteForceOnLargerClouds) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);
     RandomCloud random(seed);
-    const Points points = random.lattice(1500, 9);
+    const Points points = ascending(random.lattice(1500, 9));
     const Points normals = estimate_normals(points, 10);
     expect_pairs(run(points, "normals_only"), oracle::along_normals(points, normals), points);
   }

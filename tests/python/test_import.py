@@ -5,7 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 
-HEAVY = ("matplotlib", "multiprocessing", "pyvista", "trame_vtk", "urllib.request", "vtkmodules")
+HEAVY = (
+    "concurrent.futures", "json", "matplotlib", "multiprocessing", "pyvista", "tempfile", "trame_vtk",
+    "urllib.request", "vtkmodules",
+)  # fmt: skip
 
 
 def test_import_is_light():

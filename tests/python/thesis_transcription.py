@@ -1,7 +1,7 @@
 """The thesis's algorithms as they are printed: loops and sums over all pairs, nothing clever.
 
 What the text leaves open is read as the methods' documentation says: planes through the mean of the
-points, X1 strictly above, equal scores and equal distances to the first.
+points, X1 strictly above, equal scores and equal distances to the first (the methods: by position).
 """
 
 from __future__ import annotations

@@ -24,5 +24,6 @@
 #include <symsurf/sphere.h>
 #include <symsurf/surface.h>
 #include <symsurf/surface_mirror.h>
+#include <symsurf/symmetries.h>
 #include <symsurf/synthetic.h>
 #include <symsurf/triangles_view.h>

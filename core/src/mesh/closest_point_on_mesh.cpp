@@ -62,53 +62,58 @@ double ClosestPointOnMesh::Node::squared_distance(const Vector3& query) const {
 ClosestPointOnMesh::ClosestPointOnMesh(PointsView points, TrianglesView faces,
                                        const Context& context) {
   Eigen::AlignedBox3d box;
-  const auto is_finite = [&](Index f) {
-    return points[faces[f][0]].allFinite() && points[faces[f][1]].allFinite() &&
-           points[faces[f][2]].allFinite();
-  };
+  std::vector<Centroid> centroids;
+  centroids.reserve(faces.size());
   interruptible_for(context, faces.size(), [&](Index f) {
-    if (is_finite(f))
-      for (int c = 0; c < 3; ++c) box.extend(points[faces[f][c]]);
+    const Vector3 a = points[faces[f][0]], b = points[faces[f][1]], c = points[faces[f][2]];
+    if (!a.allFinite() || !b.allFinite() || !c.allFinite()) return;
+    box.extend(a).extend(b).extend(c);
+    centroids.push_back({(a + b + c) / 3, f});
   });
   if (box.isEmpty()) return;
   origin_ = box.center();
   rounding_ = 1e-14 * box.diagonal().norm();
-  triangles_.reserve(faces.size());
-  interruptible_for(context, faces.size(), [&](Index f) {
-    if (is_finite(f))
-      triangles_.push_back({{points[faces[f][0]] - origin_, points[faces[f][1]] - origin_,
-                             points[faces[f][2]] - origin_},
-                            f});
-  });
-  build(0, static_cast<std::int32_t>(triangles_.size()), context);
+  triangles_.reserve(centroids.size());
+  build({points, faces, centroids, context}, 0, static_cast<std::int32_t>(centroids.size()));
 }
 
-std::int32_t ClosestPointOnMesh::build(std::int32_t begin, std::int32_t end,
-                                       const Context& context) {
+// Leaves are made from the first to the last: their triangles are stored in this order.
+std::int32_t ClosestPointOnMesh::build(const Building& of, std::int32_t begin, std::int32_t end) {
   constexpr std::int32_t leaf = 4, unchecked = 1 << 14;  // triangles
-  if (end - begin > unchecked) context.check();
-  Eigen::AlignedBox3d box, centroids;
-  for (std::int32_t t = begin; t < end; ++t) {
-    for (const Vector3& x : triangles_[t].corner) box.extend(x);
-    centroids.extend(triangles_[t].centroid());
+  if (end - begin > unchecked) of.context.check();
+  const auto at = static_cast<std::int32_t>(nodes_.size());
+  nodes_.push_back({Vector3::Zero(), Vector3::Zero(), begin, end});
+  Eigen::AlignedBox3d box;
+  if (end - begin <= leaf) {
+    for (std::int32_t t = begin; t < end; ++t) {
+      const Index face = of.centroids[t].face;
+      Triangle& triangle = triangles_.emplace_back();
+      triangle.face = face;
+      for (int c = 0; c < 3; ++c) {
+        triangle.corner[c] = of.points[of.faces[face][c]] - origin_;
+        box.extend(triangle.corner[c]);
+      }
+    }
+  } else {
+    Eigen::AlignedBox3d extent;
+    for (std::int32_t t = begin; t < end; ++t) extent.extend(of.centroids[t].place);
+    Index axis;
+    extent.sizes().maxCoeff(&axis);
+    const std::int32_t middle = begin + (end - begin) / 2;
+    const auto first = of.centroids.begin();
+    std::nth_element(first + begin, first + middle, first + end,
+                     [axis](const Centroid& a, const Centroid& b) {
+                       return std::pair(a.place[axis], a.face) < std::pair(b.place[axis], b.face);
+                     });
+    build(of, begin, middle);  // the next node
+    const std::int32_t second = build(of, middle, end);
+    nodes_[at].second = second;
+    for (const std::int32_t child : {at + 1, second})
+      box.extend(nodes_[child].low).extend(nodes_[child].high);
   }
-  const auto node = static_cast<std::int32_t>(nodes_.size());
-  nodes_.push_back({box.min(), box.max(), begin, end});
-  if (end - begin <= leaf) return node;
-  Index axis;
-  centroids.sizes().maxCoeff(&axis);
-  const std::int32_t middle = begin + (end - begin) / 2;
-  const auto along = [axis](const Triangle& t) {  // as centroids are ordered
-    return t.corner[0][axis] + t.corner[1][axis] + t.corner[2][axis];
-  };
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-                   triangles_.begin() + end, [&](const Triangle& a, const Triangle& b) {
-                     return std::pair(along(a), a.face) < std::pair(along(b), b.face);
-                   });
-  build(begin, middle, context);
-  const std::int32_t second = build(middle, end, context);
-  nodes_[node].second = second;
-  return node;
+  nodes_[at].low = box.min();
+  nodes_[at].high = box.max();
+  return at;
 }
 
 struct ClosestPointOnMesh::Search {
@@ -124,6 +129,13 @@ struct ClosestPointOnMesh::Search {
     return normal.dot(direction) >= cosine * normal.norm();
   }
 
+  // A third of the work of try_triangle(), and most triangles of a leaf are farther.
+  double squared_distance_of_box(const Triangle& t) const {
+    const auto& [a, b, c] = t.corner;
+    const Vector3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    return (low - query).cwiseMax(query - high).cwiseMax(0).squaredNorm();
+  }
+
   // Boxes as far as the best are entered: a lower face may be as close there.
   bool may_hold(double squared) const {
     const double distance = std::sqrt(best.squared_distance) + mesh.rounding_;
@@ -134,7 +146,7 @@ struct ClosestPointOnMesh::Search {
     const Node& node = mesh.nodes_[at];
     if (node.second < 0) {
       for (std::int32_t t = node.begin; t < node.end; ++t)
-        if (allows(mesh.triangles_[t]))
+        if (may_hold(squared_distance_of_box(mesh.triangles_[t])) && allows(mesh.triangles_[t]))
           try_triangle(mesh.triangles_[t].corner, query, mesh.triangles_[t].face, best);
       return;
     }

@@ -41,8 +41,16 @@ class ClosestPointOnMesh {
   struct Triangle {
     std::array<Vector3, 3> corner;  // from the middle of the mesh
     Index face;
-
-    Vector3 centroid() const { return (corner[0] + corner[1] + corner[2]) / 3; }
+  };
+  struct Centroid {
+    Vector3 place;
+    Index face;
+  };
+  struct Building {
+    PointsView points;
+    TrianglesView faces;
+    std::vector<Centroid>& centroids;
+    const Context& context;
   };
   struct Node {
     Vector3 low, high;
@@ -54,7 +62,7 @@ class ClosestPointOnMesh {
   struct Search;
 
   ClosestPoint found(Search search, double limit) const;
-  std::int32_t build(std::int32_t begin, std::int32_t end, const Context& context);
+  std::int32_t build(const Building& of, std::int32_t begin, std::int32_t end);
 
   Vector3 origin_ = Vector3::Zero();
   double rounding_ = 0;  // of distances

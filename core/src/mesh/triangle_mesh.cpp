@@ -191,14 +191,14 @@ Points TriangleMesh::vertex_normals(Weight weight, PointsView positions) const {
   for_each_face([&](Index, const Corners& corner, bool is_aside) {
     const std::array<Vector3, 3> x{at(corner[0]), at(corner[1]), at(corner[2])};
     const Vector3 area = (x[1] - x[0]).cross(x[2] - x[0]);
+    const double twice_area = area.norm();
     const int winding = is_aside && mesh_->is_against_neighbours(corner) ? -1 : 1;
+    const Vector3 normal = winding * area.stableNormalized();
     for (int c = 0; c < 3; ++c) {
-      Vector3 more = area;
-      if (weight == Weight::Angle) {
-        const Vector3 one = x[(c + 1) % 3] - x[c], other = x[(c + 2) % 3] - x[c];
-        more = std::atan2(area.norm(), one.dot(other)) * area.stableNormalized();
-      }
-      normals.row(corner[c]) += winding * more.transpose();
+      const Vector3 one = x[(c + 1) % 3] - x[c], other = x[(c + 2) % 3] - x[c];
+      const double share =
+          weight == Weight::Angle ? std::atan2(twice_area, one.dot(other)) : twice_area;
+      normals.row(corner[c]) += share * normal.transpose();
     }
   });
   for (Index i = 0; i < normals.rows(); ++i) normals.row(i) = normals.row(i).stableNormalized();

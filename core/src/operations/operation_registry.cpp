@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/find_named.h"
 #include "cloud/cloud.h"
 #include "mesh/triangle_mesh.h"
 #include "operations/counterparts.h"
@@ -21,12 +22,7 @@ const std::vector<OperationImplementation>& operation_implementations() {
 }
 
 const OperationImplementation& operation_implementation(std::string_view name) {
-  std::string names;
-  for (const OperationImplementation& operation : operation_implementations()) {
-    if (operation.name == name) return operation;
-    names += (names.empty() ? "" : ", ") + operation.name;
-  }
-  throw InvalidParameter("unknown operation '" + std::string(name) + "'; allowed: " + names);
+  return find_named(operation_implementations(), name, "operation");
 }
 
 void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index points) {

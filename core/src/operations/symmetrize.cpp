@@ -37,7 +37,7 @@ class Symmetrization {
     });
   }
 
-  /// 1 where a point had a counterpart, else 0.
+  /// 1 where a point had a counterpart at first, else 0.
   const Eigen::VectorXd& paired() const { return paired_; }
 
  private:
@@ -68,7 +68,8 @@ class Symmetrization {
     parallel_for(context.stage(0.8, 1), from.size(), grain, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const Counterpart& c = found[i];
-        if (!c.matched) continue;
+        // What has none at first stays, also where the average of others comes near to its image.
+        if (!c.matched || paired_[i] == 0) continue;
         const Vector3 x = from[i];
         const bool lies_on_mirror =
             std::abs(mirror_.signed_distance(x)) <= on_mirror_ || c.nearest == i;

@@ -5,6 +5,7 @@
 #include "preprocess/boundary_extraction.h"
 #include "preprocess/duplicate_merge.h"
 #include "preprocess/outlier_removal.h"
+#include "preprocess/position_order.h"
 #include "preprocess/row_removal.h"
 #include "preprocess/surface_samples.h"
 
@@ -25,6 +26,7 @@ std::vector<std::unique_ptr<Stage>> make_stages(const Preprocessing& policy, Ind
   if (policy.remove_outliers) stages.push_back(std::make_unique<OutlierRemoval>(minimum_points));
   if (policy.sample_faces) stages.push_back(std::make_unique<SurfaceSamples>());
   if (policy.merge_duplicates) stages.push_back(std::make_unique<DuplicateMerge>(minimum_points));
+  if (policy.order_points) stages.push_back(std::make_unique<PositionOrder>());
   if (policy.extract_boundary)
     stages.push_back(
         std::make_unique<BoundaryExtraction>(minimum_points, policy.keep_interior, values));

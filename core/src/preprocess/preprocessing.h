@@ -14,11 +14,13 @@ namespace symsurf {
 struct Preprocessing {
   bool remove_outliers = true, sample_faces = true, merge_duplicates = true,
        extract_boundary = true;
-  bool distributed = false;  ///< the method runs on a distributed cloud; others get all points
+  bool order_points = false;  ///< by position: where the method takes the first of equals
+  bool distributed = false;   ///< the method runs on a distributed cloud; others get all points
   /// Whether the boundary of this volumetric cloud is not extracted after all. Null: never.
   bool (*keep_interior)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 
   static Preprocessing none() { return {false, false, false, false}; }
+  static Preprocessing order_only() { return {false, false, false, false, true}; }
 };
 
 /// A pre-processing stage: changes the cloud, and maps the result of the changed cloud back.

@@ -74,12 +74,13 @@ MirrorScore::Spread::Spread(const Matrix3& covariance, double radius) {
   flatness = is_line ? 0 : 1 - std::sqrt(variances[0] / variances[1]);
 }
 
-MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
+MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context,
+                         Cells cells)
     : cloud_(cloud),
       points_(points),
       coarse_(cloud, sample_count, context.stage(0, 0.5)),
       fine_(cloud, coarse_, context.stage(0.5, 1)),
-      thinned_(thinned(fine_)) {
+      thinned_(thinned(fine_, cells)) {
   for (Index k = 0; k < coarse_.size(); ++k) samples_.push_back({coarse_[k].sampled, {}, 0, 1});
   choose_radius();
   // A surface is no mirror of the noise on its two sides.
@@ -144,12 +145,17 @@ double MirrorScore::Sample::weighed(double surface, double on_surface, double in
   return density * (surface * on_surface + in_volume * (1 - surface) * in_body);
 }
 
-MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine) {
+MirrorScore::PointSet MirrorScore::thinned(const Surfels& fine, Cells cells) {
   Points positions(fine.size(), 3);
   std::vector<double> counts;
   for (Index k = 0; k < fine.size(); ++k) {
     positions.row(k) = fine[k].position.transpose();
     counts.push_back(fine[k].count);
+  }
+  if (cells == Cells::by_points) {
+    const double typical = median(counts);
+    for (double& count : counts) count /= typical;
+    return {std::move(positions), std::move(counts)};
   }
   const double full = sparse * median(counts);
   for (double& count : counts) count = std::min(1.0, count / full);
@@ -170,11 +176,9 @@ MirrorScore::PointSet MirrorScore::mirrored(const Mirror& mirror) const {
   return {std::move(images), std::move(weights)};
 }
 
-double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
-                              double& surface) const {
+MirrorScore::Support MirrorScore::supported(const Sample& sample, const Ball& image) const {
   constexpr double least = 3;
-  const Ball image = ball_of(mirrored, sample.position);
-  if (image.count < least) return 0;
+  if (image.count < least) return {0, 1, 0, sample.surface};
   const Spread own(sample.ball.covariance, radius_), other(image.covariance, radius_);
   const Vector3 gap = sample.ball.mean - image.mean;
   // Less twice the variance that few points leave to the gap.
@@ -193,42 +197,72 @@ double MirrorScore::supported(const Sample& sample, const PointSet& mirrored,
   const double cosine = own.axes.col(0).dot(other.axes.col(0));
   const double turned = own.flatness * other.flatness * (1 - squared(cosine));
   const double missed = offset / squared(far);
-  surface = std::max(surface, other.surface() * sample.surface);
-  return complete * (squared(1 - turned) / (1 + offset / squared(near)) -
-                     penalty * missed * std::exp(1 - missed));
+  const double on_surface = complete * (squared(1 - turned) / (1 + offset / squared(near)) -
+                                        penalty * missed * std::exp(1 - missed));
+  const bool at_rim = more == image.count;
+  return {on_surface, at_rim ? 0 : 1 - complete, at_rim ? 1 - complete : 0,
+          std::max(sample.surface, other.surface() * sample.surface)};
 }
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
-  const Freedom freedom = freedom_of(mirror.kind());
   std::optional<MirrorLayers> layers;
-  if (freedom.any_shape)
+  if (freedom_of(mirror.kind()).any_shape)
     layers.emplace(0.7 * fine_.spacing() * frame.size, layer_of_noise * noise_ * frame.size,
                    frame.size);
+  std::optional<PointSet> images;  // made for the first ball, as a mirror may move nothing
+  const std::vector<PointFit> points =
+      point_fits([&](const Vector3& x) { return mirror.reflect(x); },
+                 [&](const Vector3& x) {
+                   if (!images) images.emplace(mirrored(mirror));
+                   return ball_of(*images, x);
+                 },
+                 stride, layers ? &*layers : nullptr);
+  return whole_of(points, stride, layers ? &*layers : nullptr);
+}
+
+std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map,
+                                              std::size_t stride) const {
+  const PrincipalFrame& frame = cloud_.frame;
+  const Eigen::Isometry3d back = map.inverse();
+  return point_fits(
+      [&](const Vector3& x) -> Vector3 { return frame.from_frame(map * frame.to_frame(x)); },
+      [&](const Vector3& x) {
+        Ball ball = ball_of(thinned_, back * x);
+        ball.mean = map.linear() * ball.mean;
+        ball.covariance = map.linear() * ball.covariance * map.linear().transpose();
+        return ball;
+      },
+      stride, nullptr);
+}
+
+// Points without an image first.
+template <typename Image, typename ImageBall>
+std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const ImageBall& image_ball,
+                                              std::size_t stride, MirrorLayers* layers) const {
+  const PrincipalFrame& frame = cloud_.frame;
   struct Moved {
-    const Sample* sample;
+    std::size_t sample;
     double distance;  // from the mirror
   };
+  std::vector<PointFit> fits;
   std::vector<Moved> asked;
   std::vector<Vector3> images;
-  double all = 0, weights = 0, support = 0, exact = 0;
   for (std::size_t k = 0; k < samples_.size(); k += stride) {
     const Sample& sample = samples_[k];
-    all += sample.weight();
-    const Vector3 x = frame.from_frame(sample.position), image = mirror.reflect(x);
+    const Vector3 x = frame.from_frame(sample.position), image = image_of(x);
     if (!image.allFinite()) {
-      weights += sample.weight();
+      fits.push_back({k, sample.weight()});
       continue;
     }
     if (layers)
       layers->add(x, frame.axes * Spread(sample.ball.covariance, radius_).axes.col(0), image);
     const double distance = (image - x).norm() / (2 * frame.size);
     if (distance < rounding) continue;
-    asked.push_back({&sample, distance});
+    asked.push_back({k, distance});
     images.push_back(image);
   }
   if (asked.empty()) return {};
-  const PointSet image_set = mirrored(mirror);
   const std::vector<Vector3> partners = points_.nearest(images, far * frame.size);
   std::vector<double> partnered{0};
   for (std::size_t k = 0; k < asked.size(); ++k)
@@ -236,25 +270,37 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const double extent = quantile(std::move(partnered), 0.95);
   const double in_full = std::max(moved_, moved_by_extent * extent);
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    const auto& [sample, distance] = asked[k];
+    const auto& [index, distance] = asked[k];
+    const Sample& sample = samples_[index];
     const double gap = (partners[k] - images[k]).norm() / frame.size;  // NaN where there is none
     if (gap < rounding) {
-      weights += sample->weight();
-      exact += sample->weight();
-      support += sample->weight();
+      fits.push_back({index, sample.weight(), sample.weight(), 0, 0, true});
       continue;
     }
     const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
-    double surface = sample->surface;
-    const double on_surface = supported(*sample, image_set, surface);
+    const auto [on_surface, missing, rim, surface] = supported(sample, image_ball(sample.position));
     // How likely a neighbour as near is of points spread at random in the volume of the ball.
-    const double density = sample->ball.count * static_cast<double>(cloud_.partition.total()) /
+    const double density = sample.ball.count * static_cast<double>(cloud_.partition.total()) /
                            static_cast<double>(thinned_.points.rows());
     const double chance = 1 - std::exp(-density * std::pow(gap / radius_, 3));
     const double in_body = std::isnan(gap) ? 0 : std::max(0.0, 1 - chance / by_chance);
-    weights += displacement * sample->weighed(surface, 1, 1);
-    support += displacement * sample->weighed(surface, on_surface, in_body);
+    fits.push_back({index, displacement * sample.weighed(surface, 1, 1),
+                    displacement * sample.weighed(surface, on_surface, in_body),
+                    displacement * sample.weighed(surface, missing, std::isnan(gap) ? 1 : 0),
+                    displacement * sample.weighed(surface, rim, 0)});
+  }
+  return fits;
+}
+
+MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t stride,
+                                const MirrorLayers* layers) const {
+  double all = 0, weights = 0, support = 0, exact = 0;
+  for (std::size_t k = 0; k < samples_.size(); k += stride) all += samples_[k].weight();
+  for (const PointFit& point : points) {
+    weights += point.weight;
+    support += point.support;
+    if (point.exact) exact += point.weight;
   }
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;

@@ -4,6 +4,7 @@
 #include <symsurf/mirror.h>
 #include <symsurf/result.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,11 +19,23 @@
 
 namespace symsurf {
 
+class MirrorLayers;
+
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
   double share = 0;         ///< mean support of the points that the mirror moves, at most 1
   double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
+};
+
+/// What a map does with one of the points that the score is measured at.
+struct PointFit {
+  std::size_t point = 0;  ///< which of them
+  double weight = 0;      ///< what it counts: less where the map hardly moves it
+  double support = 0;     ///< so much of that for the map; may be negative
+  double missing = 0;     ///< so much of that is lost as the cloud has less where its image falls
+  double rim = 0;         ///< so much of that is lost as the cloud has less around the point itself
+  bool exact = false;     ///< its image is a point of the cloud, to rounding
 };
 
 /// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
@@ -40,12 +53,20 @@ struct MirrorFit {
 /// counts.
 class MirrorScore {
  public:
+  /// What a cell of the thinned cloud counts: the same where it holds some points, so that density
+  /// hardly matters, or as many as it holds, so that where cells divide a noisy surface does not.
+  enum class Cells { alike, by_points };
+
   /// The cloud and its points must outlive the score. Collective, as all that follows.
-  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
+  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context,
+              Cells cells = Cells::alike);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The same of a third of the points: enough to see which mirrors are worth refining.
   MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
+  /// Of a rotation, a reflection or both, in the principal frame, what each point that it moves
+  /// says; of every `stride`-th.
+  std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, std::size_t stride = 1) const;
 
   /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
   void fill(Result& result) const;
@@ -83,7 +104,19 @@ class MirrorScore {
     double weighed(double surface, double on_surface, double in_body) const;
   };
 
+  struct Support {
+    double on_surface;
+    double missing, rim;  // 0..1: where the image's or the sample's ball has fewer points
+    double surface;       // the sample's, where the image tells more
+  };
+
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
+  // image(x) in input units; image_ball(x), of the cloud's image around x, in the principal frame.
+  template <typename Image, typename ImageBall>
+  std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,
+                                   std::size_t stride, MirrorLayers* layers) const;
+  MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
+                     const MirrorLayers* layers) const;
   void choose_radius();
   double measured_noise() const;
   // The thinned points, or their images.
@@ -96,9 +129,9 @@ class MirrorScore {
   };
 
   Ball ball_of(const PointSet& set, const Vector3& x) const;
-  static PointSet thinned(const Surfels& fine);
+  static PointSet thinned(const Surfels& fine, Cells cells);
   PointSet mirrored(const Mirror& mirror) const;
-  double supported(const Sample& sample, const PointSet& mirrored, double& surface) const;
+  Support supported(const Sample& sample, const Ball& image) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;

@@ -14,13 +14,14 @@ from typing import Any
 
 from .. import __version__
 from .._core import InvalidInput, InvalidParameter, operations
-from . import damage, demo, detect, evaluate, generate, methods, report
+from . import damage, demo, detect, evaluate, generate, methods, report, symmetries
 from .operate import OperationCommand
 from .values import attach_negative_numbers
 
 COMMANDS: dict[str, Any] = {
     "detect": detect,
     **{name: OperationCommand(operation) for name, operation in operations().items()},
+    "symmetries": symmetries,
     "report": report,
     "generate": generate,
     "damage": damage,

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import gzip
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from .._core import InvalidInput
 from .formats import PACKED
+
+if TYPE_CHECKING:
+    import gzip
 
 _BLOCK = 1 << 20  # bytes that are unpacked at once
 
@@ -28,6 +29,9 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
     if stream is None and suffix == plain == Path(name).suffix.lower():
         yield Path(name)
         return
+    import gzip  # here: few files need them
+    from tempfile import TemporaryDirectory
+
     with TemporaryDirectory(prefix="symsurf-") as folder:
         file = Path(folder) / f"input{plain}"
         if suffix != plain:

@@ -227,7 +227,7 @@ def _docstring(operation: Operation) -> str:
     if operation.adds_points:
         lines.append("Output 0 is the whole, output 1 what was added alone.")
     if operation.arrays:
-        lines.append("Point data:")
+        lines += ["Point data:", ""]
     for array in operation.arrays:
         text = f"- {array_name(operation, array.name)}: {array.doc}"
         lines.append(textwrap.fill(text, 96, subsequent_indent="  "))

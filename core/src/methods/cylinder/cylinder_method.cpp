@@ -9,6 +9,7 @@
 #include "methods/common_parameters.h"
 #include "methods/parametric/pair_hypotheses.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/surface_slide.h"
 #include "methods/parametric/unit_cylinder.h"
 #include "methods/registry.h"
 #include "score/matching.h"
@@ -59,7 +60,7 @@ std::vector<CylinderCandidate> candidate_cylinders(const Surfels& surfels, const
     }
   };
   return best_of_each_size(
-      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through),
+      hypotheses_of_pairs<UnitCylinder>(surfels, seed, pairs_tried, pairs_kept, through, context),
       [](const UnitCylinder& cylinder) { return cylinder.radius; }, surfels, map, count, context);
 }
 
@@ -99,18 +100,24 @@ std::vector<CylinderCandidate> refined_cylinders(const Surfels& surfels, std::ui
   const SurfelMap map(surfels);
   std::vector<CylinderCandidate> candidates =
       candidate_cylinders(surfels, map, seed, started, context);
-  for (CylinderCandidate& candidate : candidates)
+  for (CylinderCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  }
   suppress_non_maxima(surfels, candidates, alike_cylinders, started);
   if (!candidates.empty()) drop_weakly_supported(candidates);
-  for (CylinderCandidate& candidate : candidates)
+  for (CylinderCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  }
   suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   const std::size_t found = std::min(rescanned, candidates.size());
   for (std::size_t i = 0; i < found; ++i)
-    for (const double angle : angles)
+    for (const double angle : angles) {
+      context.check();
       candidates.push_back(refined_on_surfels(
           surfels, map, CylinderCandidate{turned(candidates[i].shape, angle)}, 0.02, 0.012, 4, 1));
+    }
   suppress_non_maxima(surfels, candidates, alike_cylinders, 2 * fitted_to_all);
   return candidates;
 }
@@ -132,7 +139,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
     if (i == 0 || candidates[i].support > chance_explains)
-      candidates[i] = refinement.fitted_to_exact_pairs(refinement.fitted(candidates[i], 3000, 40));
+      candidates[i] = refinement.fitted_to_exact_pairs(
+          refinement.fitted(slid_along_surfaces(candidates[i], refinement), 3000, 40));
   suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
   drop_weakly_supported(candidates);
   context.report(0.7);

@@ -13,9 +13,7 @@ namespace symsurf {
 class CylinderStep {
  public:
   explicit CylinderStep(const UnitCylinder& cylinder)
-      : cylinder_(cylinder),
-        sides_{cylinder.axis.unitOrthogonal(),
-               cylinder.axis.cross(cylinder.axis.unitOrthogonal())} {
+      : cylinder_(cylinder), sides_{cylinder.side(0), cylinder.side(1)} {
     // The axis tilts about the point nearest to the cloud's middle.
     cylinder_.point -= cylinder_.point.dot(cylinder_.axis) * cylinder_.axis;
   }
@@ -37,20 +35,20 @@ class CylinderStep {
     gradient_.noalias() += weighted.transpose() * gap;
   }
 
+  const Eigen::Matrix<double, 5, 5>& hessian() const { return hessian_; }
+
   /// The cylinder after the step, and how far it moved; the same one where nothing holds it.
   UnitCylinder taken(double* moved = nullptr) const {
-    Numbers change = solved<5>(hessian_ + Hessian(damping() * Hessian::Identity()), -gradient_);
+    UnitCylinder::Change change =
+        solved<5>(hessian_ + Hessian(damping() * Hessian::Identity()), -gradient_);
     // Wide cylinders may slide along their radius, but none turns inside out.
     const double longest = std::min(0.5 * cylinder_.radius, 1.0);
     if (change.norm() > longest) change *= longest / change.norm();
     if (moved) *moved = change.norm();
-    return {cylinder_.point + change[0] * sides_[0] + change[1] * sides_[1],
-            (cylinder_.axis + change[2] * sides_[0] + change[3] * sides_[1]).normalized(),
-            std::max(cylinder_.radius + change[4], 1e-3)};
+    return cylinder_.changed(change);
   }
 
  private:
-  using Numbers = Eigen::Matrix<double, 5, 1>;
   using Hessian = Eigen::Matrix<double, 5, 5>;
 
   double damping() const { return 1e-13 * hessian_.trace() + 1e-300; }
@@ -58,7 +56,7 @@ class CylinderStep {
   UnitCylinder cylinder_;
   Vector3 sides_[2];
   Hessian hessian_ = Hessian::Zero();
-  Numbers gradient_ = Numbers::Zero();
+  UnitCylinder::Change gradient_ = UnitCylinder::Change::Zero();
 };
 
 }  // namespace symsurf

@@ -83,7 +83,7 @@ auto ParametricRefinement::matches(const Shape& shape, double limit, Index strid
 template <typename Shape>
 Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Index wanted,
                                               int steps) const {
-  constexpr double narrowest = 0.003;
+  constexpr double narrowest = 0.001;
   constexpr double along_surface = 0.01;
   const Index stride = stride_for(wanted);
   Candidate<Shape> candidate = start;
@@ -180,6 +180,9 @@ template Candidate<UnitCylinder> ParametricRefinement::fitted_to_exact_pairs(
     const Candidate<UnitCylinder>&) const;
 template Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(
     const UnitSphere&) const;
+template Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(
+    const UnitCylinder&) const;
+template double ParametricRefinement::support(const UnitCylinder&, Index) const;
 template double ParametricRefinement::support(const UnitSphere&, Index) const;
 
 }  // namespace symsurf

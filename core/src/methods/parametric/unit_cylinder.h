@@ -14,6 +14,9 @@ class CylinderStep;
 struct UnitCylinder {
   using Step = CylinderStep;
 
+  /// What is added to the point and to the axis, along either side each, and to the radius.
+  using Change = Eigen::Vector<double, 5>;
+
   Vector3 point = Vector3::Zero();
   Vector3 axis = Vector3::UnitZ();
   double radius = 1;
@@ -42,6 +45,19 @@ struct UnitCylinder {
     const double stretch = std::max(2 * radius / length - 1, 1e-6);
     const Vector3 upright = u.dot(n) * u, lengthwise = axis.dot(n) * axis;
     return ((n - upright - lengthwise) / stretch + lengthwise - upright).normalized();
+  }
+
+  /// The axis tilts about its point nearest to the origin.
+  UnitCylinder changed(const Change& by) const {
+    return {point - point.dot(axis) * axis + by[0] * side(0) + by[1] * side(1),
+            (axis + by[2] * side(0) + by[3] * side(1)).normalized(),
+            std::max(radius + by[4], 1e-3)};
+  }
+
+  /// Unit vectors across the axis.
+  Vector3 side(int k) const {
+    const Vector3 first = axis.unitOrthogonal();
+    return k == 0 ? first : axis.cross(first);
   }
 };
 

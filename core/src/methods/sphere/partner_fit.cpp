@@ -5,7 +5,7 @@
 
 #include "base/math.h"
 #include "methods/parametric/sphere_step.h"
-#include "methods/sphere/surface_slide.h"
+#include "methods/parametric/surface_slide.h"
 #include "score/correspondence.h"
 
 namespace symsurf {
@@ -174,7 +174,7 @@ SphereCandidate PartnerFit::slid(const SphereCandidate& start,
     std::stable_sort(positions.begin(), positions.end(),
                      [](const Position& a, const Position& b) { return a.nearness > b.nearness; });
   };
-  for (const UnitSphere& there : spheres_around(start.shape, loosest, spacing_))
+  for (const UnitSphere& there : shapes_around(start.shape, loosest, spacing_))
     positions.push_back({there, nearness(there, on_the_way)});
   if (positions.empty()) return start;
   sort();

@@ -34,7 +34,7 @@ std::vector<SphereCandidate> candidate_spheres(const Surfels& surfels, const Sur
         for (const double side : {-1.0, 1.0}) add(UnitSphere{middle, u, side * curvature});
   };
   return best_of_each_size(
-      hypotheses_of_pairs<UnitSphere>(surfels, seed, pairs_tried, pairs_kept, through),
+      hypotheses_of_pairs<UnitSphere>(surfels, seed, pairs_tried, pairs_kept, through, context),
       [](const UnitSphere& sphere) { return sphere.radius(); }, surfels, map, count, context);
 }
 
@@ -46,8 +46,12 @@ void drop_weakly_supported(std::vector<SphereCandidate>& candidates) {
 // From each of the best candidates to the maximum next to it of Hruda's measure, where that
 // explains more.
 void maximise_measure(const Surfels& surfels, const SurfelMap& map,
-                      std::vector<SphereCandidate>& candidates) {
-  const SphereMeasure measure(surfels.positions(measured));
+                      std::vector<SphereCandidate>& candidates, const Context& context) {
+  const SphereMeasure of_surfels(surfels.positions(measured));
+  const auto measure = [&](const auto& sphere, auto* gradient) {
+    context.check();
+    return of_surfels(sphere, gradient);
+  };
   for (std::size_t i = 0; i < std::min(maximised, candidates.size()); ++i) {
     const UnitSphere sphere =
         UnitSphere::of(maximise<5>(measure, candidates[i].shape.coefficients(), 0.02, 8));
@@ -63,16 +67,20 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
                                                const Context& context) {
   std::vector<SphereCandidate> candidates = candidate_spheres(surfels, map, seed, started, context);
   if (candidates.empty()) candidates.push_back({});
-  for (SphereCandidate& candidate : candidates)
+  for (SphereCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  }
   std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
   if (!candidates.empty()) {
     suppress_non_maxima(surfels, candidates, alike_spheres, started);
-    maximise_measure(surfels, map, candidates);
+    maximise_measure(surfels, map, candidates, context);
     drop_weakly_supported(candidates);
   }
-  for (SphereCandidate& candidate : candidates)
+  for (SphereCandidate& candidate : candidates) {
+    context.check();
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  }
   suppress_non_maxima(surfels, candidates, alike_spheres, count);
   candidates.insert(candidates.end(), planes.begin(), planes.end());
   return candidates;

@@ -4,11 +4,12 @@
 
 #include "methods/common_parameters.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/surface_slide.h"
 #include "methods/registry.h"
 #include "methods/sphere/large_spheres.h"
 #include "methods/sphere/partner_fit.h"
+#include "methods/sphere/settled_sphere.h"
 #include "methods/sphere/sphere_candidates.h"
-#include "methods/sphere/surface_slide.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 

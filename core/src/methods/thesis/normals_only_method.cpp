@@ -67,7 +67,7 @@ MethodImplementation normals_only_method() {
       "Pairs each point with the point nearest to the line along its normal: for two surfaces at a "
       "constant distance.";
   method.parameters = normal_parameters();
-  method.preprocessing = Preprocessing::none();
+  method.preprocessing = Preprocessing::order_only();
   method.run = run_normals_only;
   return method;
 }

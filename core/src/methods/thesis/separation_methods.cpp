@@ -273,7 +273,7 @@ MethodImplementation separation_method() {
       "Divides the cloud by planes through its centroid and maps one side onto the other along the "
       "normal; the score depends on the unit of the input.";
   method.parameters = {direction_steps()};
-  method.preprocessing = Preprocessing::none();
+  method.preprocessing = Preprocessing::order_only();
   method.run = run_separation;
   return method;
 }
@@ -287,7 +287,7 @@ MethodImplementation separation_normals_method() {
       "similar normal; the score depends on the unit of the input.";
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());
-  method.preprocessing = Preprocessing::none();
+  method.preprocessing = Preprocessing::order_only();
   method.run = run_separation_normals;
   return method;
 }

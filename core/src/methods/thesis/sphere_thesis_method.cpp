@@ -218,7 +218,7 @@ MethodImplementation sphere_thesis_method() {
       pair_distance(),
   };
   method.minimum_points = 5;
-  method.preprocessing = Preprocessing::none();
+  method.preprocessing = Preprocessing::order_only();
   method.run = run_sphere_thesis;
   return method;
 }

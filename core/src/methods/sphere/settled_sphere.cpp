@@ -1,4 +1,4 @@
-#include "methods/sphere/surface_slide.h"
+#include "methods/sphere/settled_sphere.h"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,6 @@
 namespace symsurf {
 
 namespace {
-
-constexpr double step = 0.5;          // of the spacing
-constexpr std::array farthest{7, 4};  // steps to either side, of the loosest and the next
-
-constexpr int slides = 4;
-constexpr Index first_samples = 120, second_samples = 800;  // samples
-constexpr std::size_t tried_slides = 4;
-constexpr double clearly_more = 1e-3;
 
 constexpr std::array rounds{1.0, 0.6};                               // their steps, in spacings
 constexpr int few = 2;                                               // steps to either side
@@ -43,37 +35,6 @@ Eigen::Vector2d highest(const Eigen::Matrix2Xd& positions, const Eigen::VectorXd
 }
 
 }  // namespace
-
-std::vector<UnitSphere> spheres_around(const UnitSphere& sphere,
-                                       const Eigen::Matrix<double, 4, 2>& loosest, double spacing) {
-  std::vector<UnitSphere> around;
-  for (int i = -farthest[0]; i <= farthest[0]; ++i)
-    for (int j = -farthest[1]; j <= farthest[1]; ++j) {
-      const Eigen::Vector4d by = step * spacing * loosest * Eigen::Vector2d(i, j);
-      around.push_back(sphere.changed(by));
-    }
-  return around;
-}
-
-SphereCandidate slid_along_surfaces(SphereCandidate candidate,
-                                    const ParametricRefinement& refinement) {
-  candidate.support = refinement.support(candidate.shape, second_samples);
-  for (int slide = 0; slide < slides; ++slide) {
-    std::vector<SphereCandidate> positions;
-    for (const UnitSphere& sphere :
-         spheres_around(candidate.shape, refinement.loosest(candidate.shape), refinement.spacing()))
-      positions.push_back({sphere, refinement.support(sphere, first_samples)});
-    sort_best_first(positions);
-    positions.resize(std::min(tried_slides, positions.size()));
-    const double before = candidate.support;
-    for (const SphereCandidate& position : positions) {
-      const SphereCandidate fitted = refinement.fitted(position, second_samples, 6);
-      if (fitted.support > candidate.support + clearly_more) candidate = fitted;
-    }
-    if (candidate.support == before) break;
-  }
-  return candidate;
-}
 
 SphereCandidate settled_on_surfaces(const SphereCandidate& candidate,
                                     const ParametricRefinement& refinement) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <symsurf/symmetries.h>
+
+#include "cloud/cloud.h"
+
+namespace symsurf {
+
+/// The point group of a validated cloud in one process. Elements are proposed by candidate planes,
+/// by the lines that these meet in and by the principal axes; the groups that they may make are
+/// fitted and judged as a whole, the largest first.
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,253 @@
+"""Pages made from the descriptions that the front ends are made from.
+
+Functions that give Markdown, which pages call as substitutions, `{{ methods() }}`; and on the page of
+each method and operation the table of its parameters in place of the paragraph about them.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from sphinx.application import Sphinx
+
+import symsurf
+import symsurf.cli
+
+HOSTS = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "hosts"
+
+
+def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [list(header), ["---"] * len(list(header)), *map(list, rows)]
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
+
+
+def methods() -> str:
+    return table(
+        ("method", "what it does", "least points"),
+        (
+            (f"[{each.name}](/methods/{each.name}.md)", each.summary, str(each.minimum_points))
+            for each in symsurf.methods().values()
+        ),
+    )
+
+
+def operations() -> str:
+    return table(
+        ("operation", "what it does"),
+        (
+            (f"[{each.name}](/operations/{each.name}.md)", each.summary)
+            for each in symsurf.operations().values()
+        ),
+    )
+
+
+def parameters(described: symsurf.Method | symsurf.Operation) -> str:
+    return table(
+        ("parameter", "default", "allowed", "what it is"),
+        (
+            (f"`{each.name}`", f"`{_shown(each.default)}`", each.allowed, each.doc)
+            for each in described.parameters
+        ),
+    )
+
+
+def arrays(operation: symsurf.Operation) -> str:
+    return table(
+        ("array", "a point", "what it is"),
+        (
+            (f"`{each.name}`", f"{each.components} {each.type}", each.doc)
+            for each in operation.arrays
+        ),
+    )
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        return f'"{value}"'
+    return (
+        str(value.tolist())
+        if hasattr(value, "tolist")
+        else f"{value:g}"
+        if isinstance(value, float)
+        else str(value)
+    )
+
+
+def functions(names: Iterable[str]) -> str:
+    """Python's, with their docstrings."""
+    return _rst(f".. autofunction:: symsurf.{name}" for name in names)
+
+
+def detectors() -> str:
+    return functions(f"detect_{name}" for name in symsurf.methods())
+
+
+def operating_functions() -> str:
+    return functions(symsurf.operations())
+
+
+def classes(names: Iterable[str]) -> str:
+    return _rst(
+        f".. autoclass:: {name}\n   :members:\n   :inherited-members: object, tuple\n"
+        for name in names
+    )
+
+
+def vtk_python() -> str:
+    import symsurf.vtk
+
+    return _rst(
+        f".. autoclass:: symsurf.vtk.{name}\n   :exclude-members: __init__"
+        for name in symsurf.vtk.__all__
+    )
+
+
+def _rst(directives: Iterable[str]) -> str:
+    return "```{eval-rst}\n" + "\n\n".join(directives) + "\n```"
+
+
+def commands() -> str:
+    """The help of every command."""
+    os.environ["COLUMNS"] = "88"  # argparse's width
+    chosen = next(
+        action for action in symsurf.cli.parser()._actions if isinstance(action.choices, dict)
+    )
+    texts = [
+        f"## {name}\n\n```text\n{command.format_help()}```"
+        for name, command in chosen.choices.items()
+    ]
+    return "\n\n".join(texts)
+
+
+def cpp_headers() -> str:
+    """Every header of the core, in the order of their names."""
+    headers = sorted(Path(name).name for name in os.environ["SYMSURF_HEADERS"].split())
+    return "\n\n".join(
+        f"## {header}\n\n```{{doxygenfile}} {header}\n```"
+        for header in headers
+        if header != "symsurf.h"
+    )
+
+
+def vtk_classes() -> str:
+    xml = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "doxygen" / "xml"
+    names = sorted(path.stem[5:] for path in xml.glob("classvtk*.xml"))
+    return "\n\n".join(
+        f"### {name}\n\n```{{doxygenclass}} {name}\n:members:\n```" for name in names
+    )
+
+
+def paraview() -> str:
+    """Every filter and source as ParaView's server manager describes it."""
+    texts = []
+    for file in sorted((HOSTS / "paraview").glob("*.xml")):
+        for proxy in ElementTree.parse(file).iter("SourceProxy"):
+            texts.append(_proxy(proxy))
+    return "\n\n".join(texts)
+
+
+def _proxy(proxy: ElementTree.Element) -> str:
+    about = proxy.find("Documentation")
+    text = " ".join(f"{about.get('long_help')} {about.text or ''}".split())
+    ports = [port.get("name") for port in proxy.findall("OutputPort")]
+    outputs = f"\n\nOutputs: {', '.join(f'*{port}*' for port in ports)}." if ports else ""
+    rows = [
+        (f"`{each.get('name')}`", f"`{each.get('default_values')}`" if each.get("default_values")
+         else "", _said(each))
+        for each in proxy
+        if each.tag.endswith("Property") and each.find("Documentation") is not None
+    ]  # fmt: skip
+    return f"## {proxy.get('label')}\n\n{text}{outputs}\n\n" + table(
+        ("property", "default", "what it is"), rows
+    )
+
+
+def _said(described: ElementTree.Element) -> str:
+    """Its documentation; of a choice without what is said of each, which stands elsewhere."""
+    text = " ".join((described.findtext("Documentation") or "").split())
+    choices = [choice.get("value") for choice in described.iter("String")]
+    if not choices:
+        return text
+    return text.split(f" {choices[0]}: ")[0] + f" One of {', '.join(choices)}."
+
+
+def meshlab() -> str:
+    """Every filter with the parameters that pymeshlab prints."""
+    printed = (HOSTS / "meshlab.txt").read_text()
+    texts = []
+    for name, lines in re.findall(
+        r"^(\w+) filter - list of parameter names:\n((?:\t.*\n?)*)", printed, re.MULTILINE
+    ):
+        described = _described_by_filter(name)
+        rows = (re.match(r"\t(\w+) : (\S+) = (.*)", line).groups() for line in lines.splitlines())
+        texts.append(f"## {name}\n\n" + (described.summary if described else "") + "\n\n" + table(
+            ("parameter", "default", "what it is"),
+            ((f"`{parameter}`", f"`{default}`", _parameter_text(described, parameter))
+             for parameter, _, default in rows),
+        ))  # fmt: skip
+    return "\n\n".join(texts)
+
+
+def _described_by_filter(name: str) -> symsurf.Method | symsurf.Operation | None:
+    word = name.split("_", 1)[1]
+    operations = {
+        each.title.lower().replace(" ", "_"): each for each in symsurf.operations().values()
+    }
+    return operations.get(word) or symsurf.methods().get(word.removeprefix("mirror_"))
+
+
+def _parameter_text(described: symsurf.Method | symsurf.Operation | None, parameter: str) -> str:
+    own = described.parameters if described else []
+    texts = {each.name: f"{each.doc} Allowed: {each.allowed}." for each in own}
+    # Which parameters every filter has, docs/meshlab.md says.
+    return texts.get(parameter, "[as everywhere](/meshlab.md#the-filters)")
+
+
+def add_parameters(app: Sphinx, page: str, source: list[str]) -> None:
+    folder, _, name = page.rpartition("/")
+    described = {"methods": symsurf.methods, "operations": symsurf.operations}.get(folder)
+    if not described or name not in described():
+        return
+    text = f"**Parameters**\n\n{parameters(described()[name])}\n"
+    if folder == "operations" and described()[name].arrays:
+        text += f"\n**What each point gets**\n\n{arrays(described()[name])}\n"
+    source[0], count = re.subn(
+        r"^\*\*Parameters\.\*\*.*?(?:\n\n|\Z)", lambda _: text + "\n", source[0],
+        flags=re.MULTILINE | re.DOTALL,
+    )  # fmt: skip
+    if not count:
+        raise ValueError(f"{page} has no paragraph that begins with **Parameters.**")
+
+
+def escape(app: Sphinx, what: str, *described: Any) -> None:
+    """What docstrings hold that reStructuredText and Napoleon take for something else."""
+    lines = described[-1]
+    lines[:] = [re.sub(r"(?<!`)\|(?=[^`|]*\|)|(?<=\w)\|", r"\|", line) for line in lines]
+    # Napoleon takes what stands before a colon in an attribute's first line for its type.
+    if what in ("attribute", "property"):
+        lines.insert(0, "\\")
+
+
+def name_aliases(*described: Any) -> tuple[str | None, str | None]:
+    """Sphinx shows names of types by an own class of its where they are one of several."""
+    return tuple(text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text)
+                 for text in described[-2:])  # fmt: skip
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.config.myst_substitutions = {
+        function.__name__: function
+        for function in (methods, operations, detectors, operating_functions, functions, classes,
+                         vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
+    }  # fmt: skip
+    app.connect("source-read", add_parameters)
+    app.connect("autodoc-process-signature", name_aliases)
+    app.connect("autodoc-process-docstring", escape, priority=400)  # before Napoleon
+    return {"parallel_read_safe": True}

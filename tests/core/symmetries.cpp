@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+#include <symsurf/errors.h>
+#include <symsurf/symmetries.h>
+
+#include <vector>
+
+#include "random_cloud.h"
+#include "symmetries/point_group.h"
+
+namespace symsurf {
+namespace {
+
+struct Expected {
+  std::string name;
+  std::size_t elements, planes, axes;
+};
+
+void expect_group(const PointGroup& group, const Expected& expected) {
+  EXPECT_EQ(group.name, expected.name);
+  EXPECT_EQ(group.elements.size(), expected.elements) << expected.name;
+  EXPECT_EQ(group.plane_normals().size(), expected.planes) << expected.name;
+  EXPECT_EQ(group.axes().size(), expected.axes) << expected.name;
+}
+
+// By the tables of any book on crystallography.
+TEST(PointGroup, HasTheElementsOfItsName) {
+  expect_group(axial_group(1, {}), {"C1", 1, 0, 0});
+  expect_group(reflection_group(), {"Cs", 2, 1, 0});
+  expect_group(inversion_group(), {"Ci", 2, 0, 0});
+  expect_group(axial_group(5, {}), {"C5", 5, 0, 1});
+  expect_group(axial_group(4, {.vertical = true}), {"C4v", 8, 4, 1});
+  expect_group(axial_group(3, {.across = true}), {"C3h", 6, 1, 1});
+  expect_group(axial_group(2, {.rotary = true}), {"S4", 4, 0, 1});
+  expect_group(axial_group(3, {.twofold = true}), {"D3", 6, 0, 4});
+  expect_group(axial_group(6, {.across = true, .vertical = true}), {"D6h", 24, 7, 7});
+  expect_group(axial_group(2, {.rotary = true, .vertical = true}), {"D2d", 8, 2, 3});
+  expect_group(polyhedral_group(3, false, false), {"T", 12, 0, 7});
+  expect_group(polyhedral_group(3, false, true), {"Td", 24, 6, 7});
+  expect_group(polyhedral_group(3, true, false), {"Th", 24, 3, 7});
+  expect_group(polyhedral_group(4, false, false), {"O", 24, 0, 13});
+  expect_group(polyhedral_group(4, true, true), {"Oh", 48, 9, 13});
+  expect_group(polyhedral_group(5, false, false), {"I", 60, 0, 31});
+  expect_group(polyhedral_group(5, true, true), {"Ih", 120, 15, 31});
+}
+
+TEST(Symmetries, OfABoxAreThoseOfItsPlanes) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    std::vector<Vector3> rows;
+    for (int i = 0; i <= 16; ++i)
+      for (int j = 0; j <= 24; ++j)
+        for (int k = 0; k <= 32; ++k)
+          if (i % 16 == 0 || j % 24 == 0 || k % 32 == 0) rows.emplace_back(i - 8, j - 12, k - 16);
+    const Matrix3 rotation = random.rotation();
+    const Vector3 shift = random.in_box();
+    Points points(static_cast<Index>(rows.size()), 3);
+    for (Index i = 0; i < points.rows(); ++i)
+      points.row(i) = (rotation * rows[i] + shift).transpose();
+    const Symmetries found = find_symmetries(points);
+    EXPECT_EQ(found.group, "D2h");
+    EXPECT_TRUE(found.inversion);
+    EXPECT_EQ(found.elements.size(), 8u);
+    EXPECT_LT((found.centre - shift).norm(), 1e-3);
+    ASSERT_EQ(found.planes.size(), 3u);
+    for (const Plane& plane : found.planes)
+      EXPECT_GT((rotation.transpose() * plane.normal()).cwiseAbs().maxCoeff(), 1 - 1e-6);
+  }
+}
+
+TEST(Symmetries, RefusesScoresThatThereAreNot) {
+  const Points points = RandomCloud(0).box(100);
+  EXPECT_THROW(find_symmetries(points, {.minimum_score = -0.1}), InvalidParameter);
+  EXPECT_THROW(find_symmetries(Points(points.topRows(2))), InvalidInput);
+}
+
+}  // namespace
+}  // namespace symsurf
