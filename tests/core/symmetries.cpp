@@ -60,6 +60,7 @@ TEST(Symmetries, OfABoxAreThoseOfItsPlanes) {
     EXPECT_EQ(found.group, "D2h");
     EXPECT_TRUE(found.inversion);
     EXPECT_EQ(found.elements.size(), 8u);
+    EXPECT_LE(found.score, 1);
     EXPECT_LT((found.centre - shift).norm(), 1e-3);
     ASSERT_EQ(found.planes.size(), 3u);
     for (const Plane& plane : found.planes)
