@@ -24,6 +24,7 @@ constexpr double tie = 0.01, free_form_gain = 0.12;
 constexpr double well_explained = 0.6;  // by a free form
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
+constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
 constexpr Index few = 1000;             // points whose score tells little
 
 // Only where every point has an exact partner: else a freer mirror may improve on it.
@@ -114,8 +115,10 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     // comes first: it says which of the others may fit.
     std::optional<Result> free_form;
     const MethodImplementation& bending = implementation("perpendicular");
+    const bool bends_all = cloud.points.size() <= bent_size;
     if (!content && cloud.points.size() >= bending.minimum_points)
-      free_form = run_with_defaults(bending, cloud, context.stage(done, 0.5));
+      free_form =
+          run_with_defaults(bending, bends_all ? cloud : thinned.cloud(), context.stage(done, 0.5));
     for (const MethodImplementation& freer : implementations()) {
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
@@ -136,7 +139,8 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
       best = std::move(result);
       winner = &freer;
     }
-    if (winner != &plane && winner != &bending && thinned.is_thinner())
+    const bool saw_all = winner == &plane || (winner == &bending && bends_all);
+    if (!saw_all && thinned.is_thinner())
       best = run_with_defaults(*winner, cloud, context.stage(done, 1));
     if (best.mirror) best.score = std::max(best.score, least_score);
     reason = content && winner == &plane
