@@ -116,9 +116,11 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     std::optional<Result> free_form;
     const MethodImplementation& bending = implementation("perpendicular");
     const bool bends_all = cloud.points.size() <= bent_size;
-    if (!content && cloud.points.size() >= bending.minimum_points)
+    if (!content && cloud.points.size() >= bending.minimum_points) {
       free_form =
           run_with_defaults(bending, bends_all ? cloud : thinned.cloud(), context.stage(done, 0.5));
+      done = 0.5;
+    }
     for (const MethodImplementation& freer : implementations()) {
       if (!freer.automatic || freer.name == plane.name) continue;
       if (cloud.points.size() < freer.minimum_points) continue;
@@ -126,10 +128,10 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
       const bool is_free_form = freer.name == bending.name;
       if (is_free_form && !free_form) continue;
       if (!is_free_form && free_form && is_ruled_out(freer.name, *free_form, best, cloud)) continue;
-      Result result =
-          is_free_form ? std::move(*free_form)
-                       : run_with_defaults(freer, thinned.cloud(), context.stage(done, done + 0.2));
-      done = std::min(0.8, done + 0.2);
+      Result result = is_free_form ? std::move(*free_form)
+                                   : run_with_defaults(freer, thinned.cloud(),
+                                                       context.stage(done, done + 0.15));
+      if (!is_free_form) done += 0.15;
       scores["score_" + freer.name] = result.score;
       others += ", " + freer.name + " " + text(explained(result));
       if (!(is_exact(result) ? result.score > best.score : !content && explains_more(result, best)))
