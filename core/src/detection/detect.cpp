@@ -71,16 +71,17 @@ Cloud cloud_of(PointsView points, PointsView normals, const Options& options) {
   return cloud;
 }
 
+// By all pairs, before they are shared out: a process without points has none of its own.
+Result judged(Result result, const ParameterValues& values) {
+  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+  return result;
+}
+
 Result detect_in_one(PointsView points, const Options& options, const MethodImplementation& method,
                      const ParameterValues& values, const Context& context) {
   Cloud cloud = cloud_of(points, options.normals, options);
   cloud.faces = options.faces;
-  return *run_pipeline(method, values, cloud, options.refuse_nonfinite, context);
-}
-
-// By all pairs: a process without points has none of its own.
-void judge_whole(Result& result, const ParameterValues& values) {
-  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+  return judged(*run_pipeline(method, values, cloud, options.refuse_nonfinite, context), values);
 }
 
 // Several processes see the points only, not the faces.
@@ -94,15 +95,14 @@ Result detect_distributed(PointsView own, const Options& options,
   if (method.preprocessing.distributed && !has_normals && cloud.partition.total() > small_cloud) {
     const std::optional<Result> result =
         run_pipeline(method, values, cloud, options.refuse_nonfinite, processes.context());
-    if (result) return *result;
+    if (result) return judged(*result, values);
   }
   // The context of the host: the root is the one to be cancelled.
   return run_on_root(
       own, options.normals, *context.communicator(), [&](PointsView points, PointsView normals) {
-        Result whole = *run_pipeline(method, values, cloud_of(points, normals, options),
-                                     options.refuse_nonfinite, context);
-        judge_whole(whole, values);
-        return whole;
+        return judged(*run_pipeline(method, values, cloud_of(points, normals, options),
+                                    options.refuse_nonfinite, context),
+                      values);
       });
 }
 
@@ -115,7 +115,6 @@ Result detect(PointsView points, const Options& options, const Context& context)
   const auto run = context.communicator() ? detect_distributed : detect_in_one;
   Result result = run(points, options, method, values, context);
   if (result.parameters.empty()) result.parameters = values.all();
-  if (!result.statistics.contains("verdict")) judge_whole(result, values);
   context.report(1);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

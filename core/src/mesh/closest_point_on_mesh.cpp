@@ -1,6 +1,5 @@
 #include "mesh/closest_point_on_mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -53,11 +52,11 @@ void try_triangle(const std::array<Vector3, 3>& x, const Vector3& query, Index f
   }
 }
 
-}  // namespace
-
-double ClosestPointOnMesh::Node::squared_distance(const Vector3& query) const {
-  return (low - query).cwiseMax(query - high).cwiseMax(0).squaredNorm();
+double squared_distance(const Eigen::AlignedBox3d& box, const Vector3& query) {
+  return (box.min() - query).cwiseMax(query - box.max()).cwiseMax(0).squaredNorm();
 }
+
+}  // namespace
 
 ClosestPointOnMesh::ClosestPointOnMesh(PointsView points, TrianglesView faces,
                                        const Context& context) {
@@ -82,7 +81,7 @@ std::int32_t ClosestPointOnMesh::build(const Building& of, std::int32_t begin, s
   constexpr std::int32_t leaf = 4, unchecked = 1 << 14;  // triangles
   if (end - begin > unchecked) of.context.check();
   const auto at = static_cast<std::int32_t>(nodes_.size());
-  nodes_.push_back({Vector3::Zero(), Vector3::Zero(), begin, end});
+  nodes_.push_back({{}, begin, end});
   Eigen::AlignedBox3d box;
   if (end - begin <= leaf) {
     for (std::int32_t t = begin; t < end; ++t) {
@@ -108,11 +107,9 @@ std::int32_t ClosestPointOnMesh::build(const Building& of, std::int32_t begin, s
     build(of, begin, middle);  // the next node
     const std::int32_t second = build(of, middle, end);
     nodes_[at].second = second;
-    for (const std::int32_t child : {at + 1, second})
-      box.extend(nodes_[child].low).extend(nodes_[child].high);
+    for (const std::int32_t child : {at + 1, second}) box.extend(nodes_[child].box);
   }
-  nodes_[at].low = box.min();
-  nodes_[at].high = box.max();
+  nodes_[at].box = box;
   return at;
 }
 
@@ -132,8 +129,7 @@ struct ClosestPointOnMesh::Search {
   // A third of the work of try_triangle(), and most triangles of a leaf are farther.
   double squared_distance_of_box(const Triangle& t) const {
     const auto& [a, b, c] = t.corner;
-    const Vector3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    return (low - query).cwiseMax(query - high).cwiseMax(0).squaredNorm();
+    return squared_distance({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}, query);
   }
 
   // Boxes as far as the best are entered: a lower face may be as close there.
@@ -150,8 +146,8 @@ struct ClosestPointOnMesh::Search {
           try_triangle(mesh.triangles_[t].corner, query, mesh.triangles_[t].face, best);
       return;
     }
-    std::pair near(mesh.nodes_[at + 1].squared_distance(query), at + 1);
-    std::pair far(mesh.nodes_[node.second].squared_distance(query), node.second);
+    std::pair near(squared_distance(mesh.nodes_[at + 1].box, query), at + 1);
+    std::pair far(squared_distance(mesh.nodes_[node.second].box, query), node.second);
     if (far < near) std::swap(near, far);
     if (may_hold(near.first)) visit(near.second);
     if (may_hold(far.first)) visit(far.second);

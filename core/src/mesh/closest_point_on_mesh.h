@@ -4,6 +4,7 @@
 #include <symsurf/points_view.h>
 #include <symsurf/triangles_view.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -53,11 +54,9 @@ class ClosestPointOnMesh {
     const Context& context;
   };
   struct Node {
-    Vector3 low, high;
+    Eigen::AlignedBox3d box;
     std::int32_t begin, end;   // its triangles
     std::int32_t second = -1;  // child; the first is the next node. -1: a leaf
-
-    double squared_distance(const Vector3& query) const;
   };
   struct Search;
 

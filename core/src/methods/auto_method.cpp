@@ -81,12 +81,12 @@ bool explains_more(const Result& freer, const Result& simpler) {
   return explained(freer) > explained(simpler) + free_form_gain;
 }
 
-// A free form that maps the shape well and better than a plane, and is far from all mirrors of a
-// kind: none of these comes near it.
-bool is_ruled_out(std::string_view kind, const Result& free_form, const Result& plane,
+// A free form that maps the shape well and better than what is simpler, and is far from all mirrors
+// of a kind: none of these comes near it.
+bool is_ruled_out(std::string_view kind, const Result& free_form, const Result& simpler,
                   const Cloud& cloud) {
   if (!free_form.mirror || explained(free_form) < well_explained ||
-      explained(free_form) < explained(plane) + free_form_gain)
+      !explains_more(free_form, simpler))
     return false;
   const auto& mirror = dynamic_cast<const FreeForm&>(*free_form.mirror);
   const double distance =

@@ -83,7 +83,8 @@ std::optional<FoundDirection> finite_axis(const SymmetryTest& test, const GroupP
 std::optional<FoundDirection> axis_along(const SymmetryTest& test, const GroupPose& start) {
   constexpr int fitted = 4, voting = 12;
   std::optional<FoundDirection> any;
-  const auto passed = test.tried(start, any_turns(fitted), any_turns(voting));
+  const auto passed =
+      test.tried(start, any_turns(Vector3::UnitZ(), fitted), any_turns(Vector3::UnitZ(), voting));
   if (passed && passed->vote.outliers <= most_outliers) {
     any = FoundDirection{passed->pose, passed->vote, 0};
     if (any->vote.outliers <= hardly_any && any->vote.fit >= good_fit) return any;
@@ -96,10 +97,6 @@ std::optional<FoundDirection> axis_along(const SymmetryTest& test, const GroupPo
 Index rank(Index order) { return order == 0 ? 1 << 20 : order; }
 
 }  // namespace
-
-bool are_parallel(const Vector3& a, const Vector3& b, double angle) {
-  return a.cross(b).norm() < angle;
-}
 
 std::vector<FoundDirection> find_planes(const SymmetryTest& test) {
   const SymmetryFit& fit = test.fit();

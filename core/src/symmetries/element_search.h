@@ -30,6 +30,4 @@ std::vector<FoundDirection> find_axes(const SymmetryTest& test,
                                       const std::vector<FoundDirection>& planes,
                                       const Vector3& centre);
 
-bool are_parallel(const Vector3& a, const Vector3& b, double angle);
-
 }  // namespace symsurf

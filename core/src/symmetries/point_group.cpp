@@ -51,6 +51,10 @@ Matrix3 reflection(const Vector3& normal) {
   return Matrix3::Identity() - 2 / normal.squaredNorm() * normal * normal.transpose();
 }
 
+bool are_parallel(const Vector3& a, const Vector3& b, double angle) {
+  return a.cross(b).norm() < angle;
+}
+
 PointGroup axial_group(Index order, const AxialElements& has) {
   const auto n = static_cast<double>(std::max<Index>(order, 1));
   const Vector3 x = Vector3::UnitX(), z = Vector3::UnitZ();
@@ -115,7 +119,7 @@ std::vector<PointGroup::Axis> PointGroup::axes() const {
     const Vector3 direction = svd.matrixV().col(2);
     if (continuous && std::abs(direction.z()) > 1 - rounding) continue;
     const auto same = std::find_if(found.begin(), found.end(), [&](const Axis& axis) {
-      return axis.direction.cross(direction).norm() < rounding;
+      return are_parallel(axis.direction, direction, rounding);
     });
     if (same == found.end())
       found.push_back({direction, 2});

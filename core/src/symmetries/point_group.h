@@ -46,4 +46,7 @@ PointGroup polyhedral_group(Index highest_order, bool inversion, bool mirror);
 Matrix3 turn(const Vector3& axis, double angle);
 Matrix3 reflection(const Vector3& normal);
 
+/// Whether the lines along two unit vectors are, within an angle in radians.
+bool are_parallel(const Vector3& a, const Vector3& b, double angle);
+
 }  // namespace symsurf

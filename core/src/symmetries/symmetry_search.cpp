@@ -16,8 +16,8 @@ namespace symsurf {
 
 namespace {
 
-constexpr double below_turns =
-    0.03;  // fit of a group: less, and it has more elements than the cloud
+// Of the fit of the turns alone: a group that fits so much worse has more elements than the cloud.
+constexpr double below_turns = 0.03;
 
 // Of a pose whose x is to point along a direction, which is laid across z.
 GroupPose with_x(GroupPose pose, const Vector3& x) {
@@ -56,7 +56,7 @@ class SymmetrySearch {
     if (axes_.empty() || axes_.front().order != 0) return {};
     const FoundDirection& axis = axes_.front();
     const GroupPose across = GroupPose::along(Vector3(axis.pose.axes.col(0)), axis.pose.centre);
-    const auto other = test_.tried(across, any_turns(4));
+    const auto other = test_.tried(across, any_turns(Vector3::UnitZ(), 4));
     if (!other) return {};
     return Placed{spherical_group(), other->pose};
   }
@@ -218,10 +218,9 @@ class SymmetrySearch {
       constexpr int turns = 8;
       for (const PointGroup::Axis& axis : placed.group.axes())
         if (axis.order == 0)
-          for (int k = 1; k <= turns; ++k)
+          for (const Matrix3& turned : any_turns(axis.direction, turns))
             for (const Matrix3& element : placed.group.elements)
-              elements.push_back(
-                  turn(axis.direction, 2 * std::numbers::pi * std::numbers::phi * k) * element);
+              elements.push_back(turned * element);
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};

@@ -79,10 +79,10 @@ std::vector<Matrix3> turns_of(Index order, std::size_t most) {
   return turns;
 }
 
-std::vector<Matrix3> any_turns(int count) {
+std::vector<Matrix3> any_turns(const Vector3& axis, int count) {
   std::vector<Matrix3> turns;
   for (int k = 1; k <= count; ++k)
-    turns.push_back(turn(Vector3::UnitZ(), 2 * std::numbers::pi * std::numbers::phi * k));
+    turns.push_back(turn(axis, 2 * std::numbers::pi * std::numbers::phi * k));
   return turns;
 }
 

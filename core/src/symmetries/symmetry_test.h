@@ -55,7 +55,7 @@ class SymmetryTest {
 /// Turns by k / order of a full turn, k = 1, 2, ... at most `most` of them.
 std::vector<Matrix3> turns_of(Index order, std::size_t most = 128);
 
-/// Turns about z that are those of no order up to hundreds.
-std::vector<Matrix3> any_turns(int count);
+/// Turns about an axis that are those of no order up to hundreds.
+std::vector<Matrix3> any_turns(const Vector3& axis, int count);
 
 }  // namespace symsurf

@@ -89,9 +89,8 @@ void drop_weakly_supported(std::vector<CylinderCandidate>& candidates) {
 // The same distance from the cloud's middle, with the axis turned about the line between them.
 UnitCylinder turned(const UnitCylinder& cylinder, double angle) {
   const Vector3 u = cylinder.from_axis(Vector3::Zero()).normalized();
-  const Vector3 nearest = cylinder.point - cylinder.point.dot(cylinder.axis) * cylinder.axis;
   const Vector3 axis = std::cos(angle) * cylinder.axis + std::sin(angle) * u.cross(cylinder.axis);
-  return {nearest, axis, cylinder.radius};
+  return {cylinder.nearest_to_origin(), axis, cylinder.radius};
 }
 
 // On the thinned cloud alone.

@@ -15,7 +15,7 @@ class CylinderStep {
   explicit CylinderStep(const UnitCylinder& cylinder)
       : cylinder_(cylinder), sides_{cylinder.side(0), cylinder.side(1)} {
     // The axis tilts about the point nearest to the cloud's middle.
-    cylinder_.point -= cylinder_.point.dot(cylinder_.axis) * cylinder_.axis;
+    cylinder_.point = cylinder_.nearest_to_origin();
   }
 
   void add(const Vector3& x, const Vector3& gap, const Matrix3& metric, double weight) {

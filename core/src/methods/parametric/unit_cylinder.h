@@ -47,9 +47,12 @@ struct UnitCylinder {
     return ((n - upright - lengthwise) / stretch + lengthwise - upright).normalized();
   }
 
+  /// Of the axis.
+  Vector3 nearest_to_origin() const { return point - point.dot(axis) * axis; }
+
   /// The axis tilts about its point nearest to the origin.
   UnitCylinder changed(const Change& by) const {
-    return {point - point.dot(axis) * axis + by[0] * side(0) + by[1] * side(1),
+    return {nearest_to_origin() + by[0] * side(0) + by[1] * side(1),
             (axis + by[2] * side(0) + by[3] * side(1)).normalized(),
             std::max(radius + by[4], 1e-3)};
   }
