@@ -2,6 +2,8 @@
 #include <pybind11/stl.h>
 #include <symsurf/analysis.h>
 
+#include <array>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "context.h"
@@ -11,6 +13,12 @@
 namespace symsurf::python {
 
 namespace {
+
+Points ends_of(const std::array<Vector3, 2>& segment) {
+  Points ends(2, 3);
+  ends << segment[0].transpose(), segment[1].transpose();
+  return ends;
+}
 
 py::dict analyse_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, bool refuse_nonfinite, py::handle seed,
@@ -27,10 +35,11 @@ py::dict analyse_fields(const std::string& name, const PointsArgument& points,
       without_gil([&] { return analyse(name, points, options, context); });
   py::list axes, transformations;
   for (const SymmetryAxis& axis : result.axes)
-    axes.append(py::make_tuple(axis.point, axis.direction, axis.order));
+    axes.append(py::make_tuple(axis.point, axis.direction, axis.order,
+                               ends_of(axis.segment(*result.footprint))));
   for (const Transformation& each : result.transformations)
     transformations.append(py::make_tuple(each.kind, each.matrix, each.score, to_python(each.from),
-                                          to_python(each.onto)));
+                                          to_python(each.onto), each.place(points)));
   py::dict fields;
   fields["points"] = points.array;
   fields["arrays"] = to_python(result.arrays, described.arrays);
@@ -75,14 +84,6 @@ void bind_analyses(py::module_& module) {
   module.def("analyse", &analyse_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
              py::arg("refuse_nonfinite"), py::arg("seed"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), "The fields of an analysis' result.");
-  module.def(
-      "axis_segment",
-      [](const Vector3& point, const Vector3& direction, const PointsArgument& points) {
-        return SymmetryAxis{point, direction, 0}.segment(points);
-      },
-      py::arg("point"), py::arg("direction"), py::arg("points"),
-      "Both ends of the piece of an axis to draw: along the points and a tenth of their extent "
-      "beyond.");
 }
 
 }  // namespace symsurf::python

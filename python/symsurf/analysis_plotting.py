@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import InvalidParameter, analyses, axis_segment
+from ._core import InvalidParameter, analyses
 from .drawing import (
     UNPAIRED,
     add_title,
@@ -61,14 +61,13 @@ def _draw(plotter: pyvista.Plotter, result: AnalysisResult, camera: Any, title: 
     has_bar = _draw_object(plotter, result, object_, rows)
     drawn = [np.asarray(object_.points)]
     for plane in result.planes[:MOST_PLANES]:
-        vertices, triangles = plane.mesh(object_.points)
+        vertices, triangles = plane.mesh()
         draw_mirror(plotter, vertices, triangles)
         drawn.append(vertices)
     for axis in result.axes:
-        ends = np.array(axis_segment(axis.point, axis.direction, object_.points))
-        tube = import_pyvista().Line(*ends).tube(radius=0.004 * object_.length)
+        tube = import_pyvista().Line(*axis.ends).tube(radius=0.004 * object_.length)
         plotter.add_mesh(tube, color=AXIS)
-        drawn.append(ends)
+        drawn.append(axis.ends)
     words = _title(result) if title else ""
     add_title(plotter, words)
     mirror = result.planes[0] if result.planes else None

@@ -18,6 +18,8 @@ class Axis:
     """(3,), of length 1."""
     order: int
     """A turn by 360 degrees / order maps the shape onto itself; 0: any turn."""
+    ends: NDArray[np.float64]
+    """(2, 3) of the piece to draw: along the shape and a little beyond."""
 
     @property
     def continuous(self) -> bool:
@@ -43,6 +45,8 @@ class Transformation:
     """(k,) indices of the points that are mapped, ascending; none: all."""
     onto_points: NDArray[np.int64]
     """(l,) indices of the points that they fall on, ascending; none: all."""
+    place: NDArray[np.float64]
+    """(3,) where to draw it: the image of the centroid of the points that are mapped."""
 
     def __repr__(self) -> str:
         points = len(self.from_points) or "all"
