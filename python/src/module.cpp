@@ -14,5 +14,5 @@ PYBIND11_MODULE(_core, module) {
   bind_synthesis(module);
   bind_metrics(module);
   bind_operations(module);
-  bind_symmetries(module);
+  bind_analyses(module);
 }

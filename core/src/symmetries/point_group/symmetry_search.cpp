@@ -1,4 +1,4 @@
-#include "symmetries/symmetry_search.h"
+#include "symmetries/point_group/symmetry_search.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/math.h"
-#include "symmetries/element_search.h"
-#include "symmetries/point_group.h"
-#include "symmetries/symmetry_test.h"
+#include "symmetries/point_group/element_search.h"
+#include "symmetries/point_group/point_group.h"
+#include "symmetries/point_group/symmetry_test.h"
 
 namespace symsurf {
 
