@@ -23,7 +23,10 @@ struct Rest {
   double change;
 };
 constexpr Rest on_thinned{30, 1e-3};
-constexpr Rest on_all{100, 1e-13};       // then partners do not change
+constexpr Rest on_some{50, 1e-5};
+constexpr Rest on_all{50, 1e-7};         // where partners are exact they are then the final ones
+constexpr Index some_points = 5000;      // of larger clouds, between the thinned one and all
+constexpr double as_good = 1.5;          // times the least cost: worth going on on all points
 constexpr double capped = 0.05;          // distance from which on a partner says nothing
 constexpr std::size_t finalists = 3;     // planes that go on on all points
 constexpr double alike_normals = 0.996;  // cosine of 5 degrees
@@ -122,16 +125,25 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
     }
     keep_unlike(candidates, finalists);
   }
-  {
-    const IndexedPoints all(in_frame(cloud.points, cloud.frame), context.stage(0.3, 0.35));
+  const auto go_on = [&](const Points& points, const Rest& rest, const Context& level) {
+    const IndexedPoints indexed(points, level.stage(0, 0.1));
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      const Context one = part(context.stage(0.35, 0.8), k, candidates.size());
+      const Context one = part(level.stage(0.1, 1), k, candidates.size());
       UnitPlane& plane = candidates[k].plane;
-      plane = iterated(plane, all, on_all, update, one.stage(0, 0.9));
-      candidates[k].cost = cost(plane, all, one.stage(0.9, 1));
+      plane = iterated(plane, indexed, rest, update, one.stage(0, 0.9));
+      candidates[k].cost = cost(plane, indexed, one.stage(0.9, 1));
     }
     keep_unlike(candidates, finalists);
+  };
+  const Points all = in_frame(cloud.points, cloud.frame);
+  const Index stride = all.rows() / some_points;
+  if (stride > 1) {
+    const Points some = all(Eigen::seq(0, Eigen::last, stride), Eigen::indexing::all);
+    go_on(some, on_some, context.stage(0.3, 0.4));
+    const double worst = as_good * candidates.front().cost;
+    std::erase_if(candidates, [&](const Candidate& c) { return c.cost > worst; });
   }
+  go_on(all, on_all, context.stage(0.4, 0.8));
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const Candidate& candidate : candidates)
