@@ -181,7 +181,7 @@ TEST(PlaneSvd, StepIsTheBestReflectionOfTheMutualPairs) {
     for (int k = 0; k < 2000; ++k)
       EXPECT_LE((matrix(random.direction()) * w).trace(), trace + 1e-12) << seed;
     // Where it is a reflection in a plane, it is U V'.
-    const Eigen::JacobiSVD<Matrix3> svd(w, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(w, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Matrix3 s = svd.matrixU() * svd.matrixV().transpose();
     if (svd.singularValues()[2] > 1e-9 && std::abs(s.trace() - 1) < 1e-9) {
       EXPECT_LE((s - matrix(next.normal)).norm(), 1e-9) << seed;

@@ -19,10 +19,11 @@ using std::numbers::pi;
 constexpr int pieces = 2;  // samples between two nodes at the least
 constexpr int most_halves = 40;
 constexpr double settled_from = 1e-3;  // sizes: how near a root Newton is let go
+constexpr double hopeless = 0.3;       // of a sample: a parabola that ends above it has no roots
 constexpr int halves_at_end = 12;
 constexpr int most_splits = 2000;  // of one search: where rounding is all that moves, it ends
 constexpr double smooth = 0.95;    // cosine between neighbouring samples' normals and views
-constexpr double far = 100;        // sizes: beyond, the mirror is seen ever more from the side
+constexpr double far = 30;         // sizes: beyond, the mirror is seen ever more from the side
 constexpr double gap = 1e-9;  // of an interval, beside its nodes, where a plane may be singular
 constexpr double degenerate = 1e-9;  // of the numbers that are compared
 
@@ -89,6 +90,8 @@ class Search {
     std::sort(nodes.begin(), nodes.end());
     if (nodes.empty()) nodes.push_back(0);
     nodes.push_back(nodes.front() + pi);
+    constexpr std::size_t samples_mostly = 64;
+    curve_.reserve(samples_mostly);
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
       const double width = nodes[k + 1] - nodes[k];
       if (width < degenerate) continue;
@@ -100,6 +103,9 @@ class Search {
         between(before, after, 0);
         before = after;
       }
+      curve_.push_back(before);
+      for (int k = 0; k < 2; ++k) find_roots(k);
+      curve_.clear();
     }
   }
 
@@ -157,11 +163,49 @@ class Search {
       between(middle, b, halves + 1);
       return;
     }
-    if (is_end) return;
-    for (int k = 0; k < 2; ++k)
-      if ((a.branch[k].law < 0) != (b.branch[k].law < 0) &&
-          !(is_far(a.branch[k]) && is_far(b.branch[k])))
-        root(a, b, k);
+    curve_.push_back(a);
+  }
+
+  bool is_sign_change(const Sample& a, const Sample& b, int k) const {
+    return a.is_real && b.is_real && (a.branch[k].law < 0) != (b.branch[k].law < 0) &&
+           !(is_far(a.branch[k]) && is_far(b.branch[k]));
+  }
+
+  void find_roots(int k) {
+    for (std::size_t i = 0; i + 1 < curve_.size(); ++i) {
+      if (is_sign_change(curve_[i], curve_[i + 1], k)) root(curve_[i], curve_[i + 1], k);
+      if (i > 0) find_pair(curve_[i - 1], curve_[i], curve_[i + 1], k);
+    }
+  }
+
+  // Two roots between three samples of one sign, by the parabolas through them.
+  void find_pair(Sample a, Sample b, Sample c, int k) {
+    if (!a.is_real || !b.is_real || !c.is_real) return;
+    constexpr int most_steps = 6;
+    for (int step = 0; step < most_steps; ++step) {
+      const double y = b.branch[k].law, sign = y < 0 ? -1 : 1;
+      const double left = sign * (a.branch[k].law - y), right = sign * (c.branch[k].law - y);
+      if (!(left > 0 && right > 0) || a.branch[k].law * y < 0 || c.branch[k].law * y < 0) return;
+      const double h = a.angle - b.angle, l = c.angle - b.angle;
+      // y + slope d + bend d^2, d from b.
+      const double bend = (left / h - right / l) / (h - l), slope = left / h - bend * h;
+      const double lowest = sign * y - slope * slope / (4 * bend);
+      if (!(bend > 0) || lowest > hopeless * sign * y) return;
+      const Sample next = sample(b.angle - slope / (2 * bend));
+      if (!next.is_real || next.angle == b.angle) return;
+      if ((next.branch[k].law < 0) != (y < 0)) {
+        root(next.angle < b.angle ? a : b, next, k);
+        root(next, next.angle < b.angle ? b : c, k);
+        return;
+      }
+      // The lower of the two in the middle.
+      const bool is_lower = sign * next.branch[k].law < sign * y;
+      if (next.angle < b.angle)
+        (is_lower ? c : a) = is_lower ? b : next;
+      else
+        (is_lower ? a : c) = is_lower ? b : next;
+      if (is_lower) b = next;
+    }
   }
 
   // Regula falsi (the Illinois variant), then Newton's steps on the surface.
@@ -211,6 +255,7 @@ class Search {
   LightPath path_;
   const Lines& lines_;
   std::vector<SurfacePoint>& found_;
+  std::vector<Sample> curve_;  // between two nodes
   int splits_ = 0;
 };
 
