@@ -7,9 +7,9 @@ import json
 
 import numpy as np
 import pytest
+from accuracy.symmetric_parts import PARTS, Part, cut, noisy
 from command_line import run
 from numpy.typing import NDArray
-from symmetric_parts import PARTS, Part, cut, noisy
 from symmetric_shapes import random_rotation
 
 import symsurf
