@@ -30,8 +30,8 @@ std::vector<Index> exact_orbits(PointsView points, const PointTree& tree,
     for (Index i = 0; i < points.size(); ++i) {
       const Index j = tree.nearest(symmetry.map * points[i], reach * reach).index;
       if (j < 0) continue;
-      const auto [low, high] = std::minmax(root_of(i), root_of(j));
-      root[high] = low;
+      const Index one = root_of(i), other = root_of(j);
+      root[std::max(one, other)] = std::min(one, other);
     }
   std::vector<Index> number(points.size(), -1), orbits;
   Index count = 0;
