@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,9 @@ struct Transformation {
   double score = 0;  ///< how well what is mapped fits, 0 to 1
   /// The points of the input that are mapped, and those they fall on, ascending; both empty: all.
   std::vector<Index> from, onto;
+
+  /// Where to draw it: the image of the centroid of the points that are mapped.
+  Vector3 place(PointsView points) const;
 };
 
 struct AnalysisOptions {
@@ -62,9 +66,11 @@ struct AnalysisResult {
   std::string analysis;
   /// Analysis::arrays: one row a point of the input; of points left out NaN, -1 or 0, by type.
   std::map<std::string, Eigen::MatrixXd> arrays;
-  std::vector<Plane> planes;
+  std::vector<Plane> planes;  ///< each with the footprint
   std::vector<SymmetryAxis> axes;
   std::vector<Transformation> transformations;
+  /// Points that stand for the shape: what planes and axes are drawn over.
+  std::shared_ptr<const Points> footprint;
   Values parameters;  ///< as used
   Values statistics;
   double seconds = 0;

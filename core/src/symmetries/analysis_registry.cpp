@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/find_named.h"
+#include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
 #include "preprocess/row_removal.h"
 
@@ -55,6 +56,21 @@ const std::vector<Analysis>& analyses() {
   return all;
 }
 
+Vector3 Transformation::place(PointsView points) const {
+  Vector3 sum = Vector3::Zero();
+  Index count = 0;
+  const auto add = [&](const Vector3& x) {
+    if (!x.allFinite()) return;
+    sum += x;
+    ++count;
+  };
+  for (const Index i : from) add(points[i]);
+  if (from.empty())
+    for (Index i = 0; i < points.size(); ++i) add(points[i]);
+  if (count == 0) throw InvalidInput("none of the points that are mapped is finite");
+  return (matrix * (sum / static_cast<double>(count)).homogeneous()).head<3>();
+}
+
 const Analysis& analysis(std::string_view name) { return analysis_implementation(name); }
 
 AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisOptions& options,
@@ -78,6 +94,8 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   result.analysis = analysis.name;
   context.report(0);
   analysis.run(cloud, values, context, result);
+  result.footprint = std::make_shared<const Points>(footprint_of(cloud));
+  for (Plane& plane : result.planes) plane.set_footprint(result.footprint);
   if (removed) {
     std::vector<Index> kept;
     for (Index i = 0; i < points.size(); ++i)

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from accuracy.solids import sampled
 from numpy.typing import NDArray
+
+from .solids import sampled
 
 Array = NDArray[np.float64]
 
