@@ -50,7 +50,14 @@ from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
-from .shape_analyses import AnalysisResult, Axis, Symmetries, Transformation
+from .shape_analyses import (
+    AnalysisResult,
+    Axis,
+    IntrinsicSymmetry,
+    Symmetries,
+    SymmetryEmbedding,
+    Transformation,
+)
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
 
@@ -70,6 +77,7 @@ __all__ = [
     "FreeForm",
     "HeightField",
     "InputWarning",
+    "IntrinsicSymmetry",
     "InvalidInput",
     "InvalidParameter",
     "Method",
@@ -86,6 +94,7 @@ __all__ = [
     "SurfaceMirror",
     "Symmetries",
     "Symmetrized",
+    "SymmetryEmbedding",
     "Transformation",
     "__version__",
     "analyses",
