@@ -1,4 +1,4 @@
-"""Bodies of cubes with limbs, exactly symmetric, and their poses."""
+"""Bodies of cubes with limbs, whose vertices know their mirror images, and their poses."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Body:
                         quad.append(vertices.setdefault(tuple(corner), len(vertices)))
                     if side == 0:
                         quad = [quad[0], quad[3], quad[2], quad[1]]
-                    # The diagonals of mirrored squares are mirrored.
+                    # Cut along either diagonal: no triangulation is mirrored as a whole.
                     k = int((cell[0] < 0) != (axis == 0))
                     faces += [
                         (quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]),

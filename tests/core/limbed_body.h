@@ -62,7 +62,7 @@ inline LimbedBody standing_animal() {
               quad[k] = vertex(corner);
             }
             if (side == 0) std::swap(quad[1], quad[3]);
-            // The diagonals of mirrored squares are mirrored.
+            // Cut along either diagonal: no triangulation is mirrored as a whole.
             const int first = (x < 0) != (axis == 0) ? 1 : 0;
             for (const int k : {1, 2})
               faces.push_back({quad[first], quad[(first + k) % 4], quad[(first + k + 1) % 4]});
