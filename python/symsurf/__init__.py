@@ -51,7 +51,14 @@ from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
-from .shape_analyses import AnalysisResult, Axis, Symmetries, Transformation
+from .shape_analyses import (
+    AnalysisResult,
+    Axis,
+    IntrinsicSymmetry,
+    Symmetries,
+    SymmetryEmbedding,
+    Transformation,
+)
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
 
@@ -71,6 +78,7 @@ __all__ = [
     "FreeForm",
     "HeightField",
     "InputWarning",
+    "IntrinsicSymmetry",
     "InvalidInput",
     "InvalidParameter",
     "Method",
@@ -88,6 +96,7 @@ __all__ = [
     "SurfaceMirror",
     "Symmetries",
     "Symmetrized",
+    "SymmetryEmbedding",
     "Transformation",
     "__version__",
     "analyses",

@@ -15,6 +15,7 @@ from . import (
     curved,
     deformed,
     exact,
+    intrinsic,
     kinds,
     operations,
     planes,
@@ -26,7 +27,7 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
+MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, intrinsic, operations, scores,
            symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

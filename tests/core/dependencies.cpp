@@ -61,7 +61,7 @@ bool is_allowed_library(const std::string& header) {
   const bool is_standard =
       std::all_of(header.begin(), header.end(), [](char c) { return c != '/' && c != '.'; });
   return starts_with("symsurf/") || starts_with("Eigen/") || starts_with("OpenMesh/") ||
-         header == "nanoflann.hpp" || is_standard;
+         starts_with("Spectra/") || header == "nanoflann.hpp" || is_standard;
 }
 
 // The one source that asks the operating system, for what C++ cannot tell.

@@ -18,5 +18,7 @@ struct AnalysisImplementation : Analysis {
 };
 
 AnalysisImplementation symmetries_analysis();
+AnalysisImplementation symmetry_embedding_analysis();
+AnalysisImplementation intrinsic_symmetry_analysis();
 
 }  // namespace symsurf
