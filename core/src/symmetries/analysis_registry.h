@@ -18,5 +18,6 @@ struct AnalysisImplementation : Analysis {
 };
 
 AnalysisImplementation symmetries_analysis();
+AnalysisImplementation partial_symmetries_analysis();
 
 }  // namespace symsurf
