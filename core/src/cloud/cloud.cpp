@@ -77,11 +77,12 @@ void require_points(PointsView points) {
   require_finite(points, "point");
 }
 
-void require_coordinates(PointsView points) {
-  for (Index i = 0; i < points.size(); ++i)
-    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
-      throw InvalidInput("point " + std::to_string(i) + " is " + to_string(Value(points[i])) +
-                         "; allowed are coordinates up to " + to_string(Value(greatest_extent)));
+void require_coordinates(PointsView rows, const char* what) {
+  for (Index i = 0; i < rows.size(); ++i)
+    if (rows[i].allFinite() && rows[i].cwiseAbs().maxCoeff() > greatest_extent)
+      throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is " +
+                         to_string(Value(rows[i])) + "; allowed are coordinates up to " +
+                         to_string(Value(greatest_extent)));
 }
 
 void require_normals(PointsView points, PointsView normals, Index first) {

@@ -63,10 +63,11 @@ Points distinct_nodes(const Points& nodes) {
   const PointTree tree(flat);
   const double near = rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
   std::vector<Index> kept;
+  std::vector<char> covered(flat.rows(), 0);  // each cluster is looked through by its first only
   for (Index i = 0; i < flat.rows(); ++i) {
-    bool first = true;
-    tree.within(flat.row(i), near, [&](Index other, double) { first = first && other >= i; });
-    if (first) kept.push_back(i);
+    if (covered[i]) continue;
+    tree.within(flat.row(i), near, [&](Index other, double) { covered[other] = 1; });
+    kept.push_back(i);
   }
   return nodes(kept, Eigen::indexing::all);
 }

@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "base/symmetric_eigen.h"
+#include "cloud/cloud.h"
 #include "cloud/surface_spacing.h"
 #include "spatial/point_tree.h"
 
@@ -41,7 +42,8 @@ Grid grid_along(const Points& points, int resolution) {
   const Points along = centred * grid.axes;
   const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
   const double longest = (high - low).maxCoeff();
-  grid.cell = longest > 0 ? longest / resolution : 1;
+  grid.cell = longest / resolution;
+  if (!(grid.cell > 0)) grid.cell = 1;
   // Half a cell off the extremes, so that flat pieces do not fall between two layers of cells.
   grid.origin = centre.transpose() + grid.axes * (low - Vector3::Constant(grid.cell / 2));
   return grid;
@@ -57,6 +59,7 @@ Cell moved(Cell c, int axis, int by) {
 Mesh surface_net(const Points& on_surface, int resolution,
                  const std::function<double(const Vector3&)>& value,
                  const std::function<Vector3(const Vector3&)>& foot) {
+  require_coordinates(on_surface, "foot");
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
   for (Index i = 0; i < on_surface.rows(); ++i) {
