@@ -34,7 +34,7 @@ std::vector<std::shared_ptr<Mirror>> mirrors_of_size(double size) {
           std::make_shared<Quadric>(bowl, -Vector3::UnitZ(), size),
           std::make_shared<FreeForm>(std::vector<Patch>{patch}),
           std::make_shared<HeightField>(Vector3::UnitZ(), Points(size * random.box(30))),
-          std::make_shared<SurfaceMirror>(surface("f1"), Mapping::Perpendicular, size,
+          std::make_shared<SurfaceMirror>(surface("f3"), Mapping::Perpendicular, size,
                                           Matrix3::Identity(), Vector3::Constant(size)),
           std::make_shared<SurfaceMirror>(surface("f2"), Mapping::Fixed, size, Matrix3::Identity(),
                                           Vector3::Constant(size))};
@@ -61,9 +61,9 @@ void do_everything(const Mirror& mirror, const Points& points) {
 
 TEST(ExtremeMirrors, EndWithPointsOfAnySize) {
   const Points box = RandomCloud(2).box(20);
-  for (const double size : {1e-150, 1e-50, 1.0, 1e50, 1e150})
+  for (const double size : {1e-150, 1.0, 1e150})
     for (const auto& mirror : mirrors_of_size(size))
-      for (const double scale : {1e-300, 1e-50, 1.0, 1e16, 1e50, 3e108, 1e300})
+      for (const double scale : {1e-300, 1.0, 1e50, 3e108, 1e300})
         do_everything(*mirror, scale * box);
 }
 
