@@ -2,6 +2,7 @@
 
 #include <symsurf/errors.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -77,12 +78,21 @@ void require_points(PointsView points) {
   require_finite(points, "point");
 }
 
-void require_coordinates(PointsView rows, const char* what) {
+void require_coordinates(PointsView points) {
+  for (Index i = 0; i < points.size(); ++i)
+    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
+      throw InvalidInput("point " + std::to_string(i) + " is " + to_string(Value(points[i])) +
+                         "; allowed are coordinates up to " + to_string(Value(greatest_extent)));
+}
+
+void require_extent(PointsView rows, const char* what) {
+  Eigen::AlignedBox3d box;
   for (Index i = 0; i < rows.size(); ++i)
-    if (rows[i].allFinite() && rows[i].cwiseAbs().maxCoeff() > greatest_extent)
-      throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is " +
-                         to_string(Value(rows[i])) + "; allowed are coordinates up to " +
-                         to_string(Value(greatest_extent)));
+    if (rows[i].allFinite()) box.extend(rows[i]);
+  const double extent = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+  if (extent > greatest_extent)
+    throw InvalidInput("the " + std::string(what) + " extend over " + to_string(Value(extent)) +
+                       "; allowed is up to " + to_string(Value(greatest_extent)));
 }
 
 void require_normals(PointsView points, PointsView normals, Index first) {

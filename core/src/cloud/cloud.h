@@ -52,9 +52,13 @@ void require_finite(PointsView rows, const char* what, Index first = 0);
 /// Throws InvalidInput for no points, or naming the first that is not finite.
 void require_points(PointsView points);
 
-/// Throws InvalidInput naming the first of the finite rows with a coordinate beyond 1e50, as
-/// "point 3" where `what` is "point": fourth powers would overflow.
-void require_coordinates(PointsView rows, const char* what);
+/// Throws InvalidInput naming the first point with a coordinate beyond 1e50: squares would
+/// overflow.
+void require_coordinates(PointsView points);
+
+/// Throws InvalidInput where the finite rows extend over more than 1e50 along an axis: fourth
+/// powers of lengths would overflow. `what`: "points".
+void require_extent(PointsView rows, const char* what);
 
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);

@@ -75,13 +75,12 @@ Mesh Mirror::mesh(PointsView object, int resolution) const {
         "there are no points to lay the mesh over: a mirror made by hand has no "
         "footprint of its own, give the points of the object");
   require_finite(object, "point");
-  require_coordinates(object, "point");
+  require_extent(object, "points");
   if (resolution < 1 || resolution > finest)
     throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is 1 to " +
                            std::to_string(finest));
   Mesh mesh = mesh_over(object, resolution);
   require_finite(mesh.vertices, "vertex of the mirror's mesh");
-  require_coordinates(mesh.vertices, "vertex of the mirror's mesh");
   return mesh;
 }
 

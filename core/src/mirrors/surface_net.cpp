@@ -59,7 +59,7 @@ Cell moved(Cell c, int axis, int by) {
 Mesh surface_net(const Points& on_surface, int resolution,
                  const std::function<double(const Vector3&)>& value,
                  const std::function<Vector3(const Vector3&)>& foot) {
-  require_coordinates(on_surface, "foot");
+  require_extent(on_surface, "feet on the mirror");
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
   for (Index i = 0; i < on_surface.rows(); ++i) {

@@ -64,7 +64,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   const OperationImplementation& operation = operation_implementation(name);
   const ParameterValues values(operation.name, operation.parameters, parameters);
   require_points(input.points);
-  require_coordinates(input.points, "point");
+  require_coordinates(input.points);
   require_corners(input.faces, input.points.size());
   require_mask(operation, input.mask, input.points.size());
   require_near(input.points, mirror);
