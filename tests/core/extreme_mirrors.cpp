@@ -80,6 +80,28 @@ TEST(ExtremeMirrors, HaveNoMeshBeyondTheLimit) {
   EXPECT_GT(Plane({0, 0, 1}, 1e60).mesh(box).triangles.rows(), 0);
 }
 
+// Where a cell of the net is less than the rounding of coordinates, all cells seemed near the feet.
+TEST(ExtremeMirrors, HaveAMeshFarFromTheOrigin) {
+  const Points box = RandomCloud(2).box(20);
+  Patch patch;
+  patch.frame = RandomCloud(3).rotation();
+  patch.height << -0.9, -1.9, 0.1, 1.5, 1.5, -1.3;
+  patch.radius = 0.2;
+  for (const double far : {1e20, 1e60, 1e300}) {
+    patch.centre = Vector3(-0.4, -1.6, far);
+    do_everything(FreeForm({patch}), box);
+  }
+}
+
+TEST(ExtremeMirrors, MatchNoPointsBeyondTheLimit) {
+  Points points = RandomCloud(2).box(60);
+  points.col(2).setConstant(largest);  // they extend over 2
+  expect_error<InvalidInput>("point 0 is", [&] { match(points, Plane({1, 0, 0}, 0)); });
+  for (const Method& method : methods())
+    expect_error<InvalidInput>("allowed are coordinates up to 1e+50",
+                               [&] { detect(points, {.method = method.name}); });
+}
+
 TEST(ExtremeMirrors, HaveAFinestMesh) {
   const Points box = RandomCloud(2).box(20);
   expect_error<InvalidParameter>("resolution is 2147483647; allowed is 1 to 4096", [&] {
