@@ -17,6 +17,6 @@ void bind_reading(py::module_& module);
 void bind_synthesis(py::module_& module);
 void bind_metrics(py::module_& module);
 void bind_operations(py::module_& module);
-void bind_symmetries(py::module_& module);
+void bind_analyses(py::module_& module);
 
 }  // namespace symsurf::python

@@ -13,5 +13,5 @@ PYBIND11_MODULE(_core, module) {
   bind_synthesis(module);
   bind_metrics(module);
   bind_operations(module);
-  bind_symmetries(module);
+  bind_analyses(module);
 }

@@ -19,6 +19,7 @@ from . import (
     operations,
     planes,
     scores,
+    symmetries,
     without_mirror,
 )
 from .case import Case, Figures
@@ -26,7 +27,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
-           without_mirror)  # fmt: skip
+           symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

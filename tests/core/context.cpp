@@ -38,6 +38,11 @@ std::vector<LongCall> long_calls() {
     calls.push_back(
         {method.name, [options](const Context& context) { detect(few, options, context); }});
   }
+  for (const Analysis& analysis : analyses())
+    if (!analysis.needs_faces)
+      calls.push_back({analysis.name, [&analysis](const Context& context) {
+                         analyse(analysis.name, few, {}, context);
+                       }});
   for (const Operation& operation : operations())
     calls.push_back({operation.name, [&operation](const Context& context) {
                        operate(operation.name, {points}, Plane({1, 0, 0}, 0), {}, context);

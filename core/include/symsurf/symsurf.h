@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/analysis.h>
 #include <symsurf/bend.h>
 #include <symsurf/candidate_values.h>
 #include <symsurf/communicator.h>
@@ -25,5 +26,6 @@
 #include <symsurf/surface.h>
 #include <symsurf/surface_mirror.h>
 #include <symsurf/symmetries.h>
+#include <symsurf/symmetry_axis.h>
 #include <symsurf/synthetic.h>
 #include <symsurf/triangles_view.h>

@@ -9,6 +9,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from .solids import sampled
+
 Array = NDArray[np.float64]
 
 
@@ -26,13 +28,8 @@ class Part:
 
     def sampled(self, count: int, rng: np.random.Generator) -> Array:
         """Points drawn evenly over the surface."""
-        a, b, c = self.triangles.transpose(1, 0, 2)
-        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        chosen = rng.choice(len(areas), size=count, p=areas / areas.sum())
-        u, v = rng.random((2, count, 1))
-        beyond = u + v > 1
-        u, v = np.where(beyond, 1 - u, u), np.where(beyond, 1 - v, v)
-        return a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen]
+        corners = self.triangles.reshape(-1, 3)
+        return sampled(corners, np.arange(len(corners)).reshape(-1, 3), count, rng)
 
 
 def extruded(outline: Array, height: float, middle: Array | None = None) -> Array:

@@ -1,9 +1,9 @@
-#include "symmetries/symmetry_test.h"
+#include "symmetries/point_group/symmetry_test.h"
 
 #include <algorithm>
 #include <numbers>
 
-#include "symmetries/point_group.h"
+#include "symmetries/point_group/point_group.h"
 
 namespace symsurf {
 

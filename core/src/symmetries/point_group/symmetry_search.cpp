@@ -1,4 +1,4 @@
-#include "symmetries/symmetry_search.h"
+#include "symmetries/point_group/symmetry_search.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/math.h"
-#include "symmetries/element_search.h"
-#include "symmetries/point_group.h"
-#include "symmetries/symmetry_test.h"
+#include "symmetries/point_group/element_search.h"
+#include "symmetries/point_group/point_group.h"
+#include "symmetries/point_group/symmetry_test.h"
 
 namespace symsurf {
 
@@ -245,7 +245,8 @@ class SymmetrySearch {
     for (const Matrix3& element : placed.group.elements) {
       const Matrix3 axes = frame.axes * placed.pose.axes;
       Matrix4 matrix = Matrix4::Identity();
-      matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
+      if (!element.isIdentity(0))  // else it would be one but for rounding
+        matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
       matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
       found.elements.push_back(matrix);
     }

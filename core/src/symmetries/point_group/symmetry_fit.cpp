@@ -1,4 +1,4 @@
-#include "symmetries/symmetry_fit.h"
+#include "symmetries/point_group/symmetry_fit.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "symmetries/point_group.h"
+#include "symmetries/point_group/point_group.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "symmetries/orbit_vote.h"
+#include "symmetries/point_group/orbit_vote.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "symmetries/symmetry_test.h"
+#include "symmetries/point_group/symmetry_test.h"
 
 namespace symsurf {
 

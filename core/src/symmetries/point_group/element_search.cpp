@@ -1,4 +1,4 @@
-#include "symmetries/element_search.h"
+#include "symmetries/point_group/element_search.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "base/math.h"
 #include "methods/plane/plane_candidates.h"
-#include "symmetries/point_group.h"
+#include "symmetries/point_group/point_group.h"
 
 namespace symsurf {
 

@@ -5,8 +5,8 @@
 
 #include "score/mirror_score.h"
 #include "spatial/point_tree.h"
-#include "symmetries/orbit_vote.h"
-#include "symmetries/symmetry_fit.h"
+#include "symmetries/point_group/orbit_vote.h"
+#include "symmetries/point_group/symmetry_fit.h"
 
 namespace symsurf {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "score/mirror_score.h"
-#include "symmetries/symmetry_fit.h"
+#include "symmetries/point_group/symmetry_fit.h"
 
 namespace symsurf {
 
