@@ -20,8 +20,9 @@ class HeightField final : public Mirror {
  public:
   /// The direction may have any length but zero. Nodes: m x 3, one at least, in input units; of
   /// nodes that lie over each other along the direction only the first counts.
-  /// Throws InvalidInput for a zero or non-finite direction and for no or non-finite nodes.
-  HeightField(const Vector3& direction, Points nodes);
+  /// Throws InvalidInput for a zero or non-finite direction and for no or non-finite nodes,
+  /// Cancelled.
+  HeightField(const Vector3& direction, Points nodes, const Context& context = {});
 
   const Vector3& direction() const { return direction_; }
   const Points& nodes() const { return *nodes_; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "base/semidefinite_solve.h"
 #include "base/symmetric_eigen.h"
 #include "mirrors/grid_mesh.h"
@@ -22,7 +23,7 @@ namespace symsurf {
 class HeightInterpolant {
  public:
   // Rows (u, v, height), at least one. Nodes at the same position: the first counts.
-  explicit HeightInterpolant(const Points& nodes);
+  HeightInterpolant(const Points& nodes, const Context& context);
 
   /// The height there, and its gradient where asked for.
   double operator()(const Eigen::Vector2d& at, Eigen::Vector2d* gradient = nullptr) const;
@@ -58,17 +59,18 @@ Points flattened(const Points& nodes) {
 }
 
 // Of nodes over each other, to rounding, the first.
-Points distinct_nodes(const Points& nodes) {
+Points distinct_nodes(const Points& nodes, const Context& context) {
   constexpr double rounding = 1e-9;  // of their extent, which map coordinates may leave
   const Points flat = flattened(nodes);
   const PointTree tree(flat);
   const double near = rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
   std::vector<Index> kept;
-  for (Index i = 0; i < flat.rows(); ++i) {
-    bool first = true;
-    tree.within(flat.row(i), near, [&](Index other, double) { first = first && other >= i; });
-    if (first) kept.push_back(i);
-  }
+  std::vector<char> covered(flat.rows(), 0);  // each cluster is looked through by its first only
+  interruptible_for(context, flat.rows(), [&](Index i) {
+    if (covered[i]) return;
+    tree.within(flat.row(i), near, [&](Index other, double) { covered[other] = 1; });
+    kept.push_back(i);
+  });
   return nodes(kept, Eigen::indexing::all);
 }
 
@@ -93,13 +95,16 @@ double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d,
   return height + rise + bend * (inside - inside * inside / 2);
 }
 
-HeightInterpolant::HeightInterpolant(const Points& nodes)
-    : nodes_(distinct_nodes(nodes)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
+HeightInterpolant::HeightInterpolant(const Points& nodes, const Context& context)
+    : nodes_(distinct_nodes(nodes, context)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
   std::vector<Neighbour> around;
-  for (const std::int32_t i : tree_.order()) {
+  const auto fit = [&](Index k) {
+    const Index i = tree_.order()[k];
     tree_.nearest({nodes_(i, 0), nodes_(i, 1), 0}, fitted_nodes + 1, around);
     quadratics_[i] = fitted(i, around);
-  }
+  };
+  constexpr Index stretch = 1024;  // fits, of some microseconds
+  interruptible_for(context, nodes_.rows(), fit, stretch);
 }
 
 HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
@@ -182,7 +187,7 @@ double HeightInterpolant::operator()(const Eigen::Vector2d& at, Eigen::Vector2d*
   return sum / weights;
 }
 
-HeightField::HeightField(const Vector3& direction, Points nodes) {
+HeightField::HeightField(const Vector3& direction, Points nodes, const Context& context) {
   const double length = length_of(direction);
   if (!(length > 0) || !std::isfinite(length))
     throw InvalidInput("a height field needs a direction of finite length above 0; given " +
@@ -202,7 +207,7 @@ HeightField::HeightField(const Vector3& direction, Points nodes) {
     throw InvalidInput("a height field needs nodes nearer to each other than " +
                        to_string(Value(std::sqrt(std::numeric_limits<double>::max()))));
   nodes_ = std::make_shared<const Points>(std::move(nodes));
-  heights_ = std::make_shared<const HeightInterpolant>(framed);
+  heights_ = std::make_shared<const HeightInterpolant>(framed, context);
 }
 
 double HeightField::signed_distance(const Vector3& x) const {
