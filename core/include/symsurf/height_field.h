@@ -29,6 +29,8 @@ class HeightField final : public Mirror {
   std::string_view kind() const override { return "height field"; }
   Vector3 foot(const Vector3& x) const override { return x - signed_distance(x) * direction_; }
   double signed_distance(const Vector3& x) const override;
+  /// The unit normal at the foot of x, on the side that the direction points to.
+  Vector3 normal(const Vector3& x) const;
   /// "direction", and "nodes" as m x 3.
   Values numbers() const override;
   std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,

@@ -288,8 +288,21 @@ class IntrinsicSymmetry(AnalysisResult):
         )
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class PartialSymmetries(AnalysisResult):
+    """Parts of a shape that a reflection, motion or similarity maps onto other parts.
+
+    ``transformations`` has the maps, the largest well-fitting patch first, with the points of both
+    patches. ``arrays["transformation"]`` is the first of them with a point in a patch, -1 where there
+    is none, ``arrays["side"]`` 0 in the patch that is mapped and 1 in that it falls on.
+    """
+
+    analysis = "partial_symmetries"
+
+
 RESULTS: dict[str, type[AnalysisResult]] = {
-    kind.analysis: kind for kind in (Symmetries, SymmetryEmbedding, IntrinsicSymmetry)
+    kind.analysis: kind
+    for kind in (Symmetries, PartialSymmetries, SymmetryEmbedding, IntrinsicSymmetry)
 }
 
 
