@@ -11,6 +11,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& module);
 void bind_methods(py::module_& module);
 void bind_mirrors(py::module_& module);
+void bind_optics(py::module_& module);
 void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
 void bind_reading(py::module_& module);

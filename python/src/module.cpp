@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   bind_errors(module);
   bind_methods(module);
   bind_mirrors(module);
+  bind_optics(module);
   bind_detection(module);
   bind_sampling(module);
   bind_reading(module);

@@ -15,6 +15,7 @@ from . import (
     curved,
     deformed,
     exact,
+    intrinsic,
     kinds,
     operations,
     partial,
@@ -27,8 +28,8 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, partial,
-           scores, symmetries, without_mirror)  # fmt: skip
+MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, intrinsic,
+           operations, partial, scores, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -21,6 +21,7 @@
 #include <symsurf/plane.h>
 #include <symsurf/quadric.h>
 #include <symsurf/read.h>
+#include <symsurf/reflection_points.h>
 #include <symsurf/result.h>
 #include <symsurf/sphere.h>
 #include <symsurf/surface.h>

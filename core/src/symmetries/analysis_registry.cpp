@@ -15,8 +15,9 @@ namespace symsurf {
 namespace {
 
 const std::vector<AnalysisImplementation>& analysis_implementations() {
-  static const std::vector<AnalysisImplementation> all{symmetries_analysis(),
-                                                       partial_symmetries_analysis()};
+  static const std::vector<AnalysisImplementation> all{
+      symmetries_analysis(), partial_symmetries_analysis(), symmetry_embedding_analysis(),
+      intrinsic_symmetry_analysis()};
   return all;
 }
 
