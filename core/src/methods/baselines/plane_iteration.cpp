@@ -24,7 +24,7 @@ struct Rest {
 };
 constexpr Rest on_thinned{30, 1e-3};
 constexpr Rest on_some{50, 1e-5};
-constexpr Rest on_all{50, 1e-7};         // where partners are exact they are then the final ones
+constexpr Rest on_all{100, 1e-7};        // where partners are exact they are then the final ones
 constexpr Index some_points = 5000;      // of larger clouds, between the thinned one and all
 constexpr double as_good = 1.5;          // times the least cost: worth going on on all points
 constexpr double capped = 0.05;          // distance from which on a partner says nothing
