@@ -16,6 +16,7 @@ from . import (
     deformed,
     exact,
     kinds,
+    nearly_symmetric,
     operations,
     planes,
     scores,
@@ -25,8 +26,8 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
-           without_mirror)  # fmt: skip
+MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
+           operations, scores, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5
