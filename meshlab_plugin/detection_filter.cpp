@@ -3,8 +3,6 @@
 
 #include <symsurf/detect.h>
 
-#include <limits>
-
 #include "cloud_conversion.h"
 #include "parameter_dialog.h"
 #include "result_layers.h"
@@ -17,11 +15,8 @@ namespace {
 
 // What every method takes beside its own parameters: the rest of detect()'s arguments.
 const std::vector<Parameter>& common_parameters() {
-  constexpr Index most = std::numeric_limits<int>::max();
   static const std::vector<Parameter> described{
-      Parameter::boolean("only_selected", false,
-                         "Look only at the selected vertices and the corners of selected faces; "
-                         "percentages are then of the selection's diagonal."),
+      only_selected_parameter(),
       Parameter::boolean("use_normals", false,
                          "Hand the layer's vertex normals to the method, which otherwise estimates "
                          "its own where it needs them."),
@@ -31,9 +26,8 @@ const std::vector<Parameter>& common_parameters() {
           "has faces; otherwise its vertices alone do."),
       Parameter::boolean("show_candidates", false,
                          "Add a layer for each of the other mirrors that were found."),
-      Parameter::integer("seed", 0, 0, most, "", "Of the methods that draw at random."),
-      Parameter::integer("threads", 0, 0, most, "",
-                         "To compute with, 0: as many as the machine has; the result is the same."),
+      seed_parameter("methods"),
+      threads_parameter(),
   };
   return described;
 }

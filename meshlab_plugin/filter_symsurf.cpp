@@ -3,6 +3,7 @@
 
 #include <symsurf/errors.h>
 
+#include "analysis_filter.h"
 #include "detection_filter.h"
 #include "operation_filter.h"
 #include "reflection_filter.h"
@@ -19,6 +20,8 @@ std::vector<std::unique_ptr<Filter>> all_filters() {
     filters.push_back(std::make_unique<DetectionFilter>(method));
   for (const Operation& operation : operations())
     filters.push_back(std::make_unique<OperationFilter>(operation));
+  for (const Analysis& analysis : analyses())
+    filters.push_back(std::make_unique<AnalysisFilter>(analysis));
   filters.push_back(std::make_unique<ReflectionFilter>());
   filters.push_back(std::make_unique<SampleFilter>());
   return filters;

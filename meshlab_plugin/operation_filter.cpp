@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 
 #include "changed_layer.h"
 #include "mirror_layer.h"
@@ -76,9 +75,7 @@ std::vector<Parameter> OperationFilter::own_parameters() const {
         "weigh_by_quality", false,
         "Move each vertex by the share of the way that its quality is, 0 to 1."));
   }
-  described.push_back(Parameter::integer(
-      "threads", 0, 0, std::numeric_limits<int>::max(), "",
-      "To compute with, 0: as many as the machine has; the result is the same."));
+  described.push_back(threads_parameter());
   return described;
 }
 

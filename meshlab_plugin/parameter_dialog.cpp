@@ -95,6 +95,23 @@ Value read(const RichParameterList& dialog, const Parameter& parameter, double d
 
 }  // namespace
 
+Parameter only_selected_parameter() {
+  return Parameter::boolean("only_selected", false,
+                            "Look only at the selected vertices and the corners of selected faces; "
+                            "percentages are then of the selection's diagonal.");
+}
+
+Parameter seed_parameter(const std::string& what) {
+  return Parameter::integer("seed", 0, 0, std::numeric_limits<int>::max(), "",
+                            "Of the " + what + " that draw at random.");
+}
+
+Parameter threads_parameter() {
+  return Parameter::integer(
+      "threads", 0, 0, std::numeric_limits<int>::max(), "",
+      "To compute with, 0: as many as the machine has; the result is the same.");
+}
+
 void add_parameters(RichParameterList& dialog, const std::vector<Parameter>& described,
                     double diagonal, bool advanced) {
   for (const Parameter& parameter : described) {

@@ -9,6 +9,11 @@
 
 namespace symsurf::meshlab {
 
+/// What several filters ask beside the core's parameters. `what` draws at random: "methods".
+Parameter only_selected_parameter();
+Parameter seed_parameter(const std::string& what);
+Parameter threads_parameter();
+
 /// Appends an entry for each described parameter, in order. Those in units of the diagonal become
 /// percentages of `diagonal`. `advanced` ones MeshLab folds away.
 void add_parameters(RichParameterList& dialog, const std::vector<Parameter>& described,

@@ -67,6 +67,28 @@ MeshModel& ResultLayers::add_candidate(std::size_t rank, const Result& candidate
   return layer;
 }
 
+MeshModel& ResultLayers::add_plane(std::size_t number, const Plane& plane) {
+  MeshModel& layer = add(QString("Symmetry plane %1").arg(number));
+  draw_mirror(layer, std::make_shared<Plane>(plane), plane.mesh());
+  return layer;
+}
+
+MeshModel& ResultLayers::add_axes(const AnalysisResult& result) {
+  MeshModel& layer = add("Symmetry axes");
+  Points ends(2 * static_cast<Index>(result.axes.size()), 3);
+  Index row = 0;
+  for (const SymmetryAxis& axis : result.axes)
+    for (const Vector3& end : axis.segment(*result.footprint)) ends.row(row++) = end.transpose();
+  set_vertices(layer.cm, ends);
+  auto edge = Allocator::AddEdges(layer.cm, result.axes.size());
+  for (std::size_t i = 0; i < result.axes.size(); ++i, ++edge) {
+    edge->V(0) = &layer.cm.vert[2 * i];
+    edge->V(1) = &layer.cm.vert[2 * i + 1];
+  }
+  layer.updateBoxAndNormals();
+  return layer;
+}
+
 MeshModel& ResultLayers::add_surface_points(const Result& result) {
   MeshModel& layer = add("Surface points");
   set_vertices(layer.cm, result.surface_points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <symsurf/analysis.h>
 #include <symsurf/result.h>
 #include <symsurf/synthetic.h>
 
@@ -24,6 +25,12 @@ class ResultLayers {
   /// Adds a layer like "Candidate mirror 1, score 0.98" for another mirror of the result, which
   /// mirror_of() gives back as it does the best one.
   MeshModel& add_candidate(std::size_t rank, const Result& candidate, const Mesh& mesh);
+
+  /// Adds a layer like "Symmetry plane 1", which mirror_of() reads, too.
+  MeshModel& add_plane(std::size_t number, const Plane& plane);
+
+  /// Adds the layer "Symmetry axes": an edge for each axis of rotation.
+  MeshModel& add_axes(const AnalysisResult& result);
 
   /// Adds the layer "Surface points": the result's, with their residuals as quality. Hidden where
   /// there is a mirror to see.

@@ -30,6 +30,34 @@ auto new_attribute(CMeshO& mesh, const std::string& name) {
   return Allocator::AddPerVertexAttribute<Type>(mesh, name);
 }
 
+// The row that stands for "nothing is said" of a vertex.
+double absent(const PointArray& array) { return array.type == ParameterType::Integer ? -1 : 0; }
+
+// One value a vertex of the layer; indices of points become those of vertices.
+Eigen::MatrixXd by_vertex(const CMeshO& mesh, const LayerCloud& cloud, const PointArray& array,
+                          const Eigen::MatrixXd& rows) {
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Constant(static_cast<Index>(mesh.vert.size()), rows.cols(), absent(array));
+  for (Index i = 0; i < rows.rows(); ++i)
+    for (Index c = 0; c < rows.cols(); ++c) {
+      const double value = rows(i, c);
+      all(cloud.vertex[i], c) =
+          array.names_points && value >= 0 ? cloud.vertex[static_cast<Index>(value)] : value;
+    }
+  return all;
+}
+
+void add_attribute(CMeshO& mesh, const std::string& name, const Eigen::MatrixXd& rows) {
+  if (rows.cols() == 3) {
+    auto attribute = new_attribute<Point3m>(mesh, name);
+    for (Index i = 0; i < rows.rows(); ++i)
+      attribute[i] = Point3m(rows(i, 0), rows(i, 1), rows(i, 2));
+  } else {
+    auto attribute = new_attribute<Scalarm>(mesh, name);
+    for (Index i = 0; i < rows.rows(); ++i) attribute[i] = rows(i, 0);
+  }
+}
+
 }  // namespace
 
 void colour_by_residual(MeshModel& layer, const Eigen::VectorXd& residuals) {
@@ -60,16 +88,7 @@ void mark_residuals(MeshModel& layer, const LayerCloud& cloud, const Result& res
 }
 
 void add_attributes(MeshModel& layer, const OperationResult& result) {
-  for (const auto& [name, rows] : result.arrays) {
-    if (rows.cols() == 3) {
-      auto attribute = new_attribute<Point3m>(layer.cm, name);
-      for (Index i = 0; i < rows.rows(); ++i)
-        attribute[i] = Point3m(rows(i, 0), rows(i, 1), rows(i, 2));
-    } else {
-      auto attribute = new_attribute<Scalarm>(layer.cm, name);
-      for (Index i = 0; i < rows.rows(); ++i) attribute[i] = rows(i, 0);
-    }
-  }
+  for (const auto& [name, rows] : result.arrays) add_attribute(layer.cm, name, rows);
 }
 
 void show_as_quality(MeshModel& layer, const OperationResult& result) {
@@ -93,6 +112,29 @@ void show_as_quality(MeshModel& layer, const OperationResult& result) {
     colour_by_quality(layer, 1, 0);
   for (Index i = 0; i < values.size(); ++i)
     if (!is_known(i)) layer.cm.vert[i].C() = vcg::Color4b::Gray;
+}
+
+void mark_analysed(MeshModel& layer, const LayerCloud& cloud, const AnalysisResult& result) {
+  const Analysis& described = analysis(result.analysis);
+  for (const PointArray& array : described.arrays) {
+    const auto found = result.arrays.find(array.name);
+    if (found == result.arrays.end()) continue;
+    const Eigen::MatrixXd values = by_vertex(layer.cm, cloud, array, found->second);
+    add_attribute(layer.cm, array.name, values);
+    if (array.name != described.shown) continue;
+    std::vector<char> is_known(layer.cm.vert.size(), 0);
+    double largest = 0;
+    for (Index i = 0; i < cloud.points.rows(); ++i) {
+      const double value = values(cloud.vertex[i], 0);
+      is_known[cloud.vertex[i]] = std::isfinite(value) && value >= 0;
+      if (is_known[cloud.vertex[i]]) largest = std::max(largest, value);
+    }
+    for (std::size_t v = 0; v < is_known.size(); ++v)
+      layer.cm.vert[v].Q() = is_known[v] ? values(static_cast<Index>(v), 0) : 0;
+    colour_by_quality(layer, 0, largest > 0 ? largest : 1);
+    for (std::size_t v = 0; v < is_known.size(); ++v)
+      if (!is_known[v]) layer.cm.vert[v].C() = vcg::Color4b::Gray;
+  }
 }
 
 }  // namespace symsurf::meshlab

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <symsurf/analysis.h>
 #include <symsurf/operation.h>
 #include <symsurf/result.h>
 
@@ -28,5 +29,10 @@ void add_attributes(MeshModel& layer, const OperationResult& result);
 /// blue over green, none, to red, as far to both sides; or the confidence, blue for the best.
 /// Vertices of which it says nothing are grey with quality 0.
 void show_as_quality(MeshModel& layer, const OperationResult& result);
+
+/// Gives the vertices what an analysis says of each as attributes of the same names, and shows the
+/// array that the analysis is to be seen by as quality, coloured from blue for the least to red.
+/// Vertices of which it says nothing, and those not looked at, are grey.
+void mark_analysed(MeshModel& layer, const LayerCloud& cloud, const AnalysisResult& result);
 
 }  // namespace symsurf::meshlab

@@ -1,5 +1,8 @@
 #include "controller_communicator.h"
 
+#include <symsurf/errors.h>
+
+#include <cstring>
 #include <numeric>
 
 #include "meeting.h"
@@ -55,4 +58,19 @@ symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
     send();
   }
   return theirs;
+}
+
+bool are_elsewhere(const ControllerCommunicator& processes, symsurf::Index own,
+                   const std::string& what) {
+  if (processes.size() == 1) return false;
+  int with_points = 0;
+  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(&own, 1)))) {
+    symsurf::Index count;
+    std::memcpy(&count, theirs.data(), sizeof count);
+    with_points += count > 0;
+  }
+  if (with_points > 1)
+    throw symsurf::InvalidInput(std::to_string(with_points) + " processes share out the points; " +
+                                what + " needs all of them in one: aggregate the data set first");
+  return with_points == 1 && own == 0;
 }

@@ -2,6 +2,9 @@
 #define controller_communicator_h
 
 #include <symsurf/communicator.h>
+#include <symsurf/types.h>
+
+#include <string>
 
 #include "vtkMultiProcessController.h"
 
@@ -19,5 +22,11 @@ class ControllerCommunicator : public symsurf::Communicator {
  private:
   vtkMultiProcessController* controller_;
 };
+
+/// Whether another process has the points, all of them. Throws InvalidInput where several have
+/// some, in all processes together: one that threw alone would keep the others waiting. `what`:
+/// what needs them, as "an operation".
+bool are_elsewhere(const ControllerCommunicator& processes, symsurf::Index own,
+                   const std::string& what);
 
 #endif

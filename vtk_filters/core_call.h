@@ -3,6 +3,7 @@
 
 #include <symsurf/context.h>
 #include <symsurf/errors.h>
+#include <symsurf/value.h>
 
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"
@@ -18,6 +19,17 @@ inline symsurf::Context context_of(vtkAlgorithm* filter, int threads = 0) {
         return filter->GetAbortExecute() == 0;
       },
       threads);
+}
+
+/// Warns of points that were left out, and of what the core warns of.
+inline void warn_of(vtkAlgorithm* filter, const symsurf::Values& statistics) {
+  const auto count = statistics.find("nonfinite_points");
+  if (count != statistics.end())
+    vtkWarningWithObjectMacro(
+        filter, << symsurf::to_string(count->second) << " points are not finite and were left out");
+  const auto warning = statistics.find("warning");
+  if (warning != statistics.end())
+    vtkWarningWithObjectMacro(filter, << symsurf::to_string(warning->second));
 }
 
 /// Runs a call of the core inside RequestData and gives what RequestData has to return. Errors of

@@ -7,11 +7,15 @@
 
 #include "vtk_names.h"
 
-/// "Mirror asymmetry" -> "MirrorAsymmetry": the filter is "vtk" and this.
+/// "Mirror asymmetry" -> "MirrorAsymmetry".
+inline std::string joined_title(std::string title) {
+  std::replace(title.begin(), title.end(), ' ', '_');
+  return vtk_name(title);
+}
+
+/// "MirrorAsymmetry": the filter is "vtk" and this.
 inline std::string filter_name(const symsurf::Operation& operation) {
-  std::string words = operation.title;
-  std::replace(words.begin(), words.end(), ' ', '_');
-  return vtk_name(words);
+  return joined_title(operation.title);
 }
 
 /// "MirrorAsymmetryDistance": an input may have a "Distance" of its own.

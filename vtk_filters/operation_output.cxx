@@ -4,57 +4,32 @@
 #include <set>
 #include <vector>
 
+#include "described_arrays.h"
 #include "field_values.h"
 #include "operation_names.h"
 #include "point_arrays.h"
 #include "point_subset.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSignedCharArray.h"
 
 namespace {
 
 using Rows = std::vector<symsurf::Index>;
 
-template <typename Array>
-vtkSmartPointer<vtkDataArray> filled(const Eigen::MatrixXd& rows) {
-  vtkNew<Array> array;
-  array->SetNumberOfComponents(static_cast<int>(rows.cols()));
-  array->SetNumberOfTuples(rows.rows());
-  auto* value = array->GetPointer(0);
-  for (Eigen::Index r = 0; r < rows.rows(); ++r)
-    for (Eigen::Index c = 0; c < rows.cols(); ++c)
-      *value++ = static_cast<typename Array::ValueType>(rows(r, c));
-  return array;
-}
-
-vtkSmartPointer<vtkDataArray> array_of(symsurf::ParameterType type, const Eigen::MatrixXd& rows) {
-  if (type == symsurf::ParameterType::Boolean) return filled<vtkSignedCharArray>(rows);
-  if (type == symsurf::ParameterType::Integer) return filled<vtkIdTypeArray>(rows);
-  return filled<vtkDoubleArray>(rows);
-}
-
 void add_arrays(vtkPolyData* output, const TriangleArray& faces,
                 const symsurf::OperationResult& result) {
   const symsurf::Operation& operation = symsurf::operation(result.operation);
-  for (const symsurf::PointArray& described : operation.arrays) {
-    const auto found = result.arrays.find(described.name);
-    if (found == result.arrays.end()) continue;
-    const auto array = array_of(described.type, found->second);
-    array->SetName(array_name(operation, described.name).c_str());
-    output->GetPointData()->AddArray(array);
-    if (described.name == "face")  // a triangle is a part of a cell
-      for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-        if (const auto face = static_cast<vtkIdType>(array->GetTuple1(i)); face >= 0)
-          array->SetTuple1(i, static_cast<double>(faces.cells()->GetValue(face)));
-  }
-  if (!operation.shown.empty())
-    output->GetPointData()->SetActiveScalars(array_name(operation, operation.shown).c_str());
+  add_point_arrays(output, filter_name(operation), operation.arrays, result.arrays,
+                   operation.shown);
+  vtkDataArray* face = output->GetPointData()->GetArray(array_name(operation, "face").c_str());
+  if (!face) return;
+  for (vtkIdType i = 0; i < face->GetNumberOfTuples(); ++i)  // a triangle is a part of a cell
+    if (const auto triangle = static_cast<vtkIdType>(face->GetTuple1(i)); triangle >= 0)
+      face->SetTuple1(i, static_cast<double>(faces.cells()->GetValue(triangle)));
 }
 
 void copy_rows(vtkDataSetAttributes* to, vtkDataSetAttributes* from, const Rows& rows) {

@@ -3,9 +3,6 @@
 #include <symsurf/detect.h>
 #include <symsurf/operation.h>
 
-#include <algorithm>
-#include <cstring>
-
 #include "controller_communicator.h"
 #include "core_call.h"
 #include "mirror_input.h"
@@ -18,24 +15,6 @@
 #include "vtkPolyData.h"
 
 namespace {
-
-// Whether another process has the points. Of all processes together: one that threw alone would
-// keep the others waiting.
-bool is_elsewhere(const ControllerCommunicator& processes, symsurf::Index own) {
-  if (processes.size() == 1) return false;
-  int with_points = 0;
-  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(&own, 1)))) {
-    symsurf::Index count;
-    std::memcpy(&count, theirs.data(), sizeof count);
-    with_points += count > 0;
-  }
-  if (with_points > 1)
-    throw symsurf::InvalidInput(
-        std::to_string(with_points) +
-        " processes share out the points; an operation needs all of them in "
-        "one: aggregate the data set first");
-  return with_points == 1 && own == 0;
-}
 
 std::string names_of_arrays(vtkPointData* data) {
   std::string names;
@@ -85,7 +64,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
   return core_call(filter, [&] {
     const PointArray points = points_of(shape);
     const ControllerCommunicator processes(filter->GetController());
-    if (is_elsewhere(processes, points.view().size())) return;
+    if (are_elsewhere(processes, points.view().size(), "an operation")) return;
     const TriangleArray faces(shape);
     const symsurf::OperationInput input{points.view(), faces.view(),
                                         mask_of(shape, call.mask_array)};

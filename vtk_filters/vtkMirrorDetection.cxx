@@ -62,17 +62,6 @@ void require_normals(const ControllerCommunicator& processes, bool missing) {
         "UseNormals is on, but the input has no point normals; compute them first, or do without");
 }
 
-void warn(vtkMirrorDetection* filter, const symsurf::Result& result) {
-  const auto count = result.statistics.find("nonfinite_points");
-  if (count != result.statistics.end())
-    vtkWarningWithObjectMacro(filter, << symsurf::to_string(count->second)
-                                      << " points are not finite and were left out; they have no "
-                                         "partners");
-  const auto warning = result.statistics.find("warning");
-  if (warning != result.statistics.end())
-    vtkWarningWithObjectMacro(filter, << symsurf::to_string(warning->second));
-}
-
 void append(symsurf::Mesh& all, const symsurf::Mesh& mesh) {
   const symsurf::Index vertices = all.vertices.rows(), triangles = all.triangles.rows();
   all.vertices.conservativeResize(vertices + mesh.vertices.rows(), 3);
@@ -190,7 +179,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     const symsurf::Context context = context_of(this, this->NumberOfThreads);
     const symsurf::Result result =
         symsurf::detect(points.view(), options, context.stage(0, 0.95).sharing(&processes));
-    if (processes.rank() == 0) warn(this, result);
+    if (processes.rank() == 0) warn_of(this, result.statistics);
     const auto sides = sides_of(points.view(), result, context.stage(0.95, 1));
 
     vtkPolyData* mirror = vtkPolyData::GetData(outputs, MIRROR);

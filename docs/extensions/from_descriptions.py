@@ -48,7 +48,17 @@ def operations() -> str:
     )
 
 
-def parameters(described: symsurf.Method | symsurf.Operation) -> str:
+def analyses() -> str:
+    return table(
+        ("analysis", "what it does"),
+        (
+            (f"[{each.name}](/symmetries/{each.name}.md)", each.summary)
+            for each in symsurf.analyses().values()
+        ),
+    )
+
+
+def parameters(described: symsurf.Method | symsurf.Operation | symsurf.Analysis) -> str:
     return table(
         ("parameter", "default", "allowed", "what it is"),
         (
@@ -58,12 +68,12 @@ def parameters(described: symsurf.Method | symsurf.Operation) -> str:
     )
 
 
-def arrays(operation: symsurf.Operation) -> str:
+def arrays(described: symsurf.Operation | symsurf.Analysis) -> str:
     return table(
         ("array", "a point", "what it is"),
         (
             (f"`{each.name}`", f"{each.components} {each.type}", each.doc)
-            for each in operation.arrays
+            for each in described.arrays
         ),
     )
 
@@ -91,6 +101,10 @@ def detectors() -> str:
 
 def operating_functions() -> str:
     return functions(symsurf.operations())
+
+
+def analysing_functions() -> str:
+    return functions(symsurf.analyses())
 
 
 def classes(names: Iterable[str]) -> str:
@@ -212,11 +226,15 @@ def _parameter_text(described: symsurf.Method | symsurf.Operation | None, parame
 
 def add_parameters(app: Sphinx, page: str, source: list[str]) -> None:
     folder, _, name = page.rpartition("/")
-    described = {"methods": symsurf.methods, "operations": symsurf.operations}.get(folder)
+    described = {
+        "methods": symsurf.methods,
+        "operations": symsurf.operations,
+        "symmetries": symsurf.analyses,
+    }.get(folder)
     if not described or name not in described():
         return
     text = f"**Parameters**\n\n{parameters(described()[name])}\n"
-    if folder == "operations" and described()[name].arrays:
+    if folder != "methods" and described()[name].arrays:
         text += f"\n**What each point gets**\n\n{arrays(described()[name])}\n"
     source[0], count = re.subn(
         r"^\*\*Parameters\.\*\*.*?(?:\n\n|\Z)", lambda _: text + "\n", source[0],
@@ -244,7 +262,8 @@ def name_aliases(*described: Any) -> tuple[str | None, str | None]:
 def setup(app: Sphinx) -> dict[str, bool]:
     app.config.myst_substitutions = {
         function.__name__: function
-        for function in (methods, operations, detectors, operating_functions, functions, classes,
+        for function in (methods, operations, analyses, detectors, operating_functions,
+                         analysing_functions, functions, classes,
                          vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
     }  # fmt: skip
     app.connect("source-read", add_parameters)

@@ -11,6 +11,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& module);
 void bind_methods(py::module_& module);
 void bind_mirrors(py::module_& module);
+void bind_optics(py::module_& module);
 void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
 void bind_reading(py::module_& module);
@@ -18,6 +19,6 @@ void bind_synthesis(py::module_& module);
 void bind_benchmark(py::module_& module);
 void bind_metrics(py::module_& module);
 void bind_operations(py::module_& module);
-void bind_symmetries(py::module_& module);
+void bind_analyses(py::module_& module);
 
 }  // namespace symsurf::python

@@ -9,24 +9,12 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "context.h"
+#include "point_arrays.h"
 #include "values.h"
 
 namespace symsurf::python {
 
 namespace {
-
-py::object typed(const Eigen::MatrixXd& values, const PointArray& described) {
-  py::object array =
-      owned_array(Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>(values));
-  if (described.components == 1) array = array.attr("ravel")();
-  if (described.type == ParameterType::Boolean) return array.attr("astype")("bool");
-  if (described.type == ParameterType::Integer) return array.attr("astype")("int64");
-  return array;
-}
-
-py::array_t<Index> indices(const std::vector<Index>& values) {
-  return py::array_t<Index>(static_cast<py::ssize_t>(values.size()), values.data());
-}
 
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, const Mirror& mirror,
@@ -39,18 +27,13 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   const Context context = context_from(progress, threads);
   OperationResult result =
       without_gil([&] { return operate(name, input, mirror, values, context); });
-  py::dict arrays;
-  for (const PointArray& array : described.arrays) {
-    const auto found = result.arrays.find(array.name);
-    if (found != result.arrays.end()) arrays[py::str(array.name)] = typed(found->second, array);
-  }
   py::dict fields;
   fields["given"] = points.array;
   fields["points"] = owned_array(std::move(result.points));
   fields["faces"] = owned_array(std::move(result.faces));
-  fields["point_sources"] = indices(result.point_sources);
-  fields["face_sources"] = indices(result.face_sources);
-  fields["arrays"] = arrays;
+  fields["point_sources"] = to_python(result.point_sources);
+  fields["face_sources"] = to_python(result.face_sources);
+  fields["arrays"] = to_python(result.arrays, described.arrays);
   fields["parameters"] = to_python(result.parameters);
   fields["statistics"] = to_python(result.statistics);
   return fields;
@@ -59,7 +42,8 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
 }  // namespace
 
 void bind_operations(py::module_& module) {
-  py::class_<PointArray>(module, "PointArray", "An array that an operation gives each point.")
+  py::class_<PointArray>(module, "PointArray",
+                         "An array that an operation or an analysis gives each point.")
       .def_readonly("name", &PointArray::name)
       .def_property_readonly(
           "type", [](const PointArray& array) { return std::string(to_string(array.type)); },
@@ -68,6 +52,8 @@ void bind_operations(py::module_& module) {
       .def_readonly("doc", &PointArray::doc, "One sentence, with the unit.")
       .def_readonly("is_signed", &PointArray::is_signed,
                     "Whether 0 belongs in the middle of a colour map.")
+      .def_readonly("names_points", &PointArray::names_points,
+                    "Whether the values are indices of points, -1 for none.")
       .def("__repr__", [](const PointArray& array) { return "<PointArray " + array.name + ">"; });
 
   py::class_<Operation>(module, "Operation", "The description of what is done with a mirror.")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from . import detectors, metrics, synthetic
 from ._core import (
+    Analysis,
     Cancelled,
     Cylinder,
     FreeForm,
@@ -21,9 +22,11 @@ from ._core import (
     Parameter,
     Plane,
     Quadric,
+    ReflectionPoints,
     Sphere,
     SurfaceMirror,
     __version__,
+    analyses,
     bend,
     make_mirror,
     methods,
@@ -44,17 +47,28 @@ from .mirror_operations import (
     functions,
 )
 from .mirror_operations.functions import *  # one for each in operations()
-from .point_group import Axis, Symmetries, symmetries
 from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
+from .shape_analyses import (
+    AnalysisResult,
+    Axis,
+    IntrinsicSymmetry,
+    Symmetries,
+    SymmetryEmbedding,
+    Transformation,
+)
+from .shape_analyses import functions as analysing_functions
+from .shape_analyses.functions import *  # one for each in analyses()
 
 if TYPE_CHECKING:
     from .batching import batch
 
 __all__ = [
     "Alignment",
+    "Analysis",
+    "AnalysisResult",
     "Asymmetry",
     "Axis",
     "Cancelled",
@@ -64,6 +78,7 @@ __all__ = [
     "FreeForm",
     "HeightField",
     "InputWarning",
+    "IntrinsicSymmetry",
     "InvalidInput",
     "InvalidParameter",
     "Method",
@@ -73,6 +88,7 @@ __all__ = [
     "Parameter",
     "Plane",
     "Quadric",
+    "ReflectionPoints",
     "Result",
     "Shape",
     "Sphere",
@@ -80,7 +96,10 @@ __all__ = [
     "SurfaceMirror",
     "Symmetries",
     "Symmetrized",
+    "SymmetryEmbedding",
+    "Transformation",
     "__version__",
+    "analyses",
     "batch",
     "bend",
     "detect",
@@ -93,11 +112,11 @@ __all__ = [
     "operations",
     "read",
     "straight_mirror",
-    "symmetries",
     "synthetic",
 ]
 __all__ += detectors.__all__
 __all__ += functions.__all__
+__all__ += analysing_functions.__all__
 
 if not TYPE_CHECKING:
 

@@ -13,22 +13,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import InvalidInput
+from ._core import InvalidInput, analyses
 from .detection import Progress, detect
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
-from .point_group import symmetries
+from .plain import plain
 from .reading import read, suffix_of
 from .result import Result
 from .sampling import downsample
 from .saving import write_whole
-from .saving.json_format import mirror_record, plain, record_bytes, summary
+from .saving.json_format import mirror_record, record_bytes, summary
 from .saving.shape_files import save_shape
 from .shape import Shape
+from .shape_analyses import Symmetries
+from .shape_analyses.analyse import analyse
 
 DETECT = "detect"
-SYMMETRIES = "symmetries"
 SUMMARY_SUFFIX = ".summary.json"
 PICTURE_SUFFIX = ".png"
 PAGE_SUFFIX = ".html"
@@ -44,11 +45,10 @@ class FileTask:
     file: Path
     """For ``content`` the name that records and outputs have."""
     operation: str = DETECT
-    """Or "symmetries", or the name of one of ``operations()``."""
+    """Or the name of one of ``operations()`` or ``analyses()``."""
     method: str = "auto"
     parameters: dict[str, Any] = field(default_factory=dict)
-    """Those of the operation, and of the method where only the mirror is found; of "symmetries"
-    ``minimum_score``."""
+    """Those of the operation or the analysis, and of the method where only the mirror is found."""
     seed: int = 0
     threads: int = 0
     nonfinite: str = "skip"
@@ -115,8 +115,8 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     record["points"] = len(shape.points)
-    if task.operation == SYMMETRIES:
-        _find_symmetries(task, shape, record, progress)
+    if task.operation in analyses():
+        _analyse(task, shape, record, progress)
         return
     parameters = task.parameters if task.operation == DETECT else {}
     found = detect(
@@ -140,18 +140,27 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         _operate(task, shape, found, record, notices)
 
 
-def _find_symmetries(
-    task: FileTask, shape: Shape, record: Record, progress: Progress | None
-) -> None:
-    found = symmetries(
-        shape.points,
-        faces=shape.faces,
+def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | None) -> None:
+    found = analyse(
+        task.operation,
+        shape,
         nonfinite=task.nonfinite,
+        seed=task.seed,
         threads=task.threads,
         progress=progress,
         **task.parameters,
     )
-    record |= found.to_json() | {"bop": found.to_bop()}
+    if left_out := found.statistics.get("nonfinite_points", 0):
+        record["notices"].append(nonfinite_message(left_out))
+    record |= plain(found.to_json())
+    if isinstance(found, Symmetries):
+        record["bop"] = found.to_bop()
+    for output in task.outputs:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        if output.suffix == PICTURE_SUFFIX:
+            found.plot(output)
+        else:
+            found.save(output)
 
 
 def _operate(

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Mapping
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from ._core import InvalidParameter, Parameter
 
 
@@ -39,3 +41,9 @@ def as_fractions(
                 f"which is {lengths[name].allowed}"
             )
     return dict(values) | {name: length / unit for name, length in given.items()}
+
+
+def diagonal_of(points: Any) -> float:
+    """Of the axis-aligned bounding box of the finite points; (n, 3)."""
+    array = np.asarray(points, dtype=float)
+    return float(np.linalg.norm(np.ptp(array[np.isfinite(array).all(axis=1)], axis=0)))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ._core import __version__
-from .file_task import SYMMETRIES, Record
+from .file_task import Record
 
 _FIRST = ("file", "points", "unit", "method", "kind", "score", "verdict")
 _LAST = ("seconds", "version", "error")
@@ -51,9 +51,9 @@ def row_of(record: Record) -> dict[str, Any]:
     if record["operation"] != "detect":
         statistics = record.get("statistics", {})
         row |= _cells({_STATISTICS.get(name, name): value for name, value in statistics.items()})
-    if record["operation"] == SYMMETRIES and "group" in record:
-        row |= {name: record[name] for name in ("group", "inversion")}
-        row |= {name: len(record[name]) for name in ("planes", "axes")}
+    row |= {name: record[name] for name in ("group", "inversion") if name in record}
+    found = ("planes", "axes", "transformations")
+    row |= {name: len(record[name]) for name in found if name in record}
     row |= {
         "seconds": record["seconds_in_all"],
         "version": __version__,

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from html import escape
+from typing import Any
+
+import numpy as np
 
 
 class Summarised:
@@ -28,3 +31,15 @@ class Summarised:
 def percent(share: float) -> str:
     """Never 100 % of less than all."""
     return f"{int(1000 * share) / 10:g} %"
+
+
+def value_text(name: str, value: Any, of_diagonal: float | None = None) -> str:
+    """A reported figure in words; of a length with its share of the diagonal."""
+    if of_diagonal is not None:
+        return f"{value:.4g} ({100 * of_diagonal:.3g} % of the diagonal)"
+    if name.endswith("_share"):
+        return percent(value)
+    if isinstance(value, np.ndarray):
+        rows = ["  ".join(f"{number:.6g}" for number in row) for row in np.atleast_2d(value)]
+        return "\n".join(rows)
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

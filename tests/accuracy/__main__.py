@@ -15,11 +15,14 @@ from . import (
     curved,
     deformed,
     exact,
+    intrinsic,
     kinds,
     nearly_symmetric,
     operations,
+    partial,
     planes,
     scores,
+    symmetries,
     without_mirror,
 )
 from .case import Case, Figures
@@ -27,7 +30,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           operations, scores, without_mirror)  # fmt: skip
+           intrinsic, operations, partial, scores, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "random_cloud.h"
-#include "symmetries/point_group.h"
+#include "symmetries/point_group/point_group.h"
 
 namespace symsurf {
 namespace {

@@ -42,6 +42,19 @@ def test_there_is_one_filter_a_method_and_one_an_operation():
     assert "apply_mirror_alignment" in operations and "compute_mirror_asymmetry" in operations
 
 
+def test_there_is_one_filter_an_analysis():
+    assert {f"compute_{name}" for name in symsurf.analyses()} <= set(pymeshlab.filter_list())
+
+
+@pytest.mark.parametrize("analysis", symsurf.analyses())
+def test_parameters_of_analyses_are_those_described(analysis):
+    described = symsurf.analyses()[analysis].parameters
+    shown = cloud().mesh_set().filter_parameter_values(f"compute_{analysis}")
+    of_the_host = {"only_selected", "use_faces", "seed", "threads"}
+    assert set(shown) == {p.name for p in described} | of_the_host
+    assert_defaults(shown, described)
+
+
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_parameters_are_those_described(method):
     described = [p.name for p in symsurf.methods()[method].parameters]

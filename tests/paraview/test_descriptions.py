@@ -86,6 +86,23 @@ def test_xml_is_the_description(
     assert (decorator.get("property"), decorator.get("value")) == ("Method", method)
 
 
+def test_xml_of_the_analyses_is_their_descriptions(server_manager_xml: Path) -> None:
+    proxy = xml_properties(server_manager_xml / "SymmetryAnalysis.xml")
+    own = {"Input", "Analysis", "UseFaces", "RefuseNonfinite", "Seed", "NumberOfThreads"}
+    described = {
+        camel_case(analysis.name, parameter.name): (analysis.name, parameter)
+        for analysis in symsurf.analyses().values()
+        for parameter in analysis.parameters
+    }
+    assert set(proxy) == own | set(described)
+    offered = [item.get("value") for item in proxy["Analysis"].iter("String")]
+    assert offered == list(symsurf.analyses())
+    for name, (analysis, parameter) in described.items():
+        check(proxy[name], name, parameter)
+        decorator = proxy[name].find("Hints/PropertyWidgetDecorator")
+        assert (decorator.get("property"), decorator.get("value")) == ("Analysis", analysis)
+
+
 @pytest.mark.parametrize("operation", symsurf.operations().values(), ids=lambda each: each.name)
 def test_xml_is_the_description_of_the_operation(
     server_manager_xml: Path, operation: symsurf.Operation

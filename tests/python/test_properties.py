@@ -1,4 +1,4 @@
-"""What holds of every method and operation, whatever the cloud and the parameters.
+"""What holds of every method, operation and analysis, whatever the cloud and the parameters.
 
 The draws follow the descriptions: parameters within their ranges, clouds of few points, with copies,
 flat, on lines and lattices, in any unit.
@@ -14,7 +14,7 @@ from symmetric_shapes import diagonal, random_rotation
 
 import symsurf
 
-METHODS, OPERATIONS = symsurf.methods(), symsurf.operations()
+METHODS, OPERATIONS, ANALYSES = symsurf.methods(), symsurf.operations(), symsurf.analyses()
 # Of each method, by how long it takes: the whole in half a minute.
 EXAMPLES = {"auto": 8, "sphere": 15, "cylinder": 15, "sphere_thesis": 30}
 # The same bits for points in any order.
@@ -221,6 +221,12 @@ def expect_consistent(made, points, mirror):
             )
 
 
+@st.composite
+def triangles(draw, points):
+    corners = st.integers(0, len(points) - 1)
+    return np.array(draw(st.lists(st.tuples(corners, corners, corners), min_size=1, max_size=30)))
+
+
 @pytest.mark.parametrize("name", OPERATIONS)
 def test_every_operation_keeps_its_promises(name):
     @settings(**THESE, max_examples=80)
@@ -229,9 +235,7 @@ def test_every_operation_keeps_its_promises(name):
         points = data.draw(clouds(60))
         assume(len(points) > 0 and diagonal(points) > 0)
         mirror = data.draw(mirrors(points))
-        corners = st.integers(0, len(points) - 1)
-        triangles = st.lists(st.tuples(corners, corners, corners), min_size=1, max_size=30)
-        faces = data.draw(st.none() | triangles.map(np.array))
+        faces = data.draw(st.none() | triangles(points))
         parameters = data.draw(parameters_of(OPERATIONS[name].parameters))
         try:
             made = getattr(symsurf, name)(points, mirror, faces=faces, **parameters)
@@ -242,3 +246,48 @@ def test_every_operation_keeps_its_promises(name):
         expect_consistent(made, points, mirror)
 
     on_any_cloud()
+
+
+def expect_sound_analysis(found, analysis, points):
+    count = len(points)
+    described = {array.name: array for array in analysis.arrays}
+    for name, values in found.arrays.items():
+        assert len(values) == count
+        if described[name].names_points:
+            assert ((values >= -1) & (values < count)).all()
+    for plane in found.planes:
+        assert np.linalg.norm(plane.normal) == pytest.approx(1)
+    for axis in found.axes:
+        assert np.linalg.norm(axis.direction) == pytest.approx(1)
+        assert np.isfinite(axis.point).all() and axis.order >= 0
+    for each in found.transformations:
+        assert each.matrix.shape == (4, 4) and np.isfinite(each.matrix).all()
+        assert 0 <= each.score <= 1
+        assert (len(each.from_points) == 0) == (len(each.onto_points) == 0)
+        for patch in (each.from_points, each.onto_points):
+            assert (np.diff(patch) > 0).all()
+            assert len(patch) == 0 or (patch[0] >= 0 and patch[-1] < count)
+
+
+@pytest.mark.filterwarnings("ignore::symsurf.InputWarning")
+@pytest.mark.parametrize("name", ANALYSES)
+def test_every_analysis_is_sound(name):
+    @settings(**THESE, max_examples=25)
+    @given(st.data())
+    def of_any_shape(data):
+        points = data.draw(clouds(60))
+        faces = data.draw(st.none() | triangles(points)) if len(points) else None
+        parameters = data.draw(parameters_of(ANALYSES[name].parameters))
+        analyse = getattr(symsurf, name)
+        try:
+            found = analyse(points, faces=faces, threads=1, **parameters)
+        except (symsurf.InvalidInput, symsurf.InvalidParameter) as error:
+            assert str(error)
+            return
+        expect_sound_analysis(found, ANALYSES[name], points)
+        again = analyse(points, faces=faces, threads=2, **parameters)
+        assert again.to_json() | {"seconds": 0} == found.to_json() | {"seconds": 0}
+        for array, values in found.arrays.items():
+            np.testing.assert_array_equal(values, again.arrays[array])
+
+    of_any_shape()

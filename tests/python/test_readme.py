@@ -1,5 +1,5 @@
-"""The README's examples in Python and those of the methods' pages run; the tables of methods and of
-operations are their own descriptions."""
+"""The README's examples in Python and those of the pages of methods, operations and analyses run; the
+tables of methods and of operations are their own descriptions."""
 
 from __future__ import annotations
 
@@ -63,23 +63,33 @@ def test_examples_of_the_methods_pages_find_the_mirror(page, tmp_path):
     assert "found" in output_of(example, tmp_path)
 
 
-OPERATIONS = {name: ROOT / f"docs/operations/{name}.md" for name in symsurf.operations()}
+OPERATIONS = symsurf.operations()
+# Of each page its description, and the folder that it and its picture are in.
+DESCRIBED = {
+    **{name: (each, "operations") for name, each in OPERATIONS.items()},
+    **{name: (each, "symmetries") for name, each in symsurf.analyses().items()},
+}
 
 
-@pytest.mark.parametrize("name", OPERATIONS)
-def test_examples_of_the_operations_pages_print_what_they_say(name, tmp_path):
-    (example,) = examples("python", OPERATIONS[name].read_text())
+def page_of(name: str) -> Path:
+    return ROOT / "docs" / DESCRIBED[name][1] / f"{name}.md"
+
+
+@pytest.mark.parametrize("name", DESCRIBED)
+def test_examples_of_the_pages_print_what_they_say(name, tmp_path):
+    (example,) = examples("python", page_of(name).read_text())
     said = re.findall(r"^print\(.*\)  # (.*)$", example, re.MULTILINE)
     assert said and output_of(example, tmp_path).splitlines() == said
 
 
-@pytest.mark.parametrize("name", OPERATIONS)
-def test_operations_pages_have_pictures_and_parameters(name):
-    page = OPERATIONS[name].read_text()
+@pytest.mark.parametrize("name", DESCRIBED)
+def test_pages_have_pictures_and_parameters(name):
+    described, folder = DESCRIBED[name]
+    page = page_of(name).read_text()
     for picture in re.findall(r"\]\((\S+\.png)\)", page):
-        assert (OPERATIONS[name].parent / picture).is_file()
-    assert f"../images/operations/{name}.png" in page
-    for parameter in symsurf.operations()[name].parameters:
+        assert (page_of(name).parent / picture).is_file()
+    assert f"../images/{folder}/{name}.png" in page
+    for parameter in described.parameters:
         assert f"`{parameter.name}`" in page.split("**Parameters.**")[1]
 
 
@@ -129,5 +139,5 @@ def test_table_of_operations():
     page = (ROOT / "docs/operations.md").read_text()
     rows = re.findall(r"^\| `\w+` \| .* \|$", page, re.MULTILINE)
     assert rows[: len(OPERATIONS)] == [
-        f"| `{each.name}` | {each.summary} |" for each in symsurf.operations().values()
+        f"| `{each.name}` | {each.summary} |" for each in OPERATIONS.values()
     ]

@@ -7,9 +7,9 @@ import json
 
 import numpy as np
 import pytest
+from accuracy.symmetric_parts import PARTS, Part, cut, noisy
 from command_line import run
 from numpy.typing import NDArray
-from symmetric_parts import PARTS, Part, cut, noisy
 from symmetric_shapes import random_rotation
 
 import symsurf
@@ -149,15 +149,15 @@ def test_the_command_line_makes_a_table_and_takes_other_formats(tmp_path):
     with table.open() as file:
         (row,) = csv.DictReader(file)
     assert row["group"] == "D2h" and row["planes"] == "3" and row["axes"] == "3"
-    refused = run("symmetries", path, "--minimum-score", "much")
+    refused = run("symmetries", path, "--input-format", "xyz", "--minimum-score", "much")
     assert refused.returncode == 2
-    assert "minimum_score is much; allowed is [0, 1]" in refused.stderr
+    assert "minimum_score is much; allowed is real [0, 1]" in refused.stderr
 
 
 def test_bad_input_is_named():
     points, _, _ = posed(PARTS["box"])
     with pytest.raises(
-        symsurf.InvalidParameter, match=r"minimum_score is 1.5; allowed is \[0, 1\]"
+        symsurf.InvalidParameter, match=r"minimum_score is 1.5; allowed is real \[0, 1\]"
     ):
         symsurf.symmetries(points, minimum_score=1.5)
     with pytest.raises(symsurf.InvalidInput):

@@ -1,5 +1,6 @@
 #include "described.h"
 
+#include <symsurf/analysis.h>
 #include <symsurf/damage.h>
 #include <symsurf/method.h>
 #include <symsurf/synthetic.h>
@@ -12,7 +13,7 @@ namespace symsurf::front_ends {
 
 namespace {
 
-// Methods, generators and kinds of damage are described alike.
+// Methods, generators, kinds of damage and analyses are described alike.
 template <typename Descriptions>
 std::vector<Choice> choices_from(const Descriptions& descriptions) {
   std::vector<Choice> choices;
@@ -26,6 +27,7 @@ std::vector<Described> all_described() {
       {"vtkMirrorSampleSource", "Generator", "How the points are made.",
        choices_from(generators())},
       {"vtkPointDamage", "Damage", "What is done to the points.", choices_from(damages())},
+      {"vtkSymmetryAnalysis", "Analysis", "Which symmetries are sought.", choices_from(analyses())},
   };
   for (const Operation& operation : operations())
     all.push_back({"vtk" + filter_name(operation),

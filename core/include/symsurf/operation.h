@@ -15,13 +15,14 @@
 
 namespace symsurf {
 
-/// An array that an operation gives each point.
+/// An array that an operation or an analysis gives each point.
 struct PointArray {
   std::string name;
   ParameterType type = ParameterType::Real;  ///< or Integer or Boolean
   int components = 1;
-  std::string doc;         ///< one sentence, with the unit
-  bool is_signed = false;  ///< 0 belongs in the middle of a colour map
+  std::string doc;            ///< one sentence, with the unit
+  bool is_signed = false;     ///< 0 belongs in the middle of a colour map
+  bool names_points = false;  ///< the values are indices of points, -1 for none
 };
 
 /// The one description of what is done with a mirror. Front ends are made by looping over

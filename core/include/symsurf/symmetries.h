@@ -3,19 +3,13 @@
 #include <symsurf/context.h>
 #include <symsurf/plane.h>
 #include <symsurf/points_view.h>
+#include <symsurf/symmetry_axis.h>
 #include <symsurf/triangles_view.h>
 
 #include <string>
 #include <vector>
 
 namespace symsurf {
-
-/// A line about which a shape may be turned.
-struct SymmetryAxis {
-  Vector3 point;      ///< on the axis, input units: the centre of the group
-  Vector3 direction;  ///< unit
-  Index order = 0;    ///< a turn by 360 degrees / order maps the shape onto itself; 0: any turn
-};
 
 /// The point group of a shape: every rigid motion and reflection that maps it onto itself.
 struct Symmetries {

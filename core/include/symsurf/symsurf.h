@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/analysis.h>
 #include <symsurf/bend.h>
 #include <symsurf/candidate_values.h>
 #include <symsurf/communicator.h>
@@ -20,10 +21,12 @@
 #include <symsurf/plane.h>
 #include <symsurf/quadric.h>
 #include <symsurf/read.h>
+#include <symsurf/reflection_points.h>
 #include <symsurf/result.h>
 #include <symsurf/sphere.h>
 #include <symsurf/surface.h>
 #include <symsurf/surface_mirror.h>
 #include <symsurf/symmetries.h>
+#include <symsurf/symmetry_axis.h>
 #include <symsurf/synthetic.h>
 #include <symsurf/triangles_view.h>

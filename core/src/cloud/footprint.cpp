@@ -39,8 +39,7 @@ std::vector<Vector3> extreme_points(PointsView own, const Partition& partition) 
   return extremes;
 }
 
-void set_footprint(Result& result, const Cloud& cloud) {
-  if (!result.mirror) return;
+Points footprint_of(const Cloud& cloud) {
   const PointsView own = cloud.footprint.empty() ? cloud.points : cloud.footprint;
   const Partition partition = cloud.partition.resized(own.size());
   constexpr Index enough = 2000;
@@ -51,7 +50,11 @@ void set_footprint(Result& result, const Cloud& cloud) {
   chosen = partition.concatenate(chosen);
   const std::vector<Vector3> extremes = extreme_points(own, partition);
   chosen.insert(chosen.end(), extremes.begin(), extremes.end());
-  set_footprint(result, rows_of(chosen));
+  return rows_of(chosen);
+}
+
+void set_footprint(Result& result, const Cloud& cloud) {
+  if (result.mirror) set_footprint(result, footprint_of(cloud));
 }
 
 void set_footprint(Result& result, Points rows) {

@@ -12,8 +12,11 @@ namespace symsurf {
 /// Collective.
 std::vector<Vector3> extreme_points(PointsView own, const Partition& partition);
 
-/// Sets what the result's mirrors are drawn over: every k-th point of the cloud, and the extreme
-/// ones. Collective.
+/// What mirrors and axes are drawn over: every k-th point of the cloud, and the extreme ones.
+/// Collective.
+Points footprint_of(const Cloud& cloud);
+
+/// Sets what the result's mirrors are drawn over. Collective.
 void set_footprint(Result& result, const Cloud& cloud);
 
 /// Sets a footprint that is there already.

@@ -63,8 +63,8 @@ OperationImplementation correspondences_operation() {
   operation.arrays = {
       {"index", ParameterType::Integer, 1,
        "The mirror point, the point itself on the mirror, -1 for none. Of a mesh the closest "
-       "corner "
-       "of the face that the image comes closest to."},
+       "corner of the face that the image comes closest to.",
+       false, true},
       {"confidence", ParameterType::Real, 1,
        "0 to 1: the cosine between the normals, halved where the image lies a spacing away."},
       {"face", ParameterType::Integer, 1,

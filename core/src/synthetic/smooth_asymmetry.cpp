@@ -25,7 +25,8 @@ SmoothAsymmetry::SmoothAsymmetry(double share, const std::vector<Vector3>& point
   constexpr int waves = 5;
   constexpr double shortest = 0.7, longest = 2;  // wavelengths
   for (int k = 0; k < waves; ++k) {
-    const Vector3 along = random.direction() / random.uniform(shortest, longest);
+    const double wavelength = random.uniform(shortest, longest);
+    const Vector3 along = random.direction() / wavelength;
     const double phase = random.uniform();
     waves_.push_back({along, phase, random.direction()});
   }

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from .._core import InvalidInput
+from ..plain import plain
 from ..reading import read
 from ..saving import write_whole
-from ..saving.json_format import plain
 from ..saving.ply_format import shape_ply_bytes
 from ..shape import Shape
 from .cases import BenchmarkSample

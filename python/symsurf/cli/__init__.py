@@ -13,15 +13,16 @@ from io import TextIOWrapper
 from typing import Any
 
 from .. import __version__
-from .._core import InvalidInput, InvalidParameter, operations
-from . import damage, demo, detect, evaluate, generate, methods, report, symmetries
+from .._core import InvalidInput, InvalidParameter, analyses, operations
+from . import damage, demo, detect, evaluate, generate, methods, report
+from .analyse import AnalysisCommand
 from .operate import OperationCommand
 from .values import attach_negative_numbers
 
 COMMANDS: dict[str, Any] = {
     "detect": detect,
     **{name: OperationCommand(operation) for name, operation in operations().items()},
-    "symmetries": symmetries,
+    **{name: AnalysisCommand(analysis) for name, analysis in analyses().items()},
     "report": report,
     "generate": generate,
     "damage": damage,

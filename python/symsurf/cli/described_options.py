@@ -1,4 +1,4 @@
-"""The options of generators, kinds of damage and operations, made from their descriptions."""
+"""The options of generators, kinds of damage, operations and analyses, made from their descriptions."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
-from .._core import Damage, Generator, Operation
+from .._core import Analysis, Damage, Generator, Operation
 from ..descriptions import allowed
 from .values import shown, value_from
 
-Description: TypeAlias = Generator | Damage | Operation
+Description: TypeAlias = Generator | Damage | Operation | Analysis
 
 
 def add_kinds(

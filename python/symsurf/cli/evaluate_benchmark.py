@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..benchmark import BenchmarkSample, Figures, answer_in, figures_of, read_benchmark, summary
+from ..plain import plain
 from ..saving import write_whole
-from ..saving.json_format import plain
 
 Scored = tuple[BenchmarkSample, Figures]
 GROUPS: tuple[tuple[str, Callable[[BenchmarkSample], str]], ...] = (

@@ -10,7 +10,7 @@ from typing import Any
 from .. import descriptions
 from .._core import Method, Parameter
 from .._core import methods as all_methods
-from ..saving.json_format import plain
+from ..plain import plain
 from .values import shown
 
 SUMMARY = "List the methods and their parameters"

@@ -9,7 +9,7 @@ from .. import _core
 from .._core import InvalidInput, InvalidParameter, Mirror
 from ..detection import Progress, detect
 from ..inputs import Input, as_input
-from ..lengths import as_fractions
+from ..lengths import as_fractions, diagonal_of
 from ..result import Result
 from .results import RESULTS, OperationResult
 
@@ -33,15 +33,11 @@ def operate(
         mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     if absolute:
         described = _core.operations()[name].parameters
-        parameters = as_fractions(parameters, described, lambda: _diagonal(given))
+        parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
     made = _core.operate(
         name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
     return RESULTS[name].from_fields(made | {"given_faces": given.faces, "mirror": mirror})
-
-
-def _diagonal(shape: Input) -> float:
-    return float(np.linalg.norm(np.ptp(np.asarray(shape.points, dtype=float), axis=0)))
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidParameter, Mirror, Plane, operations
 from ..shape import Shape
-from ..summary import Summarised, percent
+from ..summary import Summarised, value_text
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -69,7 +69,7 @@ class OperationResult(Summarised):
         words = {"operation": self.operation, "mirror": self.mirror.kind}
         for name, value in self.statistics.items():
             if not name.endswith("_of_diagonal"):
-                words[name.replace("_", " ")] = _text(
+                words[name.replace("_", " ")] = value_text(
                     name, value, self.statistics.get(f"{name}_of_diagonal")
                 )
         return words
@@ -234,14 +234,3 @@ def _patch(points: NDArray[np.float64], given: int, faces: NDArray[np.int64]) ->
         return Shape(points[given:])
     used, corners = np.unique(faces, return_inverse=True)
     return Shape(points[used], corners.reshape(-1, 3))
-
-
-def _text(name: str, value: Any, of_diagonal: float | None) -> str:
-    if of_diagonal is not None:
-        return f"{value:.4g} ({100 * of_diagonal:.3g} % of the diagonal)"
-    if name.endswith("_share"):
-        return percent(value)
-    if isinstance(value, np.ndarray):
-        rows = ["  ".join(f"{number:.6g}" for number in row) for row in np.atleast_2d(value)]
-        return "\n".join(rows)
-    return f"{value:.4g}" if isinstance(value, float) else str(value)

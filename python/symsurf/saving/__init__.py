@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from .._core import InvalidParameter
 from ..result import Result
-from .json_format import json_bytes, operation_bytes
+from .json_format import analysis_bytes, json_bytes, operation_bytes
 from .ply_format import ply_bytes, shape_ply_bytes
 from .table_format import csv_bytes, npy_bytes
 from .text_format import text_bytes
@@ -19,15 +19,23 @@ from .vtp_format import shape_vtp_bytes, vtp_bytes
 
 if TYPE_CHECKING:
     from ..mirror_operations import OperationResult
+    from ..shape_analyses import AnalysisResult
 
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
 SHAPE_FORMATS = {".ply": shape_ply_bytes, ".vtp": shape_vtp_bytes}
-OPERATION_FORMATS: dict[str, Callable[[OperationResult], bytes]] = {
+_WITH_ARRAYS: dict[str, Callable[[OperationResult | AnalysisResult], bytes]] = {
     ".ply": lambda result: shape_ply_bytes(result.shape, result.arrays),
     ".vtp": lambda result: shape_vtp_bytes(result.shape, result.arrays),
     ".csv": lambda result: csv_bytes(result.arrays),
     ".npy": lambda result: npy_bytes(result.arrays),
+}
+OPERATION_FORMATS: dict[str, Callable[[OperationResult], bytes]] = {
+    **_WITH_ARRAYS,
     ".json": operation_bytes,
+}
+ANALYSIS_FORMATS: dict[str, Callable[[AnalysisResult], bytes]] = {
+    **_WITH_ARRAYS,
+    ".json": analysis_bytes,
 }
 
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .._core import Mirror
+from ..plain import plain
 from ..result import Result
 
 if TYPE_CHECKING:
     from ..mirror_operations import OperationResult
+    from ..shape_analyses import AnalysisResult
 
 
 def json_bytes(result: Result) -> bytes:
@@ -41,7 +40,11 @@ def operation_bytes(result: OperationResult) -> bytes:
         "statistics": plain(result.statistics),
         "arrays": plain(result.arrays),
     }
-    return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
+    return record_bytes(whole)
+
+
+def analysis_bytes(result: AnalysisResult) -> bytes:
+    return record_bytes(plain(result.to_json()) | {"arrays": plain(result.arrays)})
 
 
 def summary(result: Result) -> dict[str, Any]:
@@ -66,17 +69,3 @@ def summary(result: Result) -> dict[str, Any]:
 
 def mirror_record(mirror: Mirror | None) -> dict[str, Any] | None:
     return None if mirror is None else {"kind": mirror.kind} | plain(mirror.numbers)
-
-
-def plain(value: Any) -> Any:
-    """Arrays as lists, what is not finite as None."""
-    if isinstance(value, dict):
-        return {name: plain(item) for name, item in value.items()}
-    if isinstance(value, np.ndarray):
-        finite = value.dtype.kind != "f" or np.isfinite(value).all()
-        return value.tolist() if finite else plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

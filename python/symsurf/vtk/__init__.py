@@ -20,6 +20,7 @@ from ..optional import require as _require
 _require("the filters of symsurf.vtk", "vtkmodules")
 
 from . import operations as _operations
+from .analysis import SymmetryAnalysis
 from .damage import PointDamage
 from .detection import MirrorDetection
 from .operations import *  # a filter for each of operations(): MirrorAsymmetry, ...
@@ -33,5 +34,6 @@ __all__ = [
     "MirrorReflection",
     "MirrorSampleSource",
     "PointDamage",
+    "SymmetryAnalysis",
 ]
 __all__ += _operations.__all__

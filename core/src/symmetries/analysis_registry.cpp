@@ -1,0 +1,114 @@
+#include "symmetries/analysis_registry.h"
+
+#include <symsurf/errors.h>
+
+#include <chrono>
+#include <limits>
+
+#include "base/find_named.h"
+#include "cloud/footprint.h"
+#include "mesh/triangle_mesh.h"
+#include "preprocess/row_removal.h"
+
+namespace symsurf {
+
+namespace {
+
+const std::vector<AnalysisImplementation>& analysis_implementations() {
+  static const std::vector<AnalysisImplementation> all{
+      symmetries_analysis(), partial_symmetries_analysis(), symmetry_embedding_analysis(),
+      intrinsic_symmetry_analysis()};
+  return all;
+}
+
+const AnalysisImplementation& analysis_implementation(std::string_view name) {
+  return find_named(analysis_implementations(), name, "analysis");
+}
+
+double absent(ParameterType type) {
+  if (type == ParameterType::Integer) return -1;
+  return type == ParameterType::Boolean ? 0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Makes the result of the finite points that of all. `kept`: those of the input that are finite.
+void map_back(AnalysisResult& result, const Analysis& analysis, const std::vector<Index>& kept,
+              Index all) {
+  for (const PointArray& array : analysis.arrays) {
+    const auto found = result.arrays.find(array.name);
+    if (found == result.arrays.end()) continue;
+    Eigen::MatrixXd& rows = found->second;
+    if (array.names_points)
+      rows = rows.unaryExpr(
+          [&](double i) { return i < 0 ? i : static_cast<double>(kept[static_cast<Index>(i)]); });
+    Eigen::MatrixXd full = Eigen::MatrixXd::Constant(all, rows.cols(), absent(array.type));
+    full(kept, Eigen::indexing::all) = rows;
+    rows = std::move(full);
+  }
+  for (Transformation& transformation : result.transformations)
+    for (std::vector<Index>* patch : {&transformation.from, &transformation.onto})
+      for (Index& i : *patch) i = kept[i];
+}
+
+}  // namespace
+
+const std::vector<Analysis>& analyses() {
+  static const std::vector<Analysis> all(analysis_implementations().begin(),
+                                         analysis_implementations().end());
+  return all;
+}
+
+Vector3 Transformation::place(PointsView points) const {
+  Vector3 sum = Vector3::Zero();
+  Index count = 0;
+  const auto add = [&](const Vector3& x) {
+    if (!x.allFinite()) return;
+    sum += x;
+    ++count;
+  };
+  for (const Index i : from) add(points[i]);
+  if (from.empty())
+    for (Index i = 0; i < points.size(); ++i) add(points[i]);
+  if (count == 0) throw InvalidInput("none of the points that are mapped is finite");
+  return (matrix * (sum / static_cast<double>(count)).homogeneous()).head<3>();
+}
+
+const Analysis& analysis(std::string_view name) { return analysis_implementation(name); }
+
+AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisOptions& options,
+                       const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const AnalysisImplementation& analysis = analysis_implementation(name);
+  const ParameterValues values(analysis.name, analysis.parameters, options.parameters);
+  require_corners(options.faces, points.size());
+  if (analysis.needs_faces && options.faces.empty())
+    throw InvalidInput("a bare cloud is given; " + analysis.name + " needs a mesh with faces");
+  Cloud cloud;
+  cloud.points = points;
+  cloud.faces = options.faces;
+  cloud.seed = options.seed;
+  cloud.partition = Partition(points.size());
+  NonfiniteRemoval removal(analysis.minimum_points, options.refuse_nonfinite);
+  const Context before = context.stage(0, 0);  // no progress worth telling
+  const bool removed = removal.apply(cloud, before);
+  validate(cloud, needed_points(cloud, analysis.minimum_points), before);
+
+  AnalysisResult result;
+  result.analysis = analysis.name;
+  context.report(0);
+  analysis.run(cloud, values, context, result);
+  result.footprint = std::make_shared<const Points>(footprint_of(cloud));
+  for (Plane& plane : result.planes) plane.set_footprint(result.footprint);
+  if (removed) {
+    std::vector<Index> kept;
+    for (Index i = 0; i < points.size(); ++i)
+      if (points[i].allFinite()) kept.push_back(i);
+    map_back(result, analysis, kept, points.size());
+    result.statistics["nonfinite_points"] = points.size() - cloud.points.size();
+  }
+  result.parameters = values.all();
+  context.report(1);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace symsurf

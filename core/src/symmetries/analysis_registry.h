@@ -1,0 +1,25 @@
+#pragma once
+
+#include <symsurf/analysis.h>
+
+#include "cloud/cloud.h"
+
+// The list of analyses. A new one is its own folder, a line here and a line in
+// analysis_registry.cpp.
+
+namespace symsurf {
+
+/// An analysis and how it runs.
+struct AnalysisImplementation : Analysis {
+  /// Gets a validated cloud of finite points, with its faces and seed; fills in all but parameters,
+  /// footprint and seconds, with a row of the arrays for each point of the cloud.
+  void (*run)(const Cloud& cloud, const ParameterValues& values, const Context& context,
+              AnalysisResult& result) = nullptr;
+};
+
+AnalysisImplementation symmetries_analysis();
+AnalysisImplementation symmetry_embedding_analysis();
+AnalysisImplementation intrinsic_symmetry_analysis();
+AnalysisImplementation partial_symmetries_analysis();
+
+}  // namespace symsurf

@@ -1,0 +1,271 @@
+#include "symmetries/point_group/symmetry_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "base/math.h"
+#include "symmetries/point_group/element_search.h"
+#include "symmetries/point_group/point_group.h"
+#include "symmetries/point_group/symmetry_test.h"
+
+namespace symsurf {
+
+namespace {
+
+// Of the fit of the turns alone: a group that fits so much worse has more elements than the cloud.
+constexpr double below_turns = 0.03;
+
+// Of a pose whose x is to point along a direction, which is laid across z.
+GroupPose with_x(GroupPose pose, const Vector3& x) {
+  const Vector3 z = pose.axes.col(2), across = (x - x.dot(z) * z).normalized();
+  pose.axes << across, z.cross(across), z;
+  return pose;
+}
+
+class SymmetrySearch {
+ public:
+  SymmetrySearch(const Cloud& cloud, double minimum_score, const Context& context)
+      : cloud_(cloud), context_(context), test_(cloud, minimum_score, context.stage(0, 0.4)) {}
+
+  Symmetries run() {
+    planes_ = find_planes(test_);
+    context_.report(0.5);
+    centre_ = centre_of(planes_);
+    axes_ = find_axes(test_, planes_, centre_);
+    context_.report(0.8);
+    for (const auto& propose : {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral})
+      if (const std::optional<Placed> placed = (this->*propose)())
+        if (std::optional<Symmetries> found = verified(*placed)) return *found;
+    if (std::optional<Symmetries> found = axial()) return *found;
+    if (std::optional<Symmetries> found = of_two()) return *found;
+    return described({{}, {}}, {.support = 1});
+  }
+
+ private:
+  struct Placed {
+    PointGroup group;
+    GroupPose pose;
+    double expected = 0;  // fit: that of the turns alone
+  };
+
+  std::optional<Placed> spherical() const {
+    if (axes_.empty() || axes_.front().order != 0) return {};
+    const FoundDirection& axis = axes_.front();
+    const GroupPose across = GroupPose::along(Vector3(axis.pose.axes.col(0)), axis.pose.centre);
+    const auto other = test_.tried(across, any_turns(Vector3::UnitZ(), 4));
+    if (!other) return {};
+    return Placed{spherical_group(), other->pose};
+  }
+
+  std::optional<Placed> polyhedral() const {
+    if (axes_.size() < 2 || axes_[1].order < 3 || axes_[0].order == 0 || axes_[0].order > 5)
+      return {};
+    const Index order = axes_[0].order;
+    const Vector3 a = axes_[0].z();
+    // Another of the highest order: found, or the first turned about one of another order.
+    const Vector3 b =
+        axes_[1].order == order
+            ? axes_[1].z()
+            : turn(axes_[1].z(), 2 * std::numbers::pi / static_cast<double>(axes_[1].order)) * a;
+    const PointGroup turns = polyhedral_group(order, false, false);
+    std::vector<Vector3> ideal;
+    for (const PointGroup::Axis& axis : turns.axes())
+      if (axis.order == order) ideal.push_back(axis.direction);
+    std::optional<GroupPose> pose;
+    double nearest = same_direction;
+    for (std::size_t k = 1; k < ideal.size(); ++k) {
+      const double cosine = ideal[0].dot(ideal[k]);
+      const double off = std::abs(std::abs(cosine) - std::abs(a.dot(b)));
+      if (off >= nearest) continue;
+      nearest = off;
+      const Vector3 other = cosine * a.dot(b) < 0 ? Vector3(-ideal[k]) : ideal[k];
+      const auto basis = [](const Vector3& u, const Vector3& v) {
+        Matrix3 m;
+        m << u, u.cross(v).normalized(), u.cross(u.cross(v).normalized());
+        return m;
+      };
+      pose = GroupPose{basis(a, b) * basis(ideal[0], other).transpose(), centre_};
+    }
+    if (!pose) return {};
+    const auto has = [&](const Matrix3& element) {
+      return test_.tried(*pose, {element}).has_value();
+    };
+    const bool inversion = has(-Matrix3::Identity());
+    const bool mirror = !inversion && order == 3 && has(reflection(Vector3(1, -1, 0)));
+    return Placed{polyhedral_group(order, inversion, mirror), *pose};
+  }
+
+  // About the axes of the highest order first; where a group fails, those it holds.
+  std::optional<Symmetries> axial() const {
+    for (auto first = axes_.begin(); first != axes_.end();) {
+      const auto last = std::find_if(first, axes_.end(), [&](const FoundDirection& axis) {
+        return axis.order != first->order;
+      });
+      std::vector<std::vector<Placed>> about_each;
+      for (auto axis = first; axis != last; ++axis)
+        if (auto groups = about(*axis); !groups.empty()) about_each.push_back(std::move(groups));
+      std::stable_sort(about_each.begin(), about_each.end(), [](const auto& a, const auto& b) {
+        return a.front().group.elements.size() > b.front().group.elements.size();
+      });
+      for (const std::vector<Placed>& groups : about_each)
+        for (const Placed& placed : groups)
+          if (std::optional<Symmetries> found = verified(placed)) return found;
+      first = last;
+    }
+    return {};
+  }
+
+  // The best of the groups of one element beside the identity.
+  std::optional<Symmetries> of_two() const {
+    std::vector<std::pair<double, Placed>> groups;
+    for (const FoundDirection& plane : planes_)
+      groups.push_back({plane.vote.share(), {reflection_group(), plane.pose}});
+    for (const FoundDirection& axis : axes_)
+      if (axis.order == 2) groups.push_back({axis.vote.share(), {axial_group(2, {}), axis.pose}});
+    if (const auto inverted = test_.tried({}, {Matrix3(-Matrix3::Identity())}))
+      groups.push_back({inverted->vote.share(), {inversion_group(), inverted->pose}});
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [share, placed] : groups)
+      if (std::optional<Symmetries> found = verified(placed)) return found;
+    return {};
+  }
+
+  // The group of all that there is about an axis, then groups of less.
+  std::vector<Placed> about(const FoundDirection& axis) const {
+    const auto order = static_cast<double>(std::max<Index>(1, axis.order));
+    const Matrix3 across = reflection(Vector3::UnitZ());
+    const Matrix3 rotary = turn(Vector3::UnitZ(), std::numbers::pi / order) * across;
+    AxialElements has;
+    GroupPose pose = axis.pose;  // the turns leave it free along the axis
+    if (const auto found = test_.tried(pose, {across})) {
+      has.across = true;
+      pose.centre = found->pose.centre;
+    } else if (axis.order != 0) {
+      if (const auto other = test_.tried(pose, {rotary})) {
+        has.rotary = true;
+        pose.centre = other->pose.centre;
+      }
+    }
+    if (const auto found = scanned(axis, pose, reflection(Vector3::UnitX()))) {
+      has.vertical = true;
+      pose = *found;
+    } else if (const auto other = scanned(axis, pose, turn(Vector3::UnitX(), std::numbers::pi))) {
+      has.twofold = true;
+      pose = *other;
+    }
+    const std::array<AxialElements, 4> choices{has,
+                                               {.vertical = has.vertical, .twofold = has.twofold},
+                                               {.across = has.across, .rotary = has.rotary},
+                                               {}};
+    std::vector<Placed> groups;
+    for (const AxialElements& some : choices) {
+      const PointGroup group = axial_group(axis.order, some);
+      if (group.elements.size() <= 2 && axis.order == 2) continue;  // of_two() weighs these
+      const bool is_new = std::none_of(groups.begin(), groups.end(), [&](const Placed& other) {
+        return other.group.name == group.name;
+      });
+      if (is_new) groups.push_back({group, pose, axis.vote.fit});
+    }
+    return groups;
+  }
+
+  // The pose turned about its z to where the element along x is a symmetry.
+  std::optional<GroupPose> scanned(const FoundDirection& axis, const GroupPose& about,
+                                   const Matrix3& element) const {
+    constexpr int steps = 12;
+    const Index order = std::max<Index>(1, axis.order);
+    const double period = std::numbers::pi / static_cast<double>(order);
+    std::vector<std::pair<double, GroupPose>> starts;
+    const auto add = [&](const Vector3& x) {
+      const GroupPose pose = with_x(about, x);
+      starts.emplace_back(test_.fit().support(pose, element, rough_tolerance), pose);
+    };
+    for (const FoundDirection& plane : planes_)
+      if (std::abs(plane.z().dot(axis.z())) < same_direction) {
+        add(plane.z());
+        add(plane.z().cross(axis.z()));
+      }
+    for (int step = 0; step < (axis.order == 0 ? 1 : steps); ++step)
+      add(turn(axis.z(), period * step / steps) * Vector3(axis.pose.axes.col(0)));
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr std::size_t most = 4;
+    constexpr double good_enough = 0.01;  // fit below that of the turns
+    if (starts.size() > most) starts.resize(most);
+    // With the turns, which hold the axis where it is.
+    std::vector<Matrix3> elements{element};
+    if (axis.order > 1) elements.push_back(turns_of(axis.order, 1).front());
+    std::optional<SymmetryTest::Passed> best;
+    for (const auto& [support, start] : starts) {
+      const auto found = test_.tried(start, elements);
+      if (found && (!best || found->vote.fit > best->vote.fit)) best = found;
+      if (best && best->vote.fit >= axis.vote.fit - good_enough) break;
+    }
+    if (!best) return {};
+    return best->pose;
+  }
+
+  std::optional<Symmetries> verified(const Placed& placed) const {
+    std::vector<Matrix3> elements = placed.group.elements;
+    const bool continuous = placed.group.continuous || placed.group.all;
+    if (continuous) {
+      // About every axis, as of K two make all turns.
+      constexpr int turns = 8;
+      for (const PointGroup::Axis& axis : placed.group.axes())
+        if (axis.order == 0)
+          for (const Matrix3& turned : any_turns(axis.direction, turns))
+            for (const Matrix3& element : placed.group.elements)
+              elements.push_back(turned * element);
+    }
+    const auto passed = test_.passed(placed.pose, elements, continuous);
+    if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
+    return described({placed.group, passed->pose}, passed->vote);
+  }
+
+  Symmetries described(const Placed& placed, const OrbitVote& vote) const {
+    const PrincipalFrame& frame = cloud_.frame;
+    const auto to_input = [&](const Vector3& direction) -> Vector3 {
+      return frame.axes * (placed.pose.axes * direction);
+    };
+    Symmetries found;
+    found.group = placed.group.name;
+    found.centre = frame.from_frame(placed.pose.centre);
+    for (const Vector3& normal : placed.group.plane_normals()) {
+      const Vector3 unit = placed.pose.axes * normal;
+      found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
+    }
+    for (const PointGroup::Axis& axis : placed.group.axes())
+      found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
+    found.inversion = placed.group.inversion();
+    for (const Matrix3& element : placed.group.elements) {
+      const Matrix3 axes = frame.axes * placed.pose.axes;
+      Matrix4 matrix = Matrix4::Identity();
+      if (!element.isIdentity(0))  // else it would be one but for rounding
+        matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
+      matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
+      found.elements.push_back(matrix);
+    }
+    found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; images may speak against it
+    found.missing = vote.missing;
+    return found;
+  }
+
+  const Cloud& cloud_;
+  const Context& context_;
+  SymmetryTest test_;
+  std::vector<FoundDirection> planes_, axes_;
+  Vector3 centre_ = Vector3::Zero();
+};
+
+}  // namespace
+
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context) {
+  return SymmetrySearch(cloud, minimum_score, context).run();
+}
+
+}  // namespace symsurf

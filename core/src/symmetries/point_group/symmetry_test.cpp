@@ -1,0 +1,89 @@
+#include "symmetries/point_group/symmetry_test.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "symmetries/point_group/point_group.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index surfels = 1000;
+constexpr std::size_t samples = 1500, samples_of_group = 6000;  // a step of the fit
+constexpr std::size_t few_images = 6000, many_images = 24'000;  // that vote
+// Surfels that an element maps onto surfels, within a tolerance in diagonals: fewer are no guess.
+constexpr double glance_tolerance = 0.03, glance_support = 0.4;
+// Shares of the images and of the points.
+constexpr double most_missing = 0.35;
+constexpr double most_outliers_of_elements = 0.3;  // of elements of which others may tell more
+constexpr double most_outliers_of_group = 0.08, most_outliers_of_continuous = 0.042;
+
+// A few elements that tell the pose, of a group that may have a hundred.
+std::vector<Matrix3> spread(const std::vector<Matrix3>& elements) {
+  constexpr std::size_t most = 12;
+  std::vector<Matrix3> chosen;
+  const std::size_t step = (elements.size() + most - 1) / most;
+  for (std::size_t k = 1; k < elements.size(); k += step) chosen.push_back(elements[k]);
+  return chosen;
+}
+
+}  // namespace
+
+SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context)
+    : minimum_score_(minimum_score),
+      tree_(cloud.points, context.stage(0, 0.2)),
+      points_(cloud.points, tree_, context.stage(0.2, 0.2)),
+      coarse_(cloud, surfels, context.stage(0.2, 0.4)),
+      fine_(cloud, coarse_, context.stage(0.4, 0.6)),
+      score_(cloud, points_, context.stage(0.6, 1), MirrorScore::Cells::by_points),
+      fit_(cloud, points_, coarse_, fine_) {}
+
+bool SymmetryTest::may_be(const OrbitVote& vote) const {
+  return vote.support >= minimum_score_ && vote.missing <= most_missing &&
+         vote.outliers <= most_outliers_of_elements;
+}
+
+std::optional<SymmetryTest::Passed> SymmetryTest::tried(const GroupPose& start,
+                                                        const std::vector<Matrix3>& fitted,
+                                                        const std::vector<Matrix3>& voting) const {
+  for (const Matrix3& element : fitted)
+    if (fit_.support(start, element, glance_tolerance) < glance_support) return {};
+  GroupPose pose = fit_.roughly(start, fitted);
+  for (const Matrix3& element : fitted)
+    if (fit_.support(pose, element, rough_tolerance) < rough_support) return {};
+  pose = fit_.closely(pose, fitted, samples);
+  const OrbitVote vote = orbit_vote(score_, pose, voting, few_images);
+  if (!may_be(vote)) return {};
+  return Passed{pose, vote};
+}
+
+std::optional<SymmetryTest::Passed> SymmetryTest::passed(const GroupPose& start,
+                                                         const std::vector<Matrix3>& group,
+                                                         bool continuous) const {
+  const GroupPose pose = fit_.closely(start, spread(group), samples_of_group);
+  const OrbitVote vote = orbit_vote(score_, pose, group, many_images);
+  if (!may_be(vote)) return {};
+  const double most_outliers = continuous ? most_outliers_of_continuous : most_outliers_of_group;
+  const bool decided =
+      group.size() > 2 ? vote.outliers <= most_outliers : vote.share() >= minimum_score_;
+  if (!decided) return {};
+  return Passed{pose, vote};
+}
+
+std::vector<Matrix3> turns_of(Index order, std::size_t most) {
+  std::vector<Matrix3> turns;
+  const auto n = static_cast<double>(order);
+  for (Index k = 1; k < order && turns.size() < most; ++k)
+    turns.push_back(turn(Vector3::UnitZ(), 2 * std::numbers::pi * static_cast<double>(k) / n));
+  return turns;
+}
+
+std::vector<Matrix3> any_turns(const Vector3& axis, int count) {
+  std::vector<Matrix3> turns;
+  for (int k = 1; k <= count; ++k)
+    turns.push_back(turn(axis, 2 * std::numbers::pi * std::numbers::phi * k));
+  return turns;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,36 @@
+"""Running an analysis of the core on what Python users have."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from .. import _core
+from ..detection import Progress
+from ..inputs import as_input, refuses, warn
+from ..lengths import as_fractions, diagonal_of
+from ..shape import Shape
+from .results import RESULTS, AnalysisResult
+
+
+def analyse(
+    name: str,
+    shape: object,
+    *,
+    faces: ArrayLike | None = None,
+    nonfinite: str = "skip",
+    absolute: bool = False,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Progress | None = None,
+    **parameters: object,
+) -> AnalysisResult:
+    """Runs one of ``analyses()``; arguments and errors are those of the function of that name."""
+    given = as_input(shape, faces)
+    if absolute:
+        described = _core.analyses()[name].parameters
+        parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
+    made = _core.analyse(
+        name, given.points, given.faces, refuses(nonfinite), seed, threads, progress, parameters
+    )
+    warn(made["statistics"])
+    return RESULTS[name].from_fields(Shape(made["points"], given.faces), made)

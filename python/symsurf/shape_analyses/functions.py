@@ -1,0 +1,62 @@
+"""The analyses as functions, made from their own descriptions."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from collections.abc import Callable
+from typing import Any
+
+from .._core import Analysis, analyses
+from ..descriptions import argument_text, keyword, name_function, parameter_texts
+from .analyse import analyse
+from .results import RESULTS, AnalysisResult
+
+_ARGUMENTS = inspect.signature(analyse).parameters
+
+_DOCUMENTED = {
+    "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
+    "nonfinite": '"skip": points with a NaN or infinite coordinate are left out, with an '
+    '``InputWarning``; "refuse": they are an error.',
+    "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
+    "bounding box; ``parameters`` of what is given back has them as fractions.",
+    "seed, threads, progress": "as for ``detect``.",
+}
+
+
+def _signature(analysis: Analysis) -> inspect.Signature:
+    shared = {name: word for name, word in _ARGUMENTS.items() if name not in ("name", "parameters")}
+    own = {parameter.name: keyword(parameter) for parameter in analysis.parameters}
+    words = {"shape": shared.pop("shape")} | own | shared
+    returned = RESULTS[analysis.name].__name__
+    return inspect.Signature(list(words.values()), return_annotation=returned)
+
+
+def _documentation(analysis: Analysis) -> list[str]:
+    given = "a mesh" if analysis.needs_faces else "points, a mesh or a file"
+    return [
+        textwrap.fill(analysis.summary, 96),
+        "",
+        "Args:",
+        argument_text(f"shape: {given}, as ``detect`` takes them."),
+        *parameter_texts(analysis.parameters),
+        *(argument_text(f"{name}: {text}") for name, text in _DOCUMENTED.items()),
+        "",
+        "Raises:",
+        "    InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.",
+        "",
+        "A shape without any symmetry is no error.",
+    ]
+
+
+def _function(analysis: Analysis) -> Callable[..., AnalysisResult]:
+    def function(shape: Any, **options: Any) -> AnalysisResult:
+        return analyse(analysis.name, shape, **options)
+
+    return name_function(
+        function, analysis.name, __name__, _signature(analysis), _documentation(analysis)
+    )
+
+
+__all__ = list(analyses())
+globals().update({name: _function(analysis) for name, analysis in analyses().items()})

@@ -1,0 +1,73 @@
+"""What the analyses leave in the document."""
+
+from __future__ import annotations
+
+import numpy as np
+import pymeshlab
+import pytest
+
+symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
+
+
+def box_set() -> pymeshlab.MeshSet:
+    """A layer of a box with edges of 4, 3 and 2."""
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.create_cube(size=1)
+    mesh_set.compute_matrix_from_translation_rotation_scale(
+        scalex=4, scaley=3, scalez=2, freeze=True
+    )
+    return mesh_set
+
+
+def labels(mesh_set: pymeshlab.MeshSet) -> list[str]:
+    return [mesh.label() for mesh in mesh_set]
+
+
+def test_planes_and_axes_become_layers() -> None:
+    mesh_set = box_set()
+    found = mesh_set.apply_filter("compute_symmetries")
+    assert found["planes"] == 3 and found["axes"] == 3 and found["transformations"] == 8
+    assert found["inversion"] is True
+    np.testing.assert_array_equal(found["matrix_0"], np.eye(4))
+    planes = [f"Symmetry plane {number}" for number in (1, 2, 3)]
+    assert labels(mesh_set)[1:] == [*planes, "Symmetry axes"]
+    axes = mesh_set.mesh(4)
+    assert axes.vertex_number() == 6 and axes.edge_number() == 3
+    directions = np.diff(axes.vertex_matrix().reshape(3, 2, 3), axis=1)[:, 0]
+    lengths = np.abs(directions).max(axis=1)
+    assert np.abs(directions).sum(axis=1) == pytest.approx(lengths, abs=1e-6)
+    assert sorted(lengths) == pytest.approx([2.4, 3.6, 4.8])  # a tenth beyond, at each end
+    # Each plane holds for a mirror.
+    for number in (1, 2, 3):
+        mesh_set.set_current_mesh(0)
+        gaps = mesh_set.apply_filter("compute_mirror_asymmetry", mirror_layer=number)
+        assert gaps["rms"] == pytest.approx(0, abs=1e-6)
+
+
+def test_layers_take_the_place_of_those_before() -> None:
+    mesh_set = box_set()
+    mesh_set.apply_filter("compute_symmetries")
+    before = labels(mesh_set)
+    mesh_set.set_current_mesh(0)
+    mesh_set.apply_filter("compute_symmetries")
+    assert labels(mesh_set) == before
+
+
+def test_bad_input_is_named_and_the_host_lives() -> None:
+    mesh_set = box_set()
+    with pytest.raises(pymeshlab.PyMeshLabException, match=r"allowed is real \[0, 1\]"):
+        mesh_set.apply_filter("compute_symmetries", minimum_score=2.0)
+    assert labels(mesh_set) == labels(box_set())
+    mesh_set.add_mesh(pymeshlab.Mesh(np.zeros((5, 3))))
+    with pytest.raises(pymeshlab.PyMeshLabException, match="points are equal"):
+        mesh_set.apply_filter("compute_symmetries")
+
+
+@pytest.mark.parametrize("name", symsurf.analyses())
+def test_every_analysis_gives_the_vertices_what_it_describes(name: str) -> None:
+    mesh_set = box_set()
+    mesh_set.apply_filter(f"compute_{name}")
+    mesh = mesh_set.mesh(0)
+    for array in symsurf.analyses()[name].arrays:
+        if array.components == 1:
+            assert len(mesh.vertex_custom_scalar_attribute_array(array.name)) == 8
