@@ -40,8 +40,8 @@ struct BenchmarkSample {
 const std::vector<BenchmarkCase>& benchmark_cases();
 
 /// The case of that name with so many points. Its shape, pose and scale follow from the seed alone,
-/// whatever the count and the damage. Sums, products, quotients and square roots make it, which
-/// IEEE 754 rounds alike: the same bits on every machine. Throws InvalidParameter for a name that
+/// whatever the count and the damage. The same bits from one build of the library; another compiler
+/// may round a sum otherwise and then draw other points. Throws InvalidParameter for a name that
 /// is no case or a count below 100.
 BenchmarkSample benchmark_sample(std::string_view name, Index count, std::uint64_t seed);
 

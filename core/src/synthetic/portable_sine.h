@@ -4,8 +4,8 @@
 
 namespace symsurf {
 
-/// sin(2 pi turns) by Taylor's series: sums and products, which IEEE 754 rounds alike on every
-/// machine, as it does not ask of a library's sine. To a few units of the last digit.
+/// sin(2 pi turns) by Taylor's series: sums and products, which IEEE 754 rounds alike, as it does
+/// not ask of a library's sine. To a few units of the last digit.
 inline double sine_of_turns(double turns) {
   constexpr double tau = 6.283185307179586476925;
   double t = turns - std::floor(turns + 0.5);  // -1/2 .. 1/2

@@ -69,7 +69,7 @@ def benchmark(
 ) -> Iterator[BenchmarkSample]:
     """The cases of the benchmark of curved mirrors, each made when it is asked for.
 
-    The same seed gives the same bits on every machine.
+    The same seed gives the same bits from one build of symsurf, such as a wheel.
 
     Args:
         size: "small", "medium" or "large": 2,000, 10,000 or 100,000 points.
