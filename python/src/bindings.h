@@ -16,6 +16,7 @@ void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
 void bind_reading(py::module_& module);
 void bind_synthesis(py::module_& module);
+void bind_benchmark(py::module_& module);
 void bind_metrics(py::module_& module);
 void bind_operations(py::module_& module);
 void bind_analyses(py::module_& module);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   bind_sampling(module);
   bind_reading(module);
   bind_synthesis(module);
+  bind_benchmark(module);
   bind_metrics(module);
   bind_operations(module);
   bind_analyses(module);

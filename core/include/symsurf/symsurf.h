@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/analysis.h>
+#include <symsurf/benchmark.h>
 #include <symsurf/bend.h>
 #include <symsurf/candidate_values.h>
 #include <symsurf/communicator.h>

@@ -120,7 +120,7 @@ std::vector<Parameter> search_parameters() {
       Parameter::integer("sample_size", 12000, 200, 100000, "points",
                          "Points that the search works on; larger clouds are thinned to it."),
       max_candidates(10, 1000, "mirrors"),
-      pair_distance(0.02),
+      pair_distance(),
   };
 }
 
