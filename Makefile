@@ -1,6 +1,6 @@
-# make setup | demo | wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
+# make setup | demo | wheel | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
 # bench | accuracy | compare: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+.PHONY: setup demo wheel vtk-wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
   bench-meshlab accuracy compare
 
 setup:
@@ -14,6 +14,12 @@ demo:
 wheel:
 	@.ci/setup wheel
 	@ls -sh build/dist/*
+
+# The VTK filters as a wheel for PyVista's build of VTK, and its test: needs Python 3.12 or later.
+vtk-wheel:
+	@.ci/setup vtk_wheel
+	@! [ -d build/vtk-wheel/dist ] || build/vtk-python/bin/python -m pytest tests/wheel/test_vtk_wheel.py
+	@! [ -d build/vtk-wheel/dist ] || ls -sh build/vtk-wheel/dist/*
 
 # The documentation site; every example in it runs.
 docs:

@@ -5,7 +5,9 @@ option(BUILD_SHARED_LIBS "Build shared VTK modules" ON)
 option(SYMSURF_VTK_PYTHON "Wrap the VTK module for Python" ON)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR})
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR})
-set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # a VTK that stands elsewhere is found at run time too
+if(NOT SKBUILD)
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # a VTK that stands elsewhere is found at run time too
+endif()
 
 if(SYMSURF_PARAVIEW)
   find_package(ParaView REQUIRED
@@ -13,7 +15,8 @@ if(SYMSURF_PARAVIEW)
   message(STATUS "symsurf: ParaView ${ParaView_VERSION}")
 endif()
 find_package(VTK REQUIRED
-  COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore ParallelCore
+  COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeometry
+             ParallelCore
   OPTIONAL_COMPONENTS ParallelMPI WrappingPythonCore Python)
 message(STATUS "symsurf: VTK ${VTK_VERSION}")
 
@@ -68,6 +71,9 @@ if(SYMSURF_VTK_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
   set(symsurf_python_folder
     ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
+  if(SKBUILD)
+    set(symsurf_python_folder .)  # in a wheel
+  endif()
   vtk_module_wrap_python(MODULES symsurf::Filters PYTHON_PACKAGE symsurf_filters
     MODULE_DESTINATION ${symsurf_python_folder} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)

@@ -30,18 +30,6 @@ vtkNew<vtkCellArray> cells_of(vtkIdType count, int corners, const Fill& fill) {
   return cells;
 }
 
-// VTK's own filters read what a polygon names without asking whether it is there.
-void require_points(vtkCellArray* cells, vtkIdType count) {
-  if (cells->GetNumberOfConnectivityIds() == 0) return;
-  double range[2];
-  cells->GetConnectivityArray()->GetRange(range);
-  for (const double named : range)
-    if (named < 0 || named >= static_cast<double>(count))
-      throw symsurf::InvalidInput("a polygon names point " +
-                                  std::to_string(static_cast<vtkIdType>(named)) +
-                                  "; allowed is 0 to " + std::to_string(count - 1));
-}
-
 vtkNew<vtkIdTypeArray> numbered(vtkIdType first, vtkIdType count) {
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("cell");
@@ -86,6 +74,17 @@ symsurf::TrianglesView TriangleArray::view() const {
   static_assert(sizeof(symsurf::Index) == sizeof(vtkTypeInt64));
   return {reinterpret_cast<const symsurf::Index*>(corners_->GetPointer(0)),
           corners_->GetNumberOfValues() / 3};
+}
+
+void require_points(vtkCellArray* cells, vtkIdType count) {
+  if (cells->GetNumberOfConnectivityIds() == 0) return;
+  double range[2];
+  cells->GetConnectivityArray()->GetRange(range);
+  for (const double named : range)
+    if (named < 0 || named >= static_cast<double>(count))
+      throw symsurf::InvalidInput("a cell names point " +
+                                  std::to_string(static_cast<vtkIdType>(named)) +
+                                  "; allowed is 0 to " + std::to_string(count - 1));
 }
 
 PointArray points_of(vtkPolyData* data) {

@@ -9,6 +9,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkTypeInt64Array.h"
 
+class vtkCellArray;
 class vtkDataArray;
 class vtkPolyData;
 
@@ -42,6 +43,10 @@ class TriangleArray {
   vtkSmartPointer<vtkTypeInt64Array> corners_;
   vtkSmartPointer<vtkIdTypeArray> cells_;
 };
+
+/// Throws InvalidInput where a cell names a point beyond the first `count`, which VTK's own filters
+/// read without asking.
+void require_points(vtkCellArray* cells, vtkIdType count);
 
 /// The data set's points; none: an empty view.
 PointArray points_of(vtkPolyData* data);

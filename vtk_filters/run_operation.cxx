@@ -8,6 +8,7 @@
 #include "mirror_input.h"
 #include "operation_output.h"
 #include "point_arrays.h"
+#include "shape_input.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMirrorOperation.h"
@@ -59,9 +60,9 @@ std::shared_ptr<symsurf::Mirror> found_mirror(const symsurf::OperationInput& inp
 
 int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
                   vtkInformationVector* outputs, const OperationCall& call) {
-  vtkPolyData* shape = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* given = vtkPolyData::GetData(inputs[1]);
   return core_call(filter, [&] {
+    const auto shape = shape_of(filter, inputs);
     const PointArray points = points_of(shape);
     const ControllerCommunicator processes(filter->GetController());
     if (are_elsewhere(processes, points.view().size(), "an operation")) return;

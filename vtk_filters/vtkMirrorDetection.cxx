@@ -5,14 +5,17 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "chosen_parameters.h"
 #include "controller_communicator.h"
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
+#include "shape_input.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -126,6 +129,15 @@ vtkNew<vtkSignedCharArray> sides_of(symsurf::PointsView points, const symsurf::R
   return sides;
 }
 
+// The least residual that at most a hundredth of all exceeds: where a colour map may end.
+double p99(const Eigen::VectorXd& residuals) {
+  std::vector<double> sizes(residuals.begin(), residuals.end());
+  const auto place =
+      static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(sizes.size() - 1)));
+  std::nth_element(sizes.begin(), sizes.begin() + place, sizes.end());
+  return sizes[place];
+}
+
 void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCharArray* sides,
                  const symsurf::Result& result) {
   const vtkIdType count = sides->GetNumberOfValues();
@@ -139,6 +151,8 @@ void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCha
     partner[i] = result.pairs(row, 1);
     residual[i] = result.residuals[row];
   }
+  if (result.residuals.size() > 0)
+    add_field_values(output->GetFieldData(), {{"mirror_residual_p99", p99(result.residuals)}});
   vtkPointData* data = output->GetPointData();
   data->AddArray(partners);
   data->AddArray(sides);
@@ -158,8 +172,8 @@ vtkMirrorDetection::~vtkMirrorDetection() { this->SetController(nullptr); }
 
 int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                     vtkInformationVector* outputs) {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   return core_call(this, [&] {
+    const auto input = shape_of(this, inputs);
     const PointArray points = points_of(input);
     const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
     const ControllerCommunicator processes(this->Controller);

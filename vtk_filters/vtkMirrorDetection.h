@@ -2,6 +2,7 @@
  * @class vtkMirrorDetection
  * @brief Finds the mirror of a point set: a plane, a sphere or a curved surface.
  *
+ * Its input is a shape, see vtkShapeAlgorithm; the input below is the poly data that come of it.
  * Where the input has polygons, samples spread evenly over their surface find the mirror, unless
  * UseFaces is off; score and candidates are then those of the samples, the rest is of the input's
  * points. The outputs are
@@ -18,7 +19,7 @@
  *   the distance from a point's image to its partner.
  * - 2 "Mapping": the input. Point data: MirrorPartner (index of the partner, -1 for none),
  *   MirrorResidual (NaN for none) and MirrorSide (the sign of the point's distance from the
- * mirror).
+ *   mirror). Field data: MirrorResidualP99, which at most a hundredth of the residuals exceeds.
  *
  * Where several processes share out the input, each has its own part of outputs 1 and 2, the first
  * has the triangles of output 0, and all have its field data. The mirror is that of the whole, and

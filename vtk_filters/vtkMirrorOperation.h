@@ -2,9 +2,10 @@
  * @class vtkMirrorOperation
  * @brief What the filters that do something with a mirror have in common.
  *
- * Input 0 is the shape. Input 1, optional, is its mirror: output 0 of vtkMirrorDetection, whose
- * field data (Kind and numbers) says everything, in the unit and pose of the shape. Without it the
- * mirror is found first, by Method; a shape in which none is found is an error that says why.
+ * Input 0 is the shape, see vtkShapeAlgorithm. Input 1, optional, is its mirror: output 0 of
+ * vtkMirrorDetection, whose field data (Kind and numbers) says everything, in the unit and pose of
+ * the shape. Without it the mirror is found first, by Method; a shape in which none is found is an
+ * error that says why.
  *
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
@@ -24,14 +25,14 @@
 
 #include <string>  // for the members
 
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkShapeAlgorithm.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
 class vtkMultiProcessController;
 
-class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkPolyDataAlgorithm {
+class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkShapeAlgorithm {
  public:
-  vtkTypeMacro(vtkMirrorOperation, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkMirrorOperation, vtkShapeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

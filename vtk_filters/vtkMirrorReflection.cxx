@@ -6,6 +6,7 @@
 #include "mirror_input.h"
 #include "point_arrays.h"
 #include "point_subset.h"
+#include "shape_input.h"
 #include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -32,9 +33,9 @@ vtkMirrorReflection::vtkMirrorReflection() { this->SetNumberOfInputPorts(2); }
 
 int vtkMirrorReflection::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                      vtkInformationVector* outputs) {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* mirror = vtkPolyData::GetData(inputs[1]);
   return core_call(this, [&] {
+    const auto input = shape_of(this, inputs);
     const symsurf::Points images = mirror_of(mirror)->reflect(points_of(input).view());
     const std::vector<symsurf::Index> kept = rows_without_nan(images);
     vtkNew<vtkPolyData> reflected;

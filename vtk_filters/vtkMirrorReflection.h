@@ -1,6 +1,6 @@
 /**
  * @class vtkMirrorReflection
- * @brief Reflects a data set over a mirror that vtkMirrorDetection found.
+ * @brief Reflects a shape over a mirror that vtkMirrorDetection found.
  *
  * Input 0 is what is reflected, input 1 the mirror: output 0 of vtkMirrorDetection, whose field
  * data (Kind and numbers) says everything; its triangles, of candidates or not, are not looked at,
@@ -11,13 +11,13 @@
 #ifndef vtkMirrorReflection_h
 #define vtkMirrorReflection_h
 
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkShapeAlgorithm.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
-class VTKSYMSURFFILTERS_EXPORT vtkMirrorReflection : public vtkPolyDataAlgorithm {
+class VTKSYMSURFFILTERS_EXPORT vtkMirrorReflection : public vtkShapeAlgorithm {
  public:
   static vtkMirrorReflection* New();
-  vtkTypeMacro(vtkMirrorReflection, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkMirrorReflection, vtkShapeAlgorithm);
 
   /**
    * Connects the mirror, input 1.

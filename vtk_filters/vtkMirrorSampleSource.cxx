@@ -6,6 +6,7 @@
 #include "core_call.h"
 #include "field_values.h"
 #include "point_arrays.h"
+#include "shape_input.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -42,8 +43,8 @@ int vtkMirrorSampleSource::FillInputPortInformation(int port, vtkInformation* in
 
 int vtkMirrorSampleSource::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                        vtkInformationVector* outputs) {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   return core_call(this, [&] {
+    const auto input = shape_of(this, inputs);
     const PointArray given = input ? points_of(input) : PointArray(nullptr);
     const symsurf::Sample sample =
         symsurf::generate(this->Generator, chosen_parameters(this), given.view());

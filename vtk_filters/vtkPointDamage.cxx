@@ -6,6 +6,7 @@
 #include "core_call.h"
 #include "point_arrays.h"
 #include "point_subset.h"
+#include "shape_input.h"
 #include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -17,9 +18,9 @@ vtkStandardNewMacro(vtkPointDamage);
 
 int vtkPointDamage::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                 vtkInformationVector* outputs) {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   return core_call(this, [&] {
+    const auto input = shape_of(this, inputs);
     const symsurf::Damaged damaged =
         symsurf::damage(this->Damage, points_of(input).view(), chosen_parameters(this), this->Seed);
     set_subset(output, input, damaged.points, damaged.kept);

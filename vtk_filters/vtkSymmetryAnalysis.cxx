@@ -9,6 +9,7 @@
 #include "field_values.h"
 #include "operation_names.h"
 #include "point_arrays.h"
+#include "shape_input.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -127,8 +128,8 @@ vtkSymmetryAnalysis::~vtkSymmetryAnalysis() { this->SetController(nullptr); }
 
 int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                      vtkInformationVector* outputs) {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   return core_call(this, [&] {
+    const auto input = shape_of(this, inputs);
     const PointArray points = points_of(input);
     const ControllerCommunicator processes(this->Controller);
     if (are_elsewhere(processes, points.view().size(), "an analysis")) return;

@@ -162,8 +162,8 @@ def paraview() -> str:
     """Every filter and source as ParaView's server manager describes it."""
     texts = []
     for file in sorted((HOSTS / "paraview").glob("*.xml")):
-        for proxy in ElementTree.parse(file).iter("SourceProxy"):
-            texts.append(_proxy(proxy))
+        for group in ElementTree.parse(file).iter("ProxyGroup"):
+            texts += map(_proxy, group)
     return "\n\n".join(texts)
 
 

@@ -22,6 +22,10 @@ ELEMENTS = {
 }
 
 
+# Of every filter that takes a shape.
+INPUT = {"Input", "ImageScalars", "ImageThreshold"}
+
+
 def camel_case(*names: str) -> str:
     return "".join(word.capitalize() for name in names for word in name.split("_"))
 
@@ -65,8 +69,35 @@ def proxy(server_manager_xml: Path) -> dict[str, ElementTree.Element]:
 def test_no_property_is_without_a_description(proxy: dict[str, ElementTree.Element]) -> None:
     names = {name for name, _, _ in described()}
     assert len(names) == len(described())
-    own = {"Input", "Method", "ShowCandidates", "UseNormals", "UseFaces", "RefuseNonfinite"}
-    assert set(proxy) == names | own | {"Seed", "NumberOfThreads"}
+    own = {"Method", "ShowCandidates", "UseNormals", "UseFaces", "RefuseNonfinite"}
+    assert set(proxy) == names | INPUT | own | {"Seed", "NumberOfThreads"}
+
+
+@pytest.mark.parametrize(
+    "name", ["MirrorDetection", "MirrorReflection", "PointDamage", "SymmetryAnalysis"]
+)
+def test_every_filter_takes_the_same_shapes(name: str, server_manager_xml: Path) -> None:
+    proxy = xml_properties(server_manager_xml / f"{name}.xml")
+    assert set(proxy) >= INPUT
+    types = [each.get("value") for each in proxy["Input"].iter("DataType")]
+    assert types == ["vtkPointSet", "vtkImageData", "vtkRectilinearGrid"]
+    for choice in ("ImageScalars", "ImageThreshold"):
+        decorator = proxy[choice].find("Hints/PropertyWidgetDecorator")
+        assert decorator.get("name") == "vtkImageData vtkRectilinearGrid"
+
+
+def test_surface_points_are_hidden_at_first(server_manager_xml: Path) -> None:
+    file = ElementTree.parse(server_manager_xml / "MirrorDetection.xml")
+    ports = {each.get("name"): each.get("index") for each in file.iter("OutputPort")}
+    (view,) = file.iter("View")
+    assert (view.get("type"), view.get("port")) == ("None", ports["Surface Points"])
+
+
+def test_test_data_has_a_menu_of_its_own(server_manager_xml: Path) -> None:
+    for path in server_manager_xml.glob("*.xml"):
+        (menu,) = ElementTree.parse(path).iter("ShowInMenu")
+        is_test_data = path.stem in ("MirrorSampleSource", "PointDamage")
+        assert menu.get("category") == ("Symmetry Test Data" if is_test_data else "Symmetry")
 
 
 def test_method_lists_the_methods(proxy: dict[str, ElementTree.Element]) -> None:
@@ -88,7 +119,7 @@ def test_xml_is_the_description(
 
 def test_xml_of_the_analyses_is_their_descriptions(server_manager_xml: Path) -> None:
     proxy = xml_properties(server_manager_xml / "SymmetryAnalysis.xml")
-    own = {"Input", "Analysis", "UseFaces", "RefuseNonfinite", "Seed", "NumberOfThreads"}
+    own = INPUT | {"Analysis", "UseFaces", "RefuseNonfinite", "Seed", "NumberOfThreads"}
     described = {
         camel_case(analysis.name, parameter.name): (analysis.name, parameter)
         for analysis in symsurf.analyses().values()
@@ -108,12 +139,11 @@ def test_xml_is_the_description_of_the_operation(
     server_manager_xml: Path, operation: symsurf.Operation
 ) -> None:
     path = server_manager_xml / f"{proxy_of(operation)}.xml"
-    source = next(ElementTree.parse(path).iter("SignedArraysProxy"))
+    source = next(ElementTree.parse(path).iter("ColourRangesProxy"))
     assert source.get("label") == operation.title.title()
     assert source.get("class") == f"vtk{proxy_of(operation)}"
     assert source.find("Documentation").get("long_help") == operation.summary
-    assert source.find("Hints/ShowInMenu").get("category") == "Symmetry"
-    signed = [hint.get("name") for hint in source.iter("SignedArray")]
+    signed = [hint.get("array") for hint in source.iter("ColourRange")]
     assert signed == [
         proxy_of(operation) + camel_case(array.name)
         for array in operation.arrays
@@ -123,7 +153,7 @@ def test_xml_is_the_description_of_the_operation(
     for parameter in operation.parameters:
         name = camel_case(parameter.name)
         check(proxy[name], name, parameter)
-    own = {"Input", "Mirror", "Method", "NumberOfThreads"}
+    own = INPUT | {"Mirror", "Method", "NumberOfThreads"}
     mask = {"MaskArray"} if operation.takes_mask else set()
     assert set(proxy) == own | mask | {camel_case(each.name) for each in operation.parameters}
     assert proxy["Mirror"].find("Hints/Optional") is not None
@@ -197,8 +227,8 @@ def test_xml_and_vtk_agree(
     name: str, server_manager_xml: Path, run_host: Callable[..., Any]
 ) -> None:
     properties = xml_properties(server_manager_xml / f"{name}.xml")
-    for port in ("Input", "Mirror"):
-        properties.pop(port, None)
+    for without_getter in ("Input", "Mirror", "ImageScalars"):
+        properties.pop(without_getter, None)
     values = {key: another_in_xml(element) for key, element in properties.items()}
     seen = run_host("pvpython", "properties.py", name, json.dumps(values))
     assert seen["before"] == {key: default_in_xml(e) for key, e in properties.items()}

@@ -22,10 +22,11 @@ def colourful(pixels: np.ndarray) -> np.ndarray:
 
 
 def menu_keys(label: str) -> list[str]:
-    """From the end of the Filters menu: Temporal, Symmetry; its entries are in alphabetical order."""
+    """From the end of the Filters menu: Temporal, Symmetry Test Data, Symmetry; its entries are in
+    alphabetical order."""
     titles = [operation.title.title() for operation in symsurf.operations().values()]
-    entries = sorted([*titles, "Mirror Detection", "Mirror Reflection", "Point Damage"])
-    return ["alt+l", "Up", "Up", "Right", *["Down"] * entries.index(label), "Return"]
+    entries = sorted([*titles, "Mirror Detection", "Mirror Reflection", "Symmetry Analysis"])
+    return ["alt+l", "Up", "Up", "Up", "Right", *["Down"] * entries.index(label), "Return"]
 
 
 def write_shape(path: Path, dent: float = 0) -> Path:

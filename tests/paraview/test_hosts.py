@@ -116,3 +116,18 @@ def test_candidates_are_shown_when_asked_for(host: str, run_host: Callable[..., 
     for bounds, axis in zip(seen["bounds"], axes):
         extent = np.diff(np.reshape(bounds, (3, 2)))[:, 0]
         assert np.flatnonzero(extent < 1e-9).tolist() == [axis]
+
+
+@pytest.mark.parametrize("host", HOSTS)
+def test_grids_blocks_and_images_are_shapes(host: str, run_host: Callable[..., Any]) -> None:
+    seen = run_host(host, "shapes.py")
+    expected = seen["mesh"]
+    assert expected["verdict"] == "found"
+    for kind in ("grid", "blocks"):
+        sign = np.sign(np.dot(seen[kind]["normal"], expected["normal"]))
+        assert np.allclose(seen[kind]["normal"], np.multiply(sign, expected["normal"]), atol=1e-6)
+        assert abs(seen[kind]["offset"] - sign * expected["offset"]) < 1e-6
+        assert seen[kind]["points"] == expected["points"]
+    image = seen["image"]
+    assert image["threshold"] == pytest.approx(image["middle"], rel=1e-6)
+    assert abs(image["normal"][2]) > 1 - 1e-6 and abs(image["offset"]) < 1e-6

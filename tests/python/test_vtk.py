@@ -14,7 +14,7 @@ pytest.importorskip("vtkmodules", reason="needs the vtk package")
 from bad_input import tables
 from vtk_data import PLANE, array, error_of, mirrored_shape, polydata
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkTable
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 
 from symsurf.vtk import MirrorDetection
@@ -53,7 +53,12 @@ def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
     assert surface.GetNumberOfVerts() == len(expected.surface_points)
     paired = np.isin(np.arange(len(points)), expected.pairs[:, 0])
     assert np.array_equal(array(mapping, "MirrorPartner") >= 0, paired)
-    assert np.array_equal(np.isfinite(array(mapping, "MirrorResidual")), paired)
+    residuals = array(mapping, "MirrorResidual")
+    assert np.array_equal(np.isfinite(residuals), paired)
+    if paired.any():
+        p99 = mapping.GetFieldData().GetArray("MirrorResidualP99").GetValue(0)
+        assert p99 in residuals and np.mean(residuals[paired] > p99) <= 0.01
+        assert np.mean(residuals[paired] >= p99) >= 0.01
 
 
 def test_known_plane() -> None:
@@ -164,9 +169,8 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     found.SetInputData(vtkPolyData())
     assert "0 points" in error_of(found)
     assert "0 connections" in error_of(MirrorDetection())
-    wrong = MirrorDetection()
-    wrong.SetInputDataObject(vtkUnstructuredGrid())
-    assert "vtkPolyData" in error_of(wrong)
+    found.SetInputDataObject(vtkTable())
+    assert "the input is a vtkTable; allowed are vtkPolyData and" in error_of(found)
 
 
 @pytest.mark.parametrize("cloud", tables.clouds(), ids=lambda cloud: cloud.name)
@@ -202,7 +206,7 @@ def test_polygons_that_name_no_point(ids: tuple[int, ...], strips: bool) -> None
     cells.InsertNextCell(len(ids), ids)
     shape.SetStrips(cells) if strips else shape.SetPolys(cells)
     found = MirrorDetection(method="plane", input_data=shape)
-    assert "a polygon names point" in error_of(found)
+    assert "a cell names point" in error_of(found)
     found.use_faces = False
     assert error_of(found) == ""
 

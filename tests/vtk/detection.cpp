@@ -110,6 +110,11 @@ TEST_P(EveryMethod, MapsTheInputOntoItself) {
     EXPECT_NEAR(distances->GetComponent(i, 0), (expected.mirror->reflect(x) - partner).norm(),
                 1e-13);
   }
+  if (expected.residuals.size() == 0) return;
+  const auto residuals = expected.residuals.array();
+  const double p99 = number(mapping, "MirrorResidualP99");
+  EXPECT_LE((residuals > p99).count(), 0.01 * residuals.size());
+  EXPECT_GE((residuals >= p99).count(), 0.01 * residuals.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(symsurf::methods()),

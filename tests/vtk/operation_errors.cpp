@@ -99,7 +99,7 @@ TEST(OperationErrors, PolygonsThatNameNoPoint) {
   for (const auto& [name, filter] : every_operation()) {
     SCOPED_TRACE(name);
     filter->SetInputData(0, shape);
-    EXPECT_NE(error_of(filter).find("a polygon names point 100000"), std::string::npos);
+    EXPECT_NE(error_of(filter).find("a cell names point 100000"), std::string::npos);
   }
 }
 

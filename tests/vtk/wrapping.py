@@ -5,8 +5,13 @@ import random
 import unittest
 
 from symsurf_filters import vtkSymsurfFilters as symsurf
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+try:
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+except ImportError:  # PyVista's build of VTK
+    from cvista.vtkCommonCore import vtkPoints
+    from cvista.vtkCommonDataModel import vtkPolyData
 
 NORMAL, OFFSET = (2 / 3, -1 / 3, 2 / 3), 0.4
 COUNT = 400
@@ -114,6 +119,17 @@ class Wrapping(unittest.TestCase):
         self.assertLess(found.count(-1), COUNT / 10)
         correspondences.SetMaxAngle(91)
         self.assertIn("max_angle is 91", errors_of(correspondences))
+
+    def test_analysis_finds_the_mirror_among_the_symmetries(self):
+        analysis = symsurf.vtkSymmetryAnalysis()
+        analysis.SetInputData(self.shape)
+        self.assertEqual(errors_of(analysis), "")
+        fields = analysis.GetOutput(symsurf.vtkSymmetryAnalysis.SHAPE).GetFieldData()
+        self.assertEqual(fields.GetAbstractArray("Group").GetValue(0), "Cs")
+        elements = analysis.GetOutput(symsurf.vtkSymmetryAnalysis.ELEMENTS)
+        self.assertGreater(elements.GetNumberOfPolys(), 0)
+        for i in range(elements.GetNumberOfPoints()):
+            self.assertAlmostEqual(distance(elements.GetPoint(i)), 0, 6)
 
     def test_sample_knows_its_mirror(self):
         source = symsurf.vtkMirrorSampleSource()

@@ -27,6 +27,7 @@ std::vector<Described> all_described() {
       {"vtkMirrorSampleSource", "Generator", "How the points are made.",
        choices_from(generators())},
       {"vtkPointDamage", "Damage", "What is done to the points.", choices_from(damages())},
+      {"vtkMirrorReflection", "", "", {}},
       {"vtkSymmetryAnalysis", "Analysis", "Which symmetries are sought.", choices_from(analyses())},
   };
   for (const Operation& operation : operations())

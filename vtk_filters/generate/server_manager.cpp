@@ -139,6 +139,57 @@ std::string method_property() {
                          "the methods' parameters.");
 }
 
+// What vtkShapeAlgorithm takes, and how it takes an image.
+const char* const shape_input =
+    R"(      <InputProperty name="Input" command="SetInputConnection" port_index="0">
+        <ProxyGroupDomain name="groups">
+          <Group name="sources"/>
+          <Group name="filters"/>
+        </ProxyGroupDomain>
+        <DataTypeDomain name="input_type">
+          <DataType value="vtkPointSet"/>
+          <DataType value="vtkImageData"/>
+          <DataType value="vtkRectilinearGrid"/>
+        </DataTypeDomain>
+        <InputArrayDomain name="input_array" attribute_type="point" number_of_components="1"
+                          optional="1"/>
+        <Documentation>
+          The shape: a mesh or a bare set of points; of other grids their surface, of an image the
+          points above ImageThreshold, of a multiblock all blocks together.
+        </Documentation>
+      </InputProperty>
+      <StringVectorProperty name="ImageScalars" command="SetInputArrayToProcess"
+                            number_of_elements="5" element_types="0 0 0 0 2">
+        <ArrayListDomain name="array_list" attribute_type="Scalars">
+          <RequiredProperties>
+            <Property name="Input" function="Input"/>
+          </RequiredProperties>
+        </ArrayListDomain>
+        <Documentation>Of an image: the array that says which points are the shape.</Documentation>
+        <Hints>
+          <PropertyWidgetDecorator type="InputDataTypeDecorator" mode="visibility"
+                                   name="vtkImageData vtkRectilinearGrid"/>
+        </Hints>
+      </StringVectorProperty>
+      <DoubleVectorProperty name="ImageThreshold" command="SetImageThreshold"
+                            number_of_elements="1" default_values="0.5">
+        <ArrayRangeDomain name="range" default_mode="mid">
+          <RequiredProperties>
+            <Property name="Input" function="Input"/>
+            <Property name="ImageScalars" function="ArraySelection"/>
+          </RequiredProperties>
+        </ArrayRangeDomain>
+        <Documentation>
+          Of an image: the points whose scalar is greater are the shape. The middle of their range
+          initially.
+        </Documentation>
+        <Hints>
+          <PropertyWidgetDecorator type="InputDataTypeDecorator" mode="visibility"
+                                   name="vtkImageData vtkRectilinearGrid"/>
+        </Hints>
+      </DoubleVectorProperty>
+)";
+
 // "Mirror asymmetry" -> "Mirror Asymmetry", as ParaView writes its menus.
 std::string label_of(const Operation& operation) {
   std::string label = operation.title;
@@ -153,13 +204,13 @@ std::string output_ports(const Operation& operation) {
          "      <OutputPort index=\"1\" name=\"Patch\"/>\n";
 }
 
-// For vtkSMSignedArraysProxy.
-std::string signed_arrays(const Operation& operation) {
+// For vtkSMColourRangesProxy.
+std::string colour_ranges(const Operation& operation) {
   std::string text;
   for (const PointArray& array : operation.arrays)
     if (array.is_signed)
-      text +=
-          "        <SignedArray" + attribute("name", array_name(operation, array.name)) + "/>\n";
+      text += "        <ColourRange" + attribute("array", array_name(operation, array.name)) +
+              attribute("limit", "P99") + attribute("signed", "1") + "/>\n";
   return text;
 }
 
@@ -178,13 +229,14 @@ void fill(std::string& text, const std::string& mark, const std::string& value) 
 }  // namespace
 
 std::string server_manager_xml(const Described& d, std::string text) {
-  if (text.find("@PARAMETERS@") == std::string::npos)
+  if (!d.choices.empty() && text.find("@PARAMETERS@") == std::string::npos)
     throw std::invalid_argument("the template for " + d.vtk_class + " has no @PARAMETERS@");
+  fill_line(text, "@INPUT@", shape_input);
   fill_line(text, "@PARAMETERS@", properties(d));
   fill_line(text, "@METHOD@", method_property());
   if (!d.operation) return text;
   fill_line(text, "@OUTPUTS@", output_ports(*d.operation));
-  fill_line(text, "@SIGNED_ARRAYS@", signed_arrays(*d.operation));
+  fill_line(text, "@COLOURS@", colour_ranges(*d.operation));
   fill(text, "@NAME@", filter_name(*d.operation));
   fill(text, "@LABEL@", label_of(*d.operation));
   fill(text, "@SUMMARY@", escaped(d.operation->summary));

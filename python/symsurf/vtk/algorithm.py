@@ -10,11 +10,13 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from .._core import Cancelled, InvalidInput, InvalidParameter, Parameter
 from ..descriptions import allowed
+from .names import camel_case
+from .shape import shape_of
 
 
 class Property(NamedTuple):
@@ -22,7 +24,12 @@ class Property(NamedTuple):
     doc: str
 
 
+_INPUT_TYPES = ("vtkDataObject", "vtkPolyData")  # the shape; its mirror
 THREADS = Property(0, "0 means as many as the machine has.")
+IMAGE_THRESHOLD = Property(
+    0.5,
+    "Of an image: the points whose scalar is greater are the shape; 0.5 suits masks of 0 and 1.",
+)
 
 
 def described(parameters: Iterable[Parameter], prefix: str = "") -> dict[str, Property]:
@@ -45,14 +52,15 @@ def selected(
     return properties
 
 
-def camel_case(name: str) -> str:
-    """ "pair_distance" as VTK writes names: "PairDistance"."""
-    return "".join(word[0].upper() + word[1:] for word in name.split("_"))
-
-
 class Algorithm(VTKPythonAlgorithmBase):
-    """A filter between ``vtkPolyData``; what its class lists in ``_properties`` can be set, and
-    nothing else."""
+    """A filter whose input 0 is a shape, in whichever kind of data set, and that gives
+    ``vtkPolyData``; what its class lists in ``_properties`` can be set, and nothing else.
+
+    Of point sets other than ``vtkPolyData`` the surface of their cells is the shape; of an image the
+    points whose scalar is greater than ``image_threshold``: the active scalars, or those that
+    ``SetInputArrayToProcess(0, 0, 0, 0, name)`` names; of a multiblock all blocks together. Where an
+    output is said to be the input, it is what comes of this.
+    """
 
     _properties: ClassVar[dict[str, Property]] = {}
     _inputs: ClassVar[dict[str, str]] = {"input_data": "The shape, where no filter makes it."}
@@ -61,6 +69,7 @@ class Algorithm(VTKPythonAlgorithmBase):
     _output_count: ClassVar[int] = 1
 
     def __init_subclass__(cls) -> None:
+        cls._properties = {**cls._properties, "image_threshold": IMAGE_THRESHOLD}
         for name, each in cls._properties.items():
             _add_property(cls, name, each.doc)
         for port, (name, doc) in enumerate(cls._inputs.items()):
@@ -94,13 +103,14 @@ class Algorithm(VTKPythonAlgorithmBase):
         """What a port takes; VTK calls this."""
         if port in self._optional_inputs:
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
-        return super().FillInputPortInformation(port, info)
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), _INPUT_TYPES[port])
+        return 1
 
-    def SetInputData(self, data: vtkPolyData) -> None:
+    def SetInputData(self, data: vtkDataObject) -> None:
         """The shape, where no filter or reader makes it."""
         self.SetInputDataObject(0, data)
 
-    def GetInput(self, port: int = 0) -> vtkPolyData | None:
+    def GetInput(self, port: int = 0) -> vtkDataObject | None:
         """The input at a port; None where there is none yet."""
         return self.GetInputDataObject(port, 0) if self.GetNumberOfInputConnections(port) else None
 
@@ -112,10 +122,11 @@ class Algorithm(VTKPythonAlgorithmBase):
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
         """Runs the filter; VTK calls this."""
-        given = [vtkPolyData.GetData(each) for each in inputs]
+        given = [vtkDataObject.GetData(each) for each in inputs]
         made = [vtkPolyData.GetData(outputs, port) for port in range(self._output_count)]
         try:
-            self._run(given, made)
+            shape = shape_of(given[0], self, self._options["image_threshold"])
+            self._run([shape, *given[1:]], made)
         except Cancelled:
             return 1
         except (InvalidInput, InvalidParameter) as error:
@@ -180,10 +191,10 @@ def _add_property(cls: type[Algorithm], name: str, doc: str) -> None:
 
 
 def _add_input(cls: type[Algorithm], name: str, port: int, doc: str) -> None:
-    def set_data(self: Algorithm, data: vtkPolyData) -> None:
+    def set_data(self: Algorithm, data: vtkDataObject) -> None:
         self.SetInputDataObject(port, data)
 
-    def get_data(self: Algorithm) -> vtkPolyData | None:
+    def get_data(self: Algorithm) -> vtkDataObject | None:
         return self.GetInput(port)
 
     setattr(cls, name, property(get_data, set_data, doc=doc))

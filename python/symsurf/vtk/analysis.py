@@ -14,12 +14,13 @@ from .._core import Analysis, analyses
 from ..inputs import InputWarning
 from ..shape_analyses import AnalysisResult
 from ..shape_analyses.analyse import analyse
-from .algorithm import THREADS, Algorithm, Property, camel_case, selected
+from .algorithm import THREADS, Algorithm, Property, selected
 from .arrays import add_values, faces_of, points_of, set_vertices, vtk_cells, vtk_points
+from .names import camel_case
 
 
 class SymmetryAnalysis(Algorithm):
-    """Finds symmetries of a ``vtkPolyData`` other than one mirror; ``vtkSymmetryAnalysis`` in Python.
+    """Finds symmetries of a shape other than one mirror; ``vtkSymmetryAnalysis`` in Python.
 
     Output 0 "Shape": the input; point data: what the analysis gives each point, in arrays that begin
     with its title; field data: Analysis and its statistics. Output 1 "Elements": mirror planes as

@@ -23,7 +23,7 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from .._core import InvalidInput, Mirror, make_mirror
-from .algorithm import camel_case
+from .names import camel_case
 
 
 def rows_of(array: vtkDataArray | None) -> NDArray[Any]:
@@ -44,11 +44,11 @@ class Faces(NamedTuple):
 
 
 def faces_of(data: vtkPolyData) -> Faces:
-    """Raises InvalidInput where a polygon names a point that is not there."""
+    """Raises InvalidInput where a cell names a point that is not there."""
     if data.GetNumberOfPolys() + data.GetNumberOfStrips() == 0:
         return Faces(None, np.empty(0, np.int64))
     for cells in (data.GetPolys(), data.GetStrips()):
-        _require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
+        require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
     polygons = vtkPolyData()
     polygons.SetPoints(data.GetPoints())
     polygons.SetPolys(data.GetPolys())
@@ -64,11 +64,11 @@ def faces_of(data: vtkPolyData) -> Faces:
     return Faces(corners, vtk_to_numpy(triangles.GetCellData().GetArray(0)))
 
 
-def _require_points(named: NDArray[np.int64], count: int) -> None:
-    """VTK's own filters read what a polygon names without asking whether it is there."""
+def require_points(named: NDArray[np.int64], count: int) -> None:
+    """VTK's own filters read what a cell names without asking whether it is there."""
     beyond = named[(named < 0) | (named >= count)]
     if len(beyond):
-        raise InvalidInput(f"a polygon names point {beyond[0]}; allowed is 0 to {count - 1}")
+        raise InvalidInput(f"a cell names point {beyond[0]}; allowed is 0 to {count - 1}")
 
 
 def vtk_points(rows: NDArray[np.float64]) -> vtkPoints:

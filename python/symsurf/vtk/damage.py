@@ -15,7 +15,7 @@ _OWN = {"seed": Property(0, "The same seed gives the same damage on every machin
 
 
 class PointDamage(Algorithm):
-    """Damages a ``vtkPolyData``: noise, holes, rotation, uneven density; ``vtkPointDamage`` in
+    """Damages a shape: noise, holes, rotation, uneven density; ``vtkPointDamage`` in
     Python.
 
     The output is the input with its points moved or some of them left out, together with the cells

@@ -18,7 +18,7 @@ from .arrays import add_values, faces_of, points_of, rows_of, set_vertices, vtk_
 
 
 class MirrorDetection(Algorithm):
-    """Finds the mirror of a ``vtkPolyData``; ``vtkMirrorDetection`` in Python.
+    """Finds the mirror of a shape; ``vtkMirrorDetection`` in Python.
 
     Where it has polygons, samples of their surface find the mirror, unless UseFaces is off. Points
     that are not finite are left out, with a warning, and have no partners; with RefuseNonfinite they
@@ -31,7 +31,8 @@ class MirrorDetection(Algorithm):
     Points": a vertex in the middle of each pair, at most half its residual off the mirror
     (``perpendicular``, ``quadric`` and ``fixed_direction`` project it onto that); point data
     Residual. Output 2 "Mapping": the input; point data MirrorPartner (index, -1 for none),
-    MirrorResidual (NaN for none) and MirrorSide.
+    MirrorResidual (NaN for none) and MirrorSide; field data MirrorResidualP99, which at most a
+    hundredth of the residuals exceeds.
 
     Every parameter of every method is a property, a keyword of the constructor, and has its setter
     and getter: ``plane_pair_distance`` and ``SetPlanePairDistance`` for ``pair_distance`` of
@@ -162,3 +163,6 @@ def _set_mapping(output: vtkPolyData, result: Result) -> None:
     data.AddArray(numpyTovtkDataArray(partners, "MirrorPartner"))
     data.AddArray(numpyTovtkDataArray(sides, "MirrorSide"))
     data.SetScalars(numpyTovtkDataArray(residuals, "MirrorResidual"))
+    if len(result.residuals):
+        p99 = float(np.quantile(result.residuals, 0.99, method="higher"))
+        add_values(output.GetFieldData(), {"mirror_residual_p99": p99})

@@ -15,7 +15,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 from .. import _core
 from .._core import InvalidInput, InvalidParameter, Mirror, Operation, methods, operations
 from ..detection import detect
-from .algorithm import THREADS, Algorithm, Property, camel_case, described
+from .algorithm import THREADS, Algorithm, Property, described
 from .arrays import (
     Faces,
     add_values,
@@ -28,6 +28,7 @@ from .arrays import (
     vtk_cells,
     vtk_points,
 )
+from .names import camel_case
 
 _FOUND_AT = 0.6  # the share of the progress that finding the mirror takes
 

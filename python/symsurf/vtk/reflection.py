@@ -14,7 +14,7 @@ from .arrays import mirror_of, points_of, set_subset
 
 
 class MirrorReflection(Algorithm):
-    """Reflects a ``vtkPolyData`` over a mirror; ``vtkMirrorReflection`` in Python.
+    """Reflects a shape over a mirror; ``vtkMirrorReflection`` in Python.
 
     Input 0 is what is reflected, input 1 the mirror: output 0 of ``MirrorDetection``, whose field
     data says everything. Cells are turned over, so that the outside stays the outside; normals are

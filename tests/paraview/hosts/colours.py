@@ -1,15 +1,15 @@
-"""Shows the asymmetry of shapes; tells the ranges of its colours, and of its values."""
+"""Shows the asymmetry of shapes; tells the ranges of its colours, and its percentile and its maximum."""
 
 import numpy as np
 from paraview import simple
-from session import answer, fetched, lopsided, point_array
+from session import answer, fetched, field, lopsided, point_array
 
 NAME = "MirrorAsymmetrySigned"
-shape = lopsided(simple.Sphere())
+shape = lopsided(simple.Sphere(ThetaResolution=40, PhiResolution=30))
 dented = simple.Calculator(
     Input=shape,
     CoordinateResults=1,
-    Function="coords * (1 - 0.2*exp(-10*((coordsX-0.5)^2 + coordsY^2 + coordsZ^2)))",
+    Function="coords * (1 - 0.2*exp(-40*((coordsX-0.5)^2 + coordsY^2 + coordsZ^2)))",
 )
 view = simple.CreateRenderView()
 
@@ -20,13 +20,14 @@ def colours():
 
 
 def shown(depth):
-    """The range of the colours once a shape with such a dent is shown, and of the values."""
+    """The range of the colours once a shape with such a dent is shown, and what it follows."""
     dented.Function = dented.Function.replace(shown.depth, depth)
     shown.depth = depth
     simple.Show(asymmetry, view)
     simple.Render(view)
-    values = point_array(fetched(asymmetry), NAME)
-    return {"colours": colours(), "values": [float(np.nanmin(values)), float(np.nanmax(values))]}
+    made = fetched(asymmetry)
+    largest = float(np.nanmax(np.abs(point_array(made, NAME))))
+    return {"colours": colours(), "p99": field(made)["P99"][0], "largest": largest}
 
 
 shown.depth = "0.2"

@@ -1,0 +1,111 @@
+"""The shape that a data object of VTK holds."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet,
+    vtkDataObject,
+    vtkImageData,
+    vtkPointSet,
+    vtkPolyData,
+    vtkRectilinearGrid,
+    vtkUnstructuredGrid,
+)
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkThresholdPoints
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+
+from .._core import InvalidInput
+from .arrays import require_points
+
+
+def shape_of(
+    data: vtkDataObject | None, algorithm: vtkAlgorithm, image_threshold: float
+) -> vtkPolyData | None:
+    """Poly data as they are; the surface of other point sets' cells, or their points where they have
+    none; of an image the points whose scalar is greater; all blocks of a composite as one shape.
+
+    algorithm: its input array to process 0 says which scalars. Raises InvalidInput.
+    """
+    if data is None or isinstance(data, vtkPolyData):
+        return data
+    if isinstance(data, vtkPointSet):
+        return _surface_of(data)
+    if isinstance(data, (vtkImageData, vtkRectilinearGrid)):
+        return _points_above(data, algorithm, image_threshold)
+    if isinstance(data, vtkCompositeDataSet):
+        return _joined_blocks(data, algorithm, image_threshold)
+    raise InvalidInput(
+        f"the input is a {data.GetClassName()}; allowed are vtkPolyData and other point sets, images "
+        "and composites of these"
+    )
+
+
+def _surface_of(data: vtkPointSet) -> vtkPolyData:
+    if data.GetNumberOfCells() == 0:
+        points = vtkPolyData()
+        points.SetPoints(data.GetPoints())
+        points.GetPointData().ShallowCopy(data.GetPointData())
+        points.GetFieldData().ShallowCopy(data.GetFieldData())
+        return points
+    if isinstance(data, vtkUnstructuredGrid):
+        named = vtk_to_numpy(data.GetCells().GetConnectivityArray())
+        require_points(named, data.GetNumberOfPoints())
+    return _made(vtkGeometryFilter(), data)
+
+
+def _points_above(image: Any, algorithm: vtkAlgorithm, threshold: float) -> vtkPolyData:
+    if image.GetNumberOfPoints() == 0:
+        return vtkPolyData()
+    kind = image.GetClassName()
+    name = algorithm.GetInputArrayInformation(0).Get(vtkDataObject.FIELD_NAME())
+    data = image.GetPointData()
+    scalars = data.GetArray(name) if name else data.GetScalars()
+    if scalars is None:
+        raise InvalidInput(
+            f"the {kind} has no point scalars {name or 'that are active'}, which say what of it is the "
+            "shape"
+        )
+    if scalars.GetNumberOfComponents() != 1:
+        raise InvalidInput(
+            f"the scalars of the {kind} have {scalars.GetNumberOfComponents()} components; allowed is "
+            "one"
+        )
+    copy = image.NewInstance()
+    copy.ShallowCopy(image)
+    if name:
+        copy.GetPointData().SetActiveScalars(name)
+    above = vtkThresholdPoints()
+    above.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    least = math.nextafter(threshold, math.inf)  # it takes equal values, too
+    if hasattr(above, "SetThresholdFunction"):
+        above.SetThresholdFunction(above.THRESHOLD_UPPER)
+        above.SetUpperThreshold(least)
+    else:  # before VTK 9.6
+        above.ThresholdByUpper(least)
+    return _made(above, copy)
+
+
+def _joined_blocks(
+    data: vtkCompositeDataSet, algorithm: vtkAlgorithm, threshold: float
+) -> vtkPolyData:
+    joined = vtkAppendPolyData()
+    block = data.NewIterator()
+    block.InitTraversal()
+    while not block.IsDoneWithTraversal():
+        joined.AddInputData(shape_of(block.GetCurrentDataObject(), algorithm, threshold))
+        block.GoToNextItem()
+    if joined.GetNumberOfInputConnections(0) == 0:
+        return vtkPolyData()
+    joined.Update()
+    return joined.GetOutput()
+
+
+def _made(algorithm: Any, data: vtkDataObject) -> vtkPolyData:
+    algorithm.SetInputData(data)
+    algorithm.Update()
+    return algorithm.GetOutput()

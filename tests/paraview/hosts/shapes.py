@@ -1,0 +1,31 @@
+"""Detects the mirror of a mesh, and of the same shape as a grid and as blocks; of an image."""
+
+from paraview import simple
+from session import answer, fetched, field, lopsided
+
+
+def found(shape):
+    detection = simple.MirrorDetection(Input=shape, Method="plane")
+    fields = field(fetched(detection))
+    return {
+        "threshold": detection.ImageThreshold,
+        "normal": fields["Normal"],
+        "offset": fields["Offset"][0],
+        "verdict": fields["Verdict"],
+        "points": fetched(detection, 2).GetNumberOfPoints(),
+    }
+
+
+mesh = lopsided(simple.Sphere())
+halves = mesh.Input.Input  # before they are appended
+image = simple.Wavelet()  # RTData is even in z, and odd in parts of x and y
+image.UpdatePipeline()
+low, high = image.PointData["RTData"].GetRange()
+answer(
+    {
+        "mesh": found(mesh),
+        "grid": found(mesh.Input),
+        "blocks": found(simple.GroupDatasets(Input=list(halves))),
+        "image": found(image) | {"middle": (low + high) / 2},
+    }
+)
