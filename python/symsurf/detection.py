@@ -60,10 +60,10 @@ def detect(
         **parameters: the method's own, by name: ``methods()[method].parameters``.
 
     Raises:
-        InvalidInput: too few finite points, not (n, 3), all on one point or line, an extent beyond
-            what is allowed; normals that are not one a point, not finite or zero; a face that names
-            a point which is not there; a grid whose scalars do not say which points to take; a file
-            that cannot be read.
+        InvalidInput: too few finite points, not (n, 3), all on one point or line, an extent or a
+            coordinate beyond what is allowed; normals that are not one a point, not finite or zero;
+            a face that names a point which is not there; a grid whose scalars do not say which
+            points to take; a file that cannot be read.
         InvalidParameter: an unknown method or parameter, or a value out of its range.
         Cancelled: the progress callback returned False.
 
