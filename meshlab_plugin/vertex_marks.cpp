@@ -53,8 +53,11 @@ void add_attribute(CMeshO& mesh, const std::string& name, const Eigen::MatrixXd&
     for (Index i = 0; i < rows.rows(); ++i)
       attribute[i] = Point3m(rows(i, 0), rows(i, 1), rows(i, 2));
   } else {
-    auto attribute = new_attribute<Scalarm>(mesh, name);
-    for (Index i = 0; i < rows.rows(); ++i) attribute[i] = rows(i, 0);
+    for (Index c = 0; c < rows.cols(); ++c) {  // MeshLab has no longer rows
+      const std::string end = rows.cols() > 1 ? "_" + std::to_string(c) : "";
+      auto attribute = new_attribute<Scalarm>(mesh, name + end);
+      for (Index i = 0; i < rows.rows(); ++i) attribute[i] = rows(i, c);
+    }
   }
 }
 

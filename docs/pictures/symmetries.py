@@ -6,16 +6,31 @@ python docs/pictures/symmetries.py docs/images/symmetries
 import sys
 from pathlib import Path
 
+import numpy as np
 import pyvista
 from PIL import Image
 
 import symsurf
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+from accuracy.limbed import BODIES, posed
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "python"))
+from shapes import head, vertebra
 
 
 def nut():
     """Hexagonal, with a hexagonal hole."""
     ring = pyvista.Disc(inner=0.45, outer=1, r_res=1, c_res=6)
     return ring.extrude((0, 0, 0.6), capping=True).triangulate().clean()
+
+
+def twins_and_another():
+    """Two heads, one of them turned, and a vertebra."""
+    one, other = head(4), vertebra(40)
+    turned = symsurf.synthetic.rotate(one.points, 10, 35, 70) + (3, 0.4, 0)
+    apart = (other.points - other.points.mean(axis=0)) / np.ptp(other.points) * 2.5 + (1.5, 2.6, 0)
+    return np.vstack([one.points, turned, apart])
 
 
 def write(result, path, camera=None):
@@ -26,7 +41,17 @@ def write(result, path, camera=None):
 
 def main(folder):
     folder.mkdir(exist_ok=True)
-    write(symsurf.symmetries(nut()), folder / "symmetries.png", (0.5, -1, 0.9))
+    above = (0.5, -1, 0.9)
+    write(symsurf.symmetries(nut()), folder / "symmetries.png", above)
+    write(
+        symsurf.partial_symmetries(twins_and_another()),
+        folder / "partial_symmetries.png",
+        (0, -0.3, 1),
+    )
+    write(symsurf.symmetry_embedding(nut().subdivide(3)), folder / "symmetry_embedding.png", above)
+    body = BODIES["animal"]
+    points = posed(body, np.random.default_rng(1), 0.9)
+    write(symsurf.intrinsic_symmetry(points, faces=body.faces), folder / "intrinsic_symmetry.png")
 
 
 if __name__ == "__main__":

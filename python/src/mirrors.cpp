@@ -115,7 +115,7 @@ void bind_mirror(py::module_& module) {
            "points: the object (n, 3); without it, the one the mirror was found in.\n"
            "resolution: cells along the longer side.\n"
            "Returns vertices (v, 3) and triangles (t, 3). Raises InvalidInput for a mirror made\n"
-           "by hand when no points are given, InvalidParameter for a resolution below 1.")
+           "by hand when no points are given, InvalidParameter for a resolution out of 1 to 4096.")
       .def(
           "__eq__",
           [](const Mirror& m, const py::object& other) {

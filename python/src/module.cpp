@@ -7,10 +7,12 @@ PYBIND11_MODULE(_core, module) {
   bind_errors(module);
   bind_methods(module);
   bind_mirrors(module);
+  bind_optics(module);
   bind_detection(module);
   bind_sampling(module);
   bind_reading(module);
   bind_synthesis(module);
+  bind_benchmark(module);
   bind_metrics(module);
   bind_operations(module);
   bind_analyses(module);

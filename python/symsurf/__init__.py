@@ -22,6 +22,7 @@ from ._core import (
     Parameter,
     Plane,
     Quadric,
+    ReflectionPoints,
     Sphere,
     SurfaceMirror,
     __version__,
@@ -50,7 +51,14 @@ from .reading import read
 from .result import Result
 from .sampling import downsample, estimate_normals
 from .shape import Shape
-from .shape_analyses import AnalysisResult, Axis, Symmetries, Transformation
+from .shape_analyses import (
+    AnalysisResult,
+    Axis,
+    IntrinsicSymmetry,
+    Symmetries,
+    SymmetryEmbedding,
+    Transformation,
+)
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
 
@@ -70,6 +78,7 @@ __all__ = [
     "FreeForm",
     "HeightField",
     "InputWarning",
+    "IntrinsicSymmetry",
     "InvalidInput",
     "InvalidParameter",
     "Method",
@@ -79,6 +88,7 @@ __all__ = [
     "Parameter",
     "Plane",
     "Quadric",
+    "ReflectionPoints",
     "Result",
     "Shape",
     "Sphere",
@@ -86,6 +96,7 @@ __all__ = [
     "SurfaceMirror",
     "Symmetries",
     "Symmetrized",
+    "SymmetryEmbedding",
     "Transformation",
     "__version__",
     "analyses",

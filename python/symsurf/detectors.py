@@ -28,6 +28,8 @@ _MIRRORS = {
     "fixed_direction": "HeightField",
     "perpendicular": "FreeForm",
     "sphere_thesis": "Sphere",
+    "plane_icp": "Plane",
+    "plane_svd": "Plane",
 }
 
 

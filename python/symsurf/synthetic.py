@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Mirror, Sphere
+from .benchmark import BenchmarkSample, benchmark  # noqa: F401  # a part of this module for users
 
 Box = tuple[ArrayLike, ArrayLike]
 """The lowest and the highest corner (3,) of an axis-aligned box; both are inside."""

@@ -15,8 +15,11 @@ from . import (
     curved,
     deformed,
     exact,
+    intrinsic,
     kinds,
+    nearly_symmetric,
     operations,
+    partial,
     planes,
     scores,
     symmetries,
@@ -26,8 +29,8 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, cad_planes, candidates, exact, operations, scores,
-           symmetries, without_mirror)  # fmt: skip
+MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
+           intrinsic, operations, partial, scores, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+import symsurf
 from symsurf import Cylinder, Plane
 
 from .case import Bar, Case, Figures, at_least, at_most, timed_detect
@@ -118,6 +119,30 @@ def _body(name: str, bend: str, method: str, bars: dict[str, Bar], share: float 
     return Case(f"{method}, bodies, {name}", MESHES, run, bars)
 
 
+def _residual(points: Points, plane: Plane) -> float:
+    """How far images lie from the points, in the median, over the diagonal."""
+    found = symsurf.match(points, plane, pair_distance=1, threads=1)
+    return float(np.median(found.residuals)) / diagonal(points)
+
+
+def _straightened(subject: str, rng: np.random.Generator) -> Figures:
+    """A body that was bent, straightened over the mirror that is found of it, and as it was."""
+    mesh, bend = subject.split()
+    points, faces, plane = mirrored_mesh(mesh)
+    straight = sampled(points, faces, COUNT, rng)
+    shape, _ = bent_body(straight, plane, bend, rng)
+    result = symsurf.detect(shape, threads=1)
+    if result.mirror is None:
+        return {"to unbent": np.inf, "unplaced": 1.0}
+    made = symsurf.straighten(shape, result, threads=1)
+    placed = np.isfinite(made.shape.points).all(axis=1)
+    residual = _residual(made.shape.points[placed], made.plane)
+    return {
+        "to unbent": residual / _residual(straight, plane),
+        "unplaced": float(1 - placed.mean()),
+    }
+
+
 def _bars(median: float, ninth: float) -> dict[str, Bar]:
     return {"image error": at_most(median), "90th": at_most(ninth), "right": at_least(1)}
 
@@ -127,4 +152,8 @@ CASES = tuple(
     for method, bends in (("auto", ("straight", "cylinder", *BENDS)), ("perpendicular", BENDS))
     for share, bars in ((0.0, _bars(0.004, 0.02)), (0.01, _bars(0.008, 0.04)))
     for bend in bends
-)
+) + (
+    Case("auto, straightened bodies",
+         tuple(f"{mesh} {bend}" for mesh in MESHES for bend in ("cylinder", *BENDS)),
+         _straightened, {"to unbent": at_most(2)}),
+)  # fmt: skip

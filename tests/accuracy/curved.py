@@ -8,6 +8,7 @@ import numpy as np
 
 from symsurf import metrics
 
+from . import oracle
 from .case import Bar, Case, Figures, at_least, at_most, timed_detect
 from .damage import falling_density, hole, noise
 from .poses import Points, diagonal
@@ -100,6 +101,34 @@ def _perpendicular(
     return Case(f"perpendicular, {name}", subjects, run, bars)
 
 
+def _oracle(
+    name: str,
+    bars: dict[str, Bar],
+    damage: Damage = none,
+    waves: tuple[int, ...] = WAVES,
+    exact: bool = True,
+) -> Case:
+    """What the points of the same sheets give to one who knows the mirror nearly."""
+
+    def run(subject: str, rng: np.random.Generator) -> Figures:
+        near, far = DISTANCES[subject]
+        sheets = perpendicular_sheets(subject, near, far, int(rng.choice(waves)), exact, rng)
+        points, footprint = damage(sheets, rng)
+        paired = exact and len(points) == len(sheets.points)
+        surfaces = (
+            oracle.from_pairs(points, sheets.pairs, sheets.points)
+            if paired
+            else oracle.from_layers(points, sheets.truth)
+        )
+        found = min(surfaces, key=lambda s: metrics.surface_distance(s, sheets.truth, points))
+        return {
+            "rms": metrics.surface_distance(found, sheets.truth, points),
+            "coverage": metrics.coverage(found, sheets.truth, footprint, COVERED_WITHIN),
+        }
+
+    return Case(f"oracle, {name}", tuple(DISTANCES), run, bars)
+
+
 def _bars(rms: float, coverage: float, **more: Bar) -> dict[str, Bar]:
     return {"rms": at_most(rms), "coverage": at_least(coverage), **more}
 
@@ -125,4 +154,8 @@ CASES = (
     _perpendicular("20 % hole", {}, holed),
     _perpendicular("4:1 density, some partners left", _bars(0.0015, 0.9), uneven),
     _perpendicular("4:1 density, no exact partners", _bars(0.0015, 0.9), uneven, exact=False),
+    _oracle("1 to 4 waves", _bars(0.0005, 0.95), waves=(1, 2, 4)),
+    _oracle("noise 1 %", _bars(0.002, 0.95), noisy(0.01)),
+    _oracle("4:1 density, some partners left", _bars(0.0015, 0.9), uneven),
+    _oracle("4:1 density, no exact partners", _bars(0.0015, 0.9), uneven, exact=False),
 )  # fmt: skip

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <symsurf/symsurf.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -108,6 +110,23 @@ TEST_P(LongCalls, AreCancelledAtRandomMoments) {
 
 INSTANTIATE_TEST_SUITE_P(Every, LongCalls, testing::Range(std::size_t{0}, long_calls().size()),
                          [](const auto& tested) { return long_calls()[tested.param].name; });
+
+// It fitted a surface and knew nothing of a wish to cancel. In CPU seconds of one thread, against
+// the time of the whole: neither other work on the machine nor its speed counts.
+TEST(Context, IsAskedByFixedDirectionAllTheTime) {
+  const Points points = RandomCloud(0).sphere(200'000) * Vector3(1, 0.7, 0.4).asDiagonal();
+  const std::clock_t start = std::clock();
+  std::clock_t last = start, longest = 0;
+  const auto hear = [&](double) {
+    const std::clock_t now = std::clock();
+    longest = std::max(longest, now - last);
+    last = now;
+    return true;
+  };
+  detect(points, {.method = "fixed_direction"}, Context(hear, 1));
+  longest = std::max(longest, std::clock() - last);
+  EXPECT_LE(static_cast<double>(longest), 0.06 * static_cast<double>(std::clock() - start));
+}
 
 TEST(Context, HandsOnWhatTheCallbackThrows) {
   for (const LongCall& call : long_calls())

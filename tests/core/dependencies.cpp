@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 // The folders of core/src from the lowest layer up: a file includes from its own layer and from
 // lower ones.
-constexpr std::array layers{"base",    "distributed", "spatial",    "mesh",
-                            "cloud",   "mirrors",     "score",      "preprocess",
-                            "methods", "operations",  "detection",  "symmetries"};
+constexpr std::array layers{"base",       "distributed", "spatial",   "mesh",       "cloud",
+                            "mirrors",    "optics",      "score",     "preprocess", "methods",
+                            "operations", "detection",   "symmetries"};
 // Used by no layer; may use all of them.
 constexpr std::array leaves{"synthetic"};
 
@@ -61,7 +61,7 @@ bool is_allowed_library(const std::string& header) {
   const bool is_standard =
       std::all_of(header.begin(), header.end(), [](char c) { return c != '/' && c != '.'; });
   return starts_with("symsurf/") || starts_with("Eigen/") || starts_with("OpenMesh/") ||
-         header == "nanoflann.hpp" || is_standard;
+         starts_with("Spectra/") || header == "nanoflann.hpp" || is_standard;
 }
 
 // The one source that asks the operating system, for what C++ cannot tell.

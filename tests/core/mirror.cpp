@@ -180,7 +180,7 @@ TEST(PlaneMesh, SaysWhatIsWrong) {
   const Plane plane({0, 0, 1}, 0);
   expect_error<InvalidInput>("no footprint", [&] { plane.mesh(); });
   const Points points = RandomCloud(0).box(10);
-  expect_error<InvalidParameter>("resolution is 0; allowed is 1 and above",
+  expect_error<InvalidParameter>("resolution is 0; allowed is 1 to 4096",
                                  [&] { plane.mesh(points, 0); });
   Points broken = points;
   broken(3, 1) = std::nan("");

@@ -250,12 +250,15 @@ inline Values mirror_numbers(std::string_view kind, Source& source) {
 }
 
 /// A mirror made by hand. Throws as make_mirror does.
-inline std::shared_ptr<Mirror> drawn_mirror(Source& source) {
-  const std::string kind = one_of(mirror_kinds, source);
+inline std::shared_ptr<Mirror> drawn_mirror(Source& source, const std::string& kind) {
   const Values numbers = mirror_numbers(kind, source);
   show("kind", '"' + kind + '"');
   show("numbers", numbers);
   return make_mirror(kind, numbers);
+}
+
+inline std::shared_ptr<Mirror> drawn_mirror(Source& source) {
+  return drawn_mirror(source, one_of(mirror_kinds, source));
 }
 
 }  // namespace symsurf

@@ -14,7 +14,14 @@ void fuzz(Source& source) {
   show_rows("points", points);
   expect(mirror->reflect(points).rows() == points.rows(), "an image a point");
   expect(mirror->signed_distance(points).size() == points.rows(), "a distance a point");
-  runs([&] { mirror->mesh(points, source.ConsumeIntegralInRange(-1, 8)); });
+  const int resolution = source.ConsumeIntegralInRange(-1, 8);
+  runs([&] { expect(mirror->mesh(points, resolution).vertices.allFinite(), "a mesh is finite"); });
+  runs([&] {
+    const ReflectionPoints found = reflection_points(*mirror, points, vector(source));
+    expect(found.positions.allFinite() && found.path_lengths.allFinite(),
+           "a path of finite length");
+    expect(!(found.irradiance.array() < 0).any(), "light is not negative");
+  });
   RandomCloud random(source.ConsumeIntegral<std::uint8_t>());
   expect_finite(*mirror->transformed(number(source), random.rotation(), vector(source)));
 }

@@ -69,5 +69,11 @@ def test_every_analysis_gives_the_vertices_what_it_describes(name: str) -> None:
     mesh_set.apply_filter(f"compute_{name}")
     mesh = mesh_set.mesh(0)
     for array in symsurf.analyses()[name].arrays:
-        if array.components == 1:
-            assert len(mesh.vertex_custom_scalar_attribute_array(array.name)) == 8
+        names = [array.name]
+        if array.components not in (1, 3):
+            names = [f"{array.name}_{column}" for column in range(array.components)]
+        for name_ in names:
+            if array.components == 3:
+                assert len(mesh.vertex_custom_point_attribute_matrix(name_)) == 8
+            else:
+                assert len(mesh.vertex_custom_scalar_attribute_array(name_)) == 8

@@ -59,3 +59,58 @@ def test_sphere_has_no_image_beyond_twice_its_radius():
     images = sphere.reflect([(0.5, 0, 0), (2.5, 0, 0), (0, 0, 0)])
     np.testing.assert_allclose(images[0], (1.5, 0, 0))
     assert np.isnan(images[1:]).all()
+
+
+def every_kind():
+    points = np.random.default_rng(0).uniform(-1, 1, size=(300, 3)) * (1, 1, 0.1)
+    nodes = np.column_stack([points[:, :2], 0.1 * points[:, 0] ** 2])
+    bowl = {"centres": [[0, 0, 0]], "tangents": [[1, 0, 0]], "normals": [[0, 0, 1]],
+            "heights": [[0, 0, 0, 0.1, 0, 0.1]], "radii": [[3.0]]}  # fmt: skip
+    known = symsurf.make_mirror(
+        "surface",
+        {"surface": "f1", "mapping": "fixed", "scale": 1.0, "rotation": np.eye(3),
+         "translation": np.zeros(3)},
+        footprint=points,
+    )  # fmt: skip
+    free = symsurf.make_mirror(
+        "free-form", {name: np.array(rows, float) for name, rows in bowl.items()}
+    )
+    return [
+        symsurf.Plane((0, 0, 1), 0),
+        symsurf.Sphere((0, 0, -5), 5),
+        symsurf.Cylinder((0, 0, -5), (1, 0, 0), 5),
+        symsurf.Quadric(np.diag([0.1, 0.1, 0]), (0, 0, -1), 0),
+        symsurf.HeightField((0, 0, 1), nodes),
+        free,
+        known,
+    ]
+
+
+@pytest.mark.parametrize("mirror", every_kind(), ids=lambda mirror: mirror.kind)
+def test_every_kind_reflects_light(mirror):
+    sources = np.array([[0.3, 0.2, 2.0], [-0.4, 0.1, 1.5]])
+    eye = np.array([0.1, -0.3, 1.7])
+    found = mirror.reflection_points(sources, eye)
+    assert len(found) == len(found.positions) == len(found.sources) and len(found) >= 2
+    assert set(found.sources) == {0, 1}
+    to_source, to_eye = sources[found.sources] - found.positions, eye - found.positions
+    lengths = [np.linalg.norm(each, axis=1) for each in (to_source, to_eye)]
+    np.testing.assert_allclose(found.path_lengths, sum(lengths), rtol=1e-14)
+    assert np.all(found.irradiance > 0)
+    # Equal angles with the surface, whose feet near the point lie across both their sum.
+    half = to_source / lengths[0][:, None] + to_eye / lengths[1][:, None]
+    for shift in 1e-6 * np.eye(3)[:2]:
+        ahead = mirror.project(found.positions + shift) - mirror.project(found.positions - shift)
+        assert np.all(np.abs(np.sum(half * ahead, axis=1)) <= 1e-6 * np.linalg.norm(ahead, axis=1))
+    first = mirror.reflection_points(sources[0], list(eye))
+    np.testing.assert_array_equal(first.positions, found.positions[found.sources == 0])
+
+
+def test_light_is_refused_where_it_is_no_point():
+    sphere = symsurf.Sphere((0, 0, 0), 1)
+    for source, eye in [((1, 2), (1, 2, 3)), ((1, 2, 3), (1, 2)), ((np.nan, 0, 0), (1, 2, 3)),
+                        ((1, 2, 3), (1, 2, np.inf)), (np.zeros((2, 2, 3)), (1, 2, 3))]:  # fmt: skip
+        with pytest.raises(symsurf.InvalidInput):
+            sphere.reflection_points(source, eye)
+    assert len(sphere.reflection_points(np.zeros((0, 3)), (1, 2, 3))) == 0
+    assert len(sphere.reflection_points((0, 0, 0), (0, 0, 0))) == 0

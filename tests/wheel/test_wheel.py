@@ -119,7 +119,12 @@ def test_libraries_are_stripped_and_need_what_every_linux_has(wheel, tmp_path):
 def test_types_and_licences_come_along(wheel):
     names = zipfile.ZipFile(wheel).namelist()
     assert {"symsurf/py.typed", "symsurf/_core.pyi"} <= set(names)
-    for licence in ("LICENSE", "licenses/OpenMesh.txt", "licenses/nanoflann.txt"):
+    for licence in (
+        "LICENSE",
+        "licenses/OpenMesh.txt",
+        "licenses/nanoflann.txt",
+        "licenses/Spectra.txt",
+    ):
         assert any(name.endswith(f".dist-info/licenses/{licence}") for name in names)
 
 

@@ -18,7 +18,7 @@ enum class Bend {
 /// that the mirror reflects onto itself comes out symmetric about straight_mirror().
 /// A mirror made by hand is laid out over the points' feet unless it was given a footprint; going
 /// there and back needs the same footprint. Rows without a foot are NaN. Throws InvalidInput when
-/// no point of the footprint has a foot, Cancelled.
+/// no point of the footprint has a foot or the points extend over more than 1e50, Cancelled.
 Points bend(PointsView points, const Mirror& mirror, Bend way = Bend::Straighten,
             const Context& context = {});
 

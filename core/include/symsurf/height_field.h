@@ -20,8 +20,9 @@ class HeightField final : public Mirror {
  public:
   /// The direction may have any length but zero. Nodes: m x 3, one at least, in input units; of
   /// nodes that lie over each other along the direction only the first counts.
-  /// Throws InvalidInput for a zero or non-finite direction and for no or non-finite nodes.
-  HeightField(const Vector3& direction, Points nodes);
+  /// Throws InvalidInput for a zero or non-finite direction and for no or non-finite nodes,
+  /// Cancelled.
+  HeightField(const Vector3& direction, Points nodes, const Context& context = {});
 
   const Vector3& direction() const { return direction_; }
   const Points& nodes() const { return *nodes_; }
@@ -29,6 +30,8 @@ class HeightField final : public Mirror {
   std::string_view kind() const override { return "height field"; }
   Vector3 foot(const Vector3& x) const override { return x - signed_distance(x) * direction_; }
   double signed_distance(const Vector3& x) const override;
+  /// The unit normal at the foot of x, on the side that the direction points to.
+  Vector3 normal(const Vector3& x) const;
   /// "direction", and "nodes" as m x 3.
   Values numbers() const override;
   std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,

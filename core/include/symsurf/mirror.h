@@ -50,7 +50,8 @@ class Mirror {
 
   /// Triangles over the footprint of the object: the part of the mirror that lies between the
   /// object's points and their images. `resolution` is the number of cells along the longer side.
-  /// Throws InvalidInput without points, InvalidParameter for a resolution below 1.
+  /// Throws InvalidInput without points, or where they or their feet extend over more than 1e50 or
+  /// the mesh would not be finite, InvalidParameter for a resolution out of 1 to 4096.
   Mesh mesh(PointsView object, int resolution = 32) const;
   /// The same over the object in which the mirror was found.
   Mesh mesh(int resolution = 32) const { return mesh(footprint(), resolution); }

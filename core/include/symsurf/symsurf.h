@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/analysis.h>
+#include <symsurf/benchmark.h>
 #include <symsurf/bend.h>
 #include <symsurf/candidate_values.h>
 #include <symsurf/communicator.h>
@@ -21,6 +22,7 @@
 #include <symsurf/plane.h>
 #include <symsurf/quadric.h>
 #include <symsurf/read.h>
+#include <symsurf/reflection_points.h>
 #include <symsurf/result.h>
 #include <symsurf/sphere.h>
 #include <symsurf/surface.h>

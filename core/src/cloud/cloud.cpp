@@ -2,6 +2,7 @@
 
 #include <symsurf/errors.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,15 @@ constexpr double least_extent = 1e-50, greatest_extent = 1e50;
 
 // In one process: they, and twice as many, are counted in 32 bits.
 constexpr Index most_points = Index{1} << 30;
+
+// `first`: the number of the first row.
+void require_coordinates(PointsView points, Index first) {
+  for (Index i = 0; i < points.size(); ++i)
+    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
+      throw InvalidInput("point " + std::to_string(first + i) + " is " +
+                         to_string(Value(points[i])) + "; allowed are coordinates up to " +
+                         to_string(Value(greatest_extent)));
+}
 
 void require_numerable(Index own) {
   if (!is_numerable(own))
@@ -77,11 +87,16 @@ void require_points(PointsView points) {
   require_finite(points, "point");
 }
 
-void require_coordinates(PointsView points) {
-  for (Index i = 0; i < points.size(); ++i)
-    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
-      throw InvalidInput("point " + std::to_string(i) + " is " + to_string(Value(points[i])) +
-                         "; allowed are coordinates up to " + to_string(Value(greatest_extent)));
+void require_coordinates(PointsView points) { require_coordinates(points, 0); }
+
+void require_extent(PointsView rows, const char* what) {
+  Eigen::AlignedBox3d box;
+  for (Index i = 0; i < rows.size(); ++i)
+    if (rows[i].allFinite()) box.extend(rows[i]);
+  const double extent = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+  if (extent > greatest_extent)
+    throw InvalidInput("the " + std::string(what) + " extend over " + to_string(Value(extent)) +
+                       "; allowed is up to " + to_string(Value(greatest_extent)));
 }
 
 void require_normals(PointsView points, PointsView normals, Index first) {
@@ -109,7 +124,10 @@ void validate(Cloud& cloud, Index minimum_points, const Context& context) {
   const Vector3 low(extremes[0].x(), extremes[2].y(), extremes[4].z());
   const Vector3 high(extremes[1].x(), extremes[3].y(), extremes[5].z());
   require_area(own, partition, extremes, high - low);
-  partition.require([&] { require_normals(own, cloud.normals, partition.first()); });
+  partition.require([&] {
+    require_coordinates(own, partition.first());
+    require_normals(own, cloud.normals, partition.first());
+  });
   cloud.partition = partition;
   cloud.diagonal = (high - low).norm();
   cloud.frame = principal_frame(own, partition, context);

@@ -56,6 +56,10 @@ void require_points(PointsView points);
 /// overflow.
 void require_coordinates(PointsView points);
 
+/// Throws InvalidInput where the finite rows extend over more than 1e50 along an axis: fourth
+/// powers of lengths would overflow. `what`: "points".
+void require_extent(PointsView rows, const char* what);
+
 /// Throws InvalidInput for fewer points than needed.
 void require_count(Index given, Index needed);
 

@@ -164,6 +164,15 @@ void TriangleMesh::for_each_face(const Visit& visit) const {
   for (const auto& [number, corner] : mesh_->aside) visit(number, corner, true);
 }
 
+Triangles TriangleMesh::manifold_faces() const {
+  Triangles kept(static_cast<Index>(mesh_->number.size()), 3);
+  Index row = 0;
+  for_each_face([&](Index, const Corners& corner, bool is_aside) {
+    if (!is_aside) kept.row(row++) << corner[0], corner[1], corner[2];
+  });
+  return kept;
+}
+
 std::vector<double> TriangleMesh::vertex_areas() const {
   std::vector<double> areas(vertices(), 0);
   for_each_face([&](Index, const Corners& corner, bool) {

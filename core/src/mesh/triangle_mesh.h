@@ -45,6 +45,9 @@ class TriangleMesh {
   };
   const Refused& refused() const { return refused_; }
 
+  /// The faces that are not kept aside, all wound alike where they meet, in the order given.
+  Triangles manifold_faces() const;
+
   /// One a vertex: a third of the area of the faces around it. Their sum is the area of all.
   std::vector<double> vertex_areas() const;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
@@ -49,15 +51,12 @@ class ThinnedCloud {
     normals_ = chosen_rows(cloud.normals, rows);
     cloud_ = checked_cloud(points_, normals_, 1, context);
     cloud_.seed = cloud.seed;
-    is_thinner_ = true;
   }
   const Cloud& cloud() const { return cloud_; }
-  bool is_thinner() const { return is_thinner_; }
 
  private:
   Points points_, normals_ = Points(0, 3);
   Cloud cloud_;
-  bool is_thinner_ = false;
 };
 
 Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
@@ -73,86 +72,128 @@ double explained(const Result& result) {
   return share == result.statistics.end() ? 0 : std::get<double>(share->second);
 }
 
-// The one evaluation of all kinds: the share of the shape that they explain, less a prior on their
-// freedom. The score would not do: it answers whether chance explains a mirror, not which fits.
+// Which kind is meant: that which explains most of the shape, less a prior on its freedom. The
+// score says how sure a free form is, not how well it fits.
 bool explains_more(const Result& freer, const Result& simpler) {
   if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
   if (freer.mirror->kind() != "free-form") return freer.score > simpler.score + tie;
   return explained(freer) > explained(simpler) + free_form_gain;
 }
 
-// A free form that maps the shape well and better than what is simpler, and is far from all mirrors
-// of a kind: none of these comes near it.
-bool is_ruled_out(std::string_view kind, const Result& free_form, const Result& simpler,
-                  const Cloud& cloud) {
-  if (!free_form.mirror || explained(free_form) < well_explained ||
-      !explains_more(free_form, simpler))
-    return false;
-  const auto& mirror = dynamic_cast<const FreeForm&>(*free_form.mirror);
-  const double distance =
-      kind == "sphere" ? distance_from_sphere(mirror) : distance_from_cylinder(mirror);
-  return distance > another_shape * cloud.diagonal;
+// Whether it maps the shape well, and better than the plane: kinds that come near it do so, too.
+bool leads(const Result& free_form, const Result& plane) {
+  return free_form.mirror && explained(free_form) >= well_explained &&
+         explains_more(free_form, plane);
+}
+
+using Kinds = std::vector<const MethodImplementation*>;
+
+Kinds simple_kinds(Index points) {
+  Kinds kinds;
+  for (const MethodImplementation& kind : implementations())
+    if (kind.automatic && kind.name != "plane" && kind.name != "perpendicular" &&
+        points >= kind.minimum_points)
+      kinds.push_back(&kind);
+  return kinds;
+}
+
+// Those that a mirror comes near, the nearest first.
+Kinds near_kinds(const Kinds& kinds, const Mirror& mirror, double diagonal) {
+  const auto& free_form = dynamic_cast<const FreeForm&>(mirror);
+  std::vector<std::pair<double, const MethodImplementation*>> near;
+  for (const MethodImplementation* kind : kinds) {
+    const double distance = kind->name == "sphere" ? distance_from_sphere(free_form)
+                                                   : distance_from_cylinder(free_form);
+    if (distance <= another_shape * diagonal) near.push_back({distance, kind});
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  Kinds ordered;
+  for (const auto& [distance, kind] : near) ordered.push_back(kind);
+  return ordered;
+}
+
+// The best of the kinds so far, and what was tried.
+struct Contest {
+  Result best;
+  const MethodImplementation* winner;
+  bool saw_all = true;     // did the winner see all points?
+  double least_score = 0;  // simple mirrors are free forms too: what explains more is as certain
+  Values scores = {};
+  std::string tried = {};
+
+  void take(const MethodImplementation& kind, Result result, bool wins, bool of_all) {
+    scores["score_" + kind.name] = result.score;
+    tried += ", " + kind.name + " " + text(explained(result));
+    if (!wins) return;
+    least_score = std::max(least_score, best.score);
+    best = std::move(result);
+    winner = &kind;
+    saw_all = of_all;
+  }
+};
+
+// Beside a plane that maps the shape well a free form meets hardly each point: only exact mirrors
+// of other kinds count. Elsewhere it comes first, as it says which of them may fit.
+void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const Context& context) {
+  double done = 0;
+  std::optional<ThinnedCloud> thinned;
+  const auto thinner = [&]() -> const Cloud& {
+    if (!thinned) thinned.emplace(cloud, context.stage(done, done));
+    return thinned->cloud();
+  };
+  const MethodImplementation& bending = implementation("perpendicular");
+  const bool bends_all = cloud.points.size() <= bent_size;
+  Kinds kinds = simple_kinds(cloud.points.size());
+  std::optional<Result> free_form;
+  if (!content && cloud.points.size() >= bending.minimum_points) {
+    free_form = run_with_defaults(bending, bends_all ? cloud : thinner(), context.stage(0, 0.4));
+    done = 0.4;
+  }
+  const bool leading = free_form && leads(*free_form, contest.best);
+  if (leading) kinds = near_kinds(kinds, *free_form->mirror, cloud.diagonal);
+  const bool all = cloud.points.size() <= (leading ? bent_size : thinned_size);
+  for (const MethodImplementation* kind : kinds) {
+    if (is_exact(contest.best)) break;
+    if (leading && !is_exact(*free_form) && !explains_more(*free_form, contest.best)) break;
+    Result result =
+        run_with_defaults(*kind, all ? cloud : thinner(), context.stage(done, done + 0.2));
+    done += 0.2;
+    const bool wins = is_exact(result) ? result.score > contest.best.score
+                                       : !content && explains_more(result, contest.best);
+    contest.take(*kind, std::move(result), wins, all);
+  }
+  if (free_form && !is_exact(contest.best)) {
+    const bool wins = is_exact(*free_form) ? free_form->score > contest.best.score
+                                           : explains_more(*free_form, contest.best);
+    contest.take(bending, std::move(*free_form), wins, bends_all);
+  }
+  if (!contest.saw_all)
+    contest.best = run_with_defaults(*contest.winner, cloud, context.stage(done, 1));
+  if (contest.best.mirror) contest.best.score = std::max(contest.best.score, contest.least_score);
 }
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const MethodImplementation& plane = implementation("plane");
-  Result best = run_with_defaults(plane, cloud, context.stage(0, 0.2));
-  Values scores{{"score_plane", best.score}};
-  std::string reason;
-  const bool content = best.score >= enough;
-  const std::string contented = "plane scores " + text(best.score) + ": at least " + text(enough) +
-                                ", which leaves freer mirrors nothing to explain";
-  if (is_exact(best)) {
+  Contest contest{run_with_defaults(plane, cloud, context.stage(0, 0.2)), &plane};
+  contest.scores["score_plane"] = contest.best.score;
+  contest.tried = "plane " + text(explained(contest.best));
+  const bool content = contest.best.score >= enough;
+  const std::string contented = "plane scores " + text(contest.best.score) + ": at least " +
+                                text(enough) + ", which leaves freer mirrors nothing to explain";
+  std::string reason = contented;
+  if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
-  } else if (content && !may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {
-    reason = contented;
-  } else {
-    const ThinnedCloud thinned(cloud, context.stage(0.2, 0.2));
-    const MethodImplementation* winner = &plane;
-    std::string others = "plane " + text(explained(best));
-    double done = 0.2, least_score = 0;
-    // Beside a plane that maps the shape well a free form meets hardly each point. Elsewhere it
-    // comes first: it says which of the others may fit.
-    std::optional<Result> free_form;
-    const MethodImplementation& bending = implementation("perpendicular");
-    const bool bends_all = cloud.points.size() <= bent_size;
-    if (!content && cloud.points.size() >= bending.minimum_points) {
-      free_form =
-          run_with_defaults(bending, bends_all ? cloud : thinned.cloud(), context.stage(done, 0.5));
-      done = 0.5;
-    }
-    for (const MethodImplementation& freer : implementations()) {
-      if (!freer.automatic || freer.name == plane.name) continue;
-      if (cloud.points.size() < freer.minimum_points) continue;
-      if (is_exact(best)) break;
-      const bool is_free_form = freer.name == bending.name;
-      if (is_free_form && !free_form) continue;
-      if (!is_free_form && free_form && is_ruled_out(freer.name, *free_form, best, cloud)) continue;
-      Result result = is_free_form ? std::move(*free_form)
-                                   : run_with_defaults(freer, thinned.cloud(),
-                                                       context.stage(done, done + 0.15));
-      if (!is_free_form) done += 0.15;
-      scores["score_" + freer.name] = result.score;
-      others += ", " + freer.name + " " + text(explained(result));
-      if (!(is_exact(result) ? result.score > best.score : !content && explains_more(result, best)))
-        continue;
-      // Simple mirrors are free forms too: one that explains more is no less certain.
-      least_score = std::max(least_score, best.score);
-      best = std::move(result);
-      winner = &freer;
-    }
-    const bool saw_all = winner == &plane || (winner == &bending && bends_all);
-    if (!saw_all && thinned.is_thinner())
-      best = run_with_defaults(*winner, cloud, context.stage(done, 1));
-    if (best.mirror) best.score = std::max(best.score, least_score);
-    reason = content && winner == &plane
-                 ? contented
-                 : winner->name + " is the simplest of those that explain most: " + others;
+  } else if (!content || may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {
+    try_freer_kinds(cloud, content, contest, context.stage(0.2, 1));
+    if (!content || contest.winner != &plane)
+      reason =
+          contest.winner->name + " is the simplest of those that explain most: " + contest.tried;
   }
-  scores["reason"] = reason;
-  best.statistics.merge(scores);
-  best.parameters["minimum_score"] = values.real("minimum_score");
-  return best;
+  contest.scores["reason"] = reason;
+  contest.best.statistics.merge(contest.scores);
+  contest.best.parameters["minimum_score"] = values.real("minimum_score");
+  return contest.best;
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ MethodImplementation separation_method();
 MethodImplementation separation_normals_method();
 MethodImplementation normals_only_method();
 MethodImplementation sphere_thesis_method();
+MethodImplementation plane_icp_method();
+MethodImplementation plane_svd_method();
 
 /// In the order of methods().
 const std::vector<MethodImplementation>& implementations();

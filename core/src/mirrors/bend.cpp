@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
+#include "cloud/cloud.h"
 
 namespace symsurf {
 
@@ -237,6 +238,8 @@ std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object) {
 class Workplace {
  public:
   Workplace(const Mirror& mirror, PointsView points) {
+    require_extent(points, "points");
+    require_extent(mirror.footprint(), "points of the footprint");
     const PointsView object = mirror.footprint().empty() ? points : mirror.footprint();
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (Index i = 0; i < object.size(); ++i) {

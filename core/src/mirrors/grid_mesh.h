@@ -11,11 +11,13 @@ struct GridCells {
   int columns, rows;
 };
 
-/// About square, `resolution` of them along the longer side.
+/// About square, `resolution` of them along the longer side; one where that is no length.
 inline GridCells grid_cells(double width, double height, int resolution) {
   const double cell = std::max(width, height) / resolution;
   const auto along = [&](double length) {
-    return cell > 0 ? std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9))) : 1;
+    return cell > 0 && std::isfinite(cell)
+               ? std::max(1, static_cast<int>(std::ceil(length / cell - 1e-9)))
+               : 1;
   };
   return {along(width), along(height)};
 }

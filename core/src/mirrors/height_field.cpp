@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "base/semidefinite_solve.h"
 #include "base/symmetric_eigen.h"
 #include "mirrors/grid_mesh.h"
@@ -22,9 +23,10 @@ namespace symsurf {
 class HeightInterpolant {
  public:
   // Rows (u, v, height), at least one. Nodes at the same position: the first counts.
-  explicit HeightInterpolant(const Points& nodes);
+  HeightInterpolant(const Points& nodes, const Context& context);
 
-  double operator()(const Eigen::Vector2d& at) const;
+  /// The height there, and its gradient where asked for.
+  double operator()(const Eigen::Vector2d& at, Eigen::Vector2d* gradient = nullptr) const;
 
  private:
   // height + slope . d + d' curvature d / 2, continued by its tangent beyond `reach`.
@@ -34,7 +36,7 @@ class HeightInterpolant {
     Eigen::Vector3d curvature = Eigen::Vector3d::Zero();  // uu, uv, vv
     double reach = 0;
 
-    double operator()(const Eigen::Vector2d& d) const;
+    double operator()(const Eigen::Vector2d& d, Eigen::Vector2d* gradient) const;
   };
 
   Quadratic fitted(Index node, const std::vector<Neighbour>& around) const;
@@ -57,17 +59,18 @@ Points flattened(const Points& nodes) {
 }
 
 // Of nodes over each other, to rounding, the first.
-Points distinct_nodes(const Points& nodes) {
+Points distinct_nodes(const Points& nodes, const Context& context) {
   constexpr double rounding = 1e-9;  // of their extent, which map coordinates may leave
   const Points flat = flattened(nodes);
   const PointTree tree(flat);
   const double near = rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
   std::vector<Index> kept;
-  for (Index i = 0; i < flat.rows(); ++i) {
-    bool first = true;
-    tree.within(flat.row(i), near, [&](Index other, double) { first = first && other >= i; });
-    if (first) kept.push_back(i);
-  }
+  std::vector<char> covered(flat.rows(), 0);  // each cluster is looked through by its first only
+  interruptible_for(context, flat.rows(), [&](Index i) {
+    if (covered[i]) return;
+    tree.within(flat.row(i), near, [&](Index other, double) { covered[other] = 1; });
+    kept.push_back(i);
+  });
   return nodes(kept, Eigen::indexing::all);
 }
 
@@ -75,23 +78,33 @@ constexpr double footprint_margin = 1.5;  // cells around the object's points
 
 }  // namespace
 
-double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d) const {
+double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d,
+                                                Eigen::Vector2d* gradient) const {
   const double length = d.norm();
   const double inside = length > reach ? reach / length : 1;
   // Along the ray to d: a parabola up to the reach, its tangent from there on.
   const double rise = slope.dot(d);
   const double bend = curvature[0] * d.x() * d.x() + 2 * curvature[1] * d.x() * d.y() +
                       curvature[2] * d.y() * d.y();
+  if (gradient) {
+    const Eigen::Vector2d bent(curvature[0] * d.x() + curvature[1] * d.y(),
+                               curvature[1] * d.x() + curvature[2] * d.y());
+    *gradient = slope + 2 * (inside - inside * inside / 2) * bent;
+    if (inside < 1) *gradient -= bend * (inside - inside * inside) / (length * length) * d;
+  }
   return height + rise + bend * (inside - inside * inside / 2);
 }
 
-HeightInterpolant::HeightInterpolant(const Points& nodes)
-    : nodes_(distinct_nodes(nodes)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
+HeightInterpolant::HeightInterpolant(const Points& nodes, const Context& context)
+    : nodes_(distinct_nodes(nodes, context)), tree_(flattened(nodes_)), quadratics_(nodes_.rows()) {
   std::vector<Neighbour> around;
-  for (const std::int32_t i : tree_.order()) {
+  const auto fit = [&](Index k) {
+    const Index i = tree_.order()[k];
     tree_.nearest({nodes_(i, 0), nodes_(i, 1), 0}, fitted_nodes + 1, around);
     quadratics_[i] = fitted(i, around);
-  }
+  };
+  constexpr Index stretch = 1024;  // fits, of some microseconds
+  interruptible_for(context, nodes_.rows(), fit, stretch);
 }
 
 HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
@@ -125,31 +138,56 @@ HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
   return quadratic;
 }
 
-double HeightInterpolant::operator()(const Eigen::Vector2d& at) const {
+double HeightInterpolant::operator()(const Eigen::Vector2d& at, Eigen::Vector2d* gradient) const {
   std::vector<Neighbour> near;
   near.reserve(blended_nodes + 2);
   tree_.nearest({at.x(), at.y(), 0}, blended_nodes + 1, near);
-  if (near.empty()) return std::numeric_limits<double>::quiet_NaN();  // at infinity
+  const auto from = [&](const Neighbour& n) {
+    return Eigen::Vector2d(at.x() - nodes_(n.index, 0), at.y() - nodes_(n.index, 1));
+  };
+  if (near.empty()) {  // at infinity
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (gradient) gradient->setConstant(none);
+    return none;
+  }
   const double nearest = std::sqrt(near.front().squared_distance);
   double radius = std::sqrt(near.back().squared_distance);
-  if (static_cast<Index>(near.size()) <= blended_nodes) radius *= 2;
-  if (nearest == 0) return nodes_(near.front().index, 2);
-  if (!(radius > nearest)) radius = 2 * nearest;
+  Eigen::Vector2d radius_slope = from(near.back()) / radius;
+  if (static_cast<Index>(near.size()) <= blended_nodes) {
+    radius *= 2;
+    radius_slope *= 2;
+  }
+  if (nearest == 0) {
+    if (gradient) *gradient = quadratics_[near.front().index].slope;
+    return nodes_(near.front().index, 2);
+  }
+  if (!(radius > nearest)) {
+    radius = 2 * nearest;
+    radius_slope = 2 / nearest * from(near.front());
+  }
 
   double sum = 0, weights = 0;
+  Eigen::Vector2d sum_slope = Eigen::Vector2d::Zero(), weights_slope = Eigen::Vector2d::Zero();
   for (const Neighbour& n : near) {
     const double d = std::sqrt(n.squared_distance);
     if (d >= radius) continue;
     const double inverse = (radius - d) / d * nearest;  // times the nearest: no overflow
     const double weight = inverse * inverse;
-    const Eigen::Vector2d offset(at.x() - nodes_(n.index, 0), at.y() - nodes_(n.index, 1));
-    sum += weight * quadratics_[n.index](offset);
+    Eigen::Vector2d slope;
+    const double height = quadratics_[n.index](from(n), gradient ? &slope : nullptr);
+    sum += weight * height;
     weights += weight;
+    if (!gradient) continue;
+    const Eigen::Vector2d weight_slope =
+        2 * inverse * nearest / d * (radius_slope - radius / (d * d) * from(n));
+    sum_slope += weight_slope * height + weight * slope;
+    weights_slope += weight_slope;
   }
+  if (gradient) *gradient = (sum_slope - sum / weights * weights_slope) / weights;
   return sum / weights;
 }
 
-HeightField::HeightField(const Vector3& direction, Points nodes) {
+HeightField::HeightField(const Vector3& direction, Points nodes, const Context& context) {
   const double length = length_of(direction);
   if (!(length > 0) || !std::isfinite(length))
     throw InvalidInput("a height field needs a direction of finite length above 0; given " +
@@ -169,12 +207,18 @@ HeightField::HeightField(const Vector3& direction, Points nodes) {
     throw InvalidInput("a height field needs nodes nearer to each other than " +
                        to_string(Value(std::sqrt(std::numeric_limits<double>::max()))));
   nodes_ = std::make_shared<const Points>(std::move(nodes));
-  heights_ = std::make_shared<const HeightInterpolant>(framed);
+  heights_ = std::make_shared<const HeightInterpolant>(framed, context);
 }
 
 double HeightField::signed_distance(const Vector3& x) const {
   const Vector3 offset = x - origin_;
   return direction_.dot(offset) - (*heights_)(across_.transpose() * offset);
+}
+
+Vector3 HeightField::normal(const Vector3& x) const {
+  Eigen::Vector2d slope;
+  (*heights_)(across_.transpose() * (x - origin_), &slope);
+  return (direction_ - across_ * slope).stableNormalized();
 }
 
 Values HeightField::numbers() const {

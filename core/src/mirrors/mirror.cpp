@@ -16,6 +16,9 @@ namespace {
 // A foot of a free-form mirror takes some ten microseconds.
 constexpr Index grain = 1024;
 
+// Cells along the longer side of a mesh, which holds their square: some gigabytes.
+constexpr int finest = 4096;
+
 template <typename Function>
 Points each(PointsView points, const Context& context, const Function& function) {
   Points out(points.size(), 3);
@@ -72,10 +75,13 @@ Mesh Mirror::mesh(PointsView object, int resolution) const {
         "there are no points to lay the mesh over: a mirror made by hand has no "
         "footprint of its own, give the points of the object");
   require_finite(object, "point");
-  if (resolution < 1)
-    throw InvalidParameter("resolution is " + std::to_string(resolution) +
-                           "; allowed is 1 and above");
-  return mesh_over(object, resolution);
+  require_extent(object, "points");
+  if (resolution < 1 || resolution > finest)
+    throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is 1 to " +
+                           std::to_string(finest));
+  Mesh mesh = mesh_over(object, resolution);
+  require_finite(mesh.vertices, "vertex of the mirror's mesh");
+  return mesh;
 }
 
 }  // namespace symsurf

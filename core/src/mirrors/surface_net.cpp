@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "base/symmetric_eigen.h"
+#include "cloud/cloud.h"
 #include "cloud/surface_spacing.h"
 #include "spatial/point_tree.h"
 
@@ -18,32 +19,39 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-// A grid along the principal axes of the points.
+// A grid along the principal axes of the points, and the points in it: there, where rounding is
+// that of the grid and not that of its distance from the coordinates' origin, cells have different
+// middles wherever the grid lies.
 struct Grid {
   Vector3 origin;
   Matrix3 axes;
   double cell = 0;
+  Points points;
 
   Vector3 corner(const Cell& c) const { return origin + axes * (cell * Vector3(c[0], c[1], c[2])); }
-  Vector3 middle(const Cell& c) const { return corner(c) + axes * Vector3::Constant(cell / 2); }
-  Cell cell_of(const Vector3& x) const {
-    const Vector3 at = axes.transpose() * (x - origin) / cell;
-    return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
-            static_cast<int>(std::floor(at.z()))};
+  Vector3 middle(const Cell& c) const { return cell * Vector3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5); }
+  Cell cell_of(Index i) const {
+    const auto at = [&](int axis) { return static_cast<int>(std::floor(points(i, axis) / cell)); };
+    return {at(0), at(1), at(2)};
   }
 };
 
 Grid grid_along(const Points& points, int resolution) {
   Grid grid;
-  const Eigen::RowVector3d centre = points.colwise().mean();
+  // From the first: the sum of far coordinates may be no double.
+  const Eigen::RowVector3d first = points.row(0);
+  const Eigen::RowVector3d centre = first + (points.rowwise() - first).colwise().mean();
   const Points centred = points.rowwise() - centre;
   grid.axes = eigen_of_scatter(centred).vectors;
-  const Points along = centred * grid.axes;
-  const Vector3 low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
+  grid.points = centred * grid.axes;
+  const Vector3 low = grid.points.colwise().minCoeff(), high = grid.points.colwise().maxCoeff();
   const double longest = (high - low).maxCoeff();
-  grid.cell = longest > 0 ? longest / resolution : 1;
+  grid.cell = longest / resolution;
+  if (!(grid.cell > 0)) grid.cell = 1;
   // Half a cell off the extremes, so that flat pieces do not fall between two layers of cells.
-  grid.origin = centre.transpose() + grid.axes * (low - Vector3::Constant(grid.cell / 2));
+  const Vector3 start = low - Vector3::Constant(grid.cell / 2);
+  grid.origin = centre.transpose() + grid.axes * start;
+  grid.points.rowwise() -= start.transpose();
   return grid;
 }
 
@@ -57,10 +65,11 @@ Cell moved(Cell c, int axis, int by) {
 Mesh surface_net(const Points& on_surface, int resolution,
                  const std::function<double(const Vector3&)>& value,
                  const std::function<Vector3(const Vector3&)>& foot) {
+  require_extent(on_surface, "feet on the mirror");
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
   for (Index i = 0; i < on_surface.rows(); ++i) {
-    const Cell c = grid.cell_of(on_surface.row(i));
+    const Cell c = grid.cell_of(i);
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) vertex_of[{c[0] + x, c[1] + y, c[2] + z}] = -1;
@@ -85,8 +94,8 @@ Mesh surface_net(const Points& on_surface, int resolution,
   // Between points spread over a surface there are no gaps as wide; both points of an exact pair
   // stand at one position.
   constexpr double gap = 1.4;  // spacings
-  const PointTree tree(on_surface);
-  const double reach = std::max(grid.cell, gap * surface_spacing(on_surface, tree, 2));
+  const PointTree tree(grid.points);
+  const double reach = std::max(grid.cell, gap * surface_spacing(grid.points, tree, 2));
   std::vector<Cell> open;
   for (const auto& entry : vertex_of) open.push_back(entry.first);
   while (!open.empty()) {

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "operations/counterparts.h"
 #include "operations/operation_registry.h"
 #include "operations/sides.h"
@@ -18,26 +20,29 @@ void report_length(Values& statistics, const std::string& name, double length, d
 }
 
 void report_distances(Values& statistics, const Eigen::VectorXd& distance,
-                      const Eigen::VectorXd& signed_distance, double diagonal) {
+                      const Eigen::VectorXd& signed_distance, double diagonal,
+                      const Context& context) {
   std::vector<double> lengths;
   double sum = 0, squares = 0, signed_sum = 0, signed_squares = 0;
-  for (Index i = 0; i < distance.size(); ++i) {
-    if (!std::isfinite(distance[i])) continue;
+  interruptible_for(context, distance.size(), [&](Index i) {
+    if (!std::isfinite(distance[i])) return;
     lengths.push_back(distance[i]);
     sum += distance[i];
     squares += distance[i] * distance[i];
     signed_sum += signed_distance[i];
     signed_squares += signed_distance[i] * signed_distance[i];
-  }
+  });
   if (lengths.empty()) return;
   const auto count = static_cast<double>(lengths.size());
   const double mean = signed_sum / count;
   report_length(statistics, "mean", sum / count, diagonal);
   report_length(statistics, "rms", std::sqrt(squares / count), diagonal);
-  report_length(statistics, "median", quantile(lengths, 0.5), diagonal);
-  report_length(statistics, "p75", quantile(lengths, 0.75), diagonal);
-  report_length(statistics, "p95", quantile(lengths, 0.95), diagonal);
-  report_length(statistics, "p99", quantile(lengths, 0.99), diagonal);
+  const std::pair<const char*, double> quantiles[]{
+      {"median", 0.5}, {"p75", 0.75}, {"p95", 0.95}, {"p99", 0.99}};
+  for (const auto& [name, share] : quantiles) {
+    context.check();
+    report_length(statistics, name, quantile(lengths, share), diagonal);
+  }
   report_length(statistics, "maximum", *std::max_element(lengths.begin(), lengths.end()), diagonal);
   report_length(statistics, "signed_mean", mean, diagonal);
   report_length(statistics, "signed_deviation",
@@ -66,7 +71,7 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8));
   Points vector(count, 3);
   Eigen::VectorXd distance(count), outward(count), lateral(count), matched(count);
-  for (Index i = 0; i < count; ++i) {
+  interruptible_for(context, count, [&](Index i) {
     const Counterpart& counterpart = counterparts[i];
     const Vector3 x = points[i];
     const Vector3 to_place = (counterpart.matched ? counterpart.place : Counterpart::nowhere) - x;
@@ -76,12 +81,12 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
     outward[i] = to_place.dot(counterparts.normals().row(i).transpose());
     lateral[i] = to_place.dot(from_mirror.stableNormalized());
     matched[i] = counterpart.matched ? 1 : 0;
-  }
+  });
   Values& statistics = result.statistics;
   statistics["matched_share"] =
       static_cast<double>(counterparts.matched()) / static_cast<double>(count);
   statistics["diagonal"] = diagonal;
-  report_distances(statistics, distance, outward, diagonal);
+  report_distances(statistics, distance, outward, diagonal, context);
   if (!input.faces.empty())
     report_sides(statistics, input, mirror, counterparts.is_watertight(), context.stage(0.8, 1));
   result.arrays = {{"vector", vector},

@@ -20,12 +20,14 @@
 namespace symsurf {
 
 class MirrorLayers;
+class MirrorSides;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
   double share = 0;         ///< mean support of the points that the mirror moves, at most 1
   double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
+  double evidence = 0;      ///< of a mirror of any shape, that it is none of chance's, in nats
 };
 
 /// What a map does with one of the points that the score is measured at.
@@ -114,9 +116,10 @@ class MirrorScore {
   // image(x) in input units; image_ball(x), of the cloud's image around x, in the principal frame.
   template <typename Image, typename ImageBall>
   std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,
-                                   std::size_t stride, MirrorLayers* layers) const;
+                                   std::size_t stride, MirrorLayers* layers,
+                                   MirrorSides* sides) const;
   MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
-                     const MirrorLayers* layers) const;
+                     const MirrorLayers* layers, const MirrorSides* sides) const;
   void choose_radius();
   double measured_noise() const;
   // The thinned points, or their images.
@@ -132,6 +135,8 @@ class MirrorScore {
   static PointSet thinned(const Surfels& fine, Cells cells);
   PointSet mirrored(const Mirror& mirror) const;
   Support supported(const Sample& sample, const Ball& image) const;
+  void add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
+                 MirrorSides& sides) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
@@ -145,5 +150,12 @@ class MirrorScore {
 
 /// The score: what is left of a fit after what mirrors of its kind fit by chance.
 double score_of(const MirrorFit& fit, std::string_view kind);
+
+/// The same of a result without the evidence of its sides, which says how sure a mirror is and not
+/// how well it fits: what mirrors are ranked by. 0: chance fits as well.
+double beyond_chance(const Result& result);
+
+/// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
+void cap_candidates(Result& result);
 
 }  // namespace symsurf

@@ -35,7 +35,7 @@ PointTree::PointTree(PointsView points, const Context& context) {
       box.extend(points[i]);
       ++finite;
     }
-  if (finite > 0) origin_ = (box.min() + box.max()) / 2;
+  if (finite > 0) origin_ = box.min() / 2 + box.max() / 2;  // their sum may be no double
   sort(points, finite > 0 ? box.sizes().maxCoeff() : 0, context);
   context.report(0.5);
 

@@ -15,7 +15,9 @@ namespace symsurf {
 namespace {
 
 const std::vector<AnalysisImplementation>& analysis_implementations() {
-  static const std::vector<AnalysisImplementation> all{symmetries_analysis()};
+  static const std::vector<AnalysisImplementation> all{
+      symmetries_analysis(), partial_symmetries_analysis(), symmetry_embedding_analysis(),
+      intrinsic_symmetry_analysis()};
   return all;
 }
 
@@ -86,8 +88,9 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   cloud.seed = options.seed;
   cloud.partition = Partition(points.size());
   NonfiniteRemoval removal(analysis.minimum_points, options.refuse_nonfinite);
-  const bool removed = removal.apply(cloud, context);
-  validate(cloud, needed_points(cloud, analysis.minimum_points), context);
+  const Context before = context.stage(0, 0);  // no progress worth telling
+  const bool removed = removal.apply(cloud, before);
+  validate(cloud, needed_points(cloud, analysis.minimum_points), before);
 
   AnalysisResult result;
   result.analysis = analysis.name;

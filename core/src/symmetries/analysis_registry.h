@@ -18,5 +18,8 @@ struct AnalysisImplementation : Analysis {
 };
 
 AnalysisImplementation symmetries_analysis();
+AnalysisImplementation symmetry_embedding_analysis();
+AnalysisImplementation intrinsic_symmetry_analysis();
+AnalysisImplementation partial_symmetries_analysis();
 
 }  // namespace symsurf

@@ -17,8 +17,9 @@ def add_kinds(
     parser: argparse.ArgumentParser,
     kinds: Mapping[str, Description],
     add_more: Callable[[argparse.ArgumentParser, Any], None],
-) -> None:
-    """A sub-command for each kind, with one option for each of its parameters."""
+) -> Any:
+    """A sub-command for each kind, with one option for each of its parameters; gives what argparse
+    adds further ones to."""
     commands = parser.add_subparsers(required=True, metavar="KIND")
     for name, kind in kinds.items():
         sub = commands.add_parser(
@@ -26,6 +27,7 @@ def add_kinds(
         )
         add_more(sub, kind)
         add_parameters(sub, kind)
+    return commands
 
 
 def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:

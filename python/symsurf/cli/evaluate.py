@@ -7,29 +7,48 @@ import json
 from pathlib import Path
 
 from .. import metrics
-from .._core import InvalidInput, Sphere, SurfaceMirror
+from .._core import InvalidInput, InvalidParameter, Sphere, SurfaceMirror
 from ..plain import plain
 from ..reading import read
 from ..saved_text import read_text
 from ..truth import read_truth, truth_path
+from . import evaluate_benchmark
 from .each_file import for_each_file
 
-SUMMARY = "Compare results (TXT) with the truth of the sample they were found in"
+SUMMARY = "Compare results with the truth of the sample, or the benchmark, they were found in"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="a result's TXT")
     parser.add_argument(
-        "--sample",
+        "results",
+        nargs="+",
         type=Path,
-        required=True,
-        metavar="FILE",
-        help="the points; their truth lies beside them",
+        metavar="RESULT",
+        help="a result's TXT; with --benchmark a folder of them",
     )
-    parser.add_argument("--json", action="store_true", help="print a JSON object a result")
+    truth = parser.add_mutually_exclusive_group(required=True)
+    truth.add_argument(
+        "--sample", type=Path, metavar="FILE", help="the points; their truth lies beside them"
+    )
+    truth.add_argument(
+        "--benchmark", type=Path, metavar="DIR", help="what generate benchmark has written"
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print a JSON object a result, or a case"
+    )
+    parser.add_argument(
+        "--table", type=Path, metavar="FILE", help="with --benchmark: write a CSV with a row a case"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.benchmark is not None:
+        return evaluate_benchmark.run(
+            arguments.results, arguments.benchmark, arguments.json, arguments.table
+        )
+    if arguments.table is not None:
+        raise InvalidParameter(f"table is {str(arguments.table)!r}; it needs --benchmark")
+
     def do(path: Path) -> None:
         figures = evaluated(path, arguments.sample)
         if arguments.json:

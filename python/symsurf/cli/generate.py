@@ -11,13 +11,18 @@ from ..reading import read
 from ..saving.points_format import require_points_suffix
 from ..synthetic import Sample
 from ..truth import Truth, write_sample
+from . import generate_benchmark
 from .described_options import add_kinds, given_values
 
 SUMMARY = "Make points with a known mirror, and a file with the truth beside them"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_kinds(parser, _core.generators(), _add_files)
+    commands = add_kinds(parser, _core.generators(), _add_files)
+    summary = generate_benchmark.SUMMARY
+    sub = commands.add_parser("benchmark", help=summary, description=summary, allow_abbrev=False)
+    generate_benchmark.add_arguments(sub)
+    sub.set_defaults(kind=None)
 
 
 def _add_files(parser: argparse.ArgumentParser, kind: Generator) -> None:
@@ -27,6 +32,8 @@ def _add_files(parser: argparse.ArgumentParser, kind: Generator) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.kind is None:
+        return generate_benchmark.run(arguments)
     require_points_suffix(arguments.output)
     given = getattr(arguments, "points", None)
     points = None if given is None else read(given).points

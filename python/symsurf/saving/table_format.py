@@ -24,7 +24,7 @@ def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 
 def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
     """A line of names, then a line a point, every digit a double holds; booleans as 0 and 1, rows of
-    three as columns that end in _x, _y and _z."""
+    three as columns that end in _x, _y and _z, others numbered from 0."""
     columns = columns_of(arrays)
     file = StringIO()
     file.write(",".join(columns) + "\n")
@@ -37,12 +37,13 @@ def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 
 
 def columns_of(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Arrays (n,) and (n, 3) as columns (n,)."""
+    """Arrays (n,) and (n, k) as columns (n,): of three those of x, y and z, else numbered from 0."""
     columns: dict[str, NDArray[Any]] = {}
     for name, values in arrays.items():
         if values.ndim == 1:
             columns[name] = values
         else:
-            named = (f"{name}_{axis}" for axis in "xyz")
+            ends = "xyz" if values.shape[1] == 3 else range(values.shape[1])
+            named = (f"{name}_{end}" for end in ends)
             columns |= dict(zip(named, values.T, strict=True))
     return columns

@@ -7,7 +7,14 @@
 from . import functions
 from .elements import Axis, Transformation
 from .functions import *  # one for each in analyses()
-from .results import AnalysisResult, Symmetries
+from .results import AnalysisResult, IntrinsicSymmetry, Symmetries, SymmetryEmbedding
 
-__all__ = ["AnalysisResult", "Axis", "Symmetries", "Transformation"]
+__all__ = [
+    "AnalysisResult",
+    "Axis",
+    "IntrinsicSymmetry",
+    "Symmetries",
+    "SymmetryEmbedding",
+    "Transformation",
+]
 __all__ += functions.__all__

@@ -228,7 +228,82 @@ class Symmetries(AnalysisResult):
         return entry
 
 
-RESULTS: dict[str, type[AnalysisResult]] = {kind.analysis: kind for kind in (Symmetries,)}
+@dataclass(frozen=True, eq=False, repr=False)
+class SymmetryEmbedding(AnalysisResult):
+    """The Symmetry Factored Embedding of a point set, its orbits and its stationary set.
+
+    ``transformations`` has the motions and reflections that it rests on, the identity first;
+    ``planes`` or ``axes`` the stationary set, where that is a plane or a line.
+    """
+
+    analysis = "symmetry_embedding"
+
+    @property
+    def orbit(self) -> NDArray[np.int64]:
+        """(n,): of each point the number of its orbit, from 0 on."""
+        return self.arrays["orbit"]
+
+    @property
+    def embedding(self) -> NDArray[np.float64]:
+        """(n, 16): the first coordinates, zeros where there are fewer."""
+        return self.arrays["embedding"]
+
+    @property
+    def stationary_set(self) -> str:
+        """What all symmetries keep in its place: "point", "line", "plane", or "none"."""
+        return self.statistics["stationary_set"]
+
+    def __repr__(self) -> str:
+        return (
+            f"SymmetryEmbedding({self.statistics['orbits']} orbits, "
+            f"{len(self.transformations)} symmetries, stationary {self.stationary_set})"
+        )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IntrinsicSymmetry(AnalysisResult):
+    """Left-right correspondences of a posed body."""
+
+    analysis = "intrinsic_symmetry"
+
+    @property
+    def image(self) -> NDArray[np.int64]:
+        """(n,): of each point the one on the other side, -1 for none."""
+        return self.arrays["image"]
+
+    @property
+    def confidence(self) -> NDArray[np.float64]:
+        """(n,): 0 to 1, halved where the image of the image lies 2 % of the diagonal away."""
+        return self.arrays["confidence"]
+
+    @property
+    def verdict(self) -> str:
+        """ "found" or "none"; ``statistics["reason"]`` says why."""
+        return self.statistics["verdict"]
+
+    def __repr__(self) -> str:
+        return (
+            f"IntrinsicSymmetry({self.shape!r}, {self.verdict}, "
+            f"confidence {self.statistics['confidence']:.3f})"
+        )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PartialSymmetries(AnalysisResult):
+    """Parts of a shape that a reflection, motion or similarity maps onto other parts.
+
+    ``transformations`` has the maps, the largest well-fitting patch first, with the points of both
+    patches. ``arrays["transformation"]`` is the first of them with a point in a patch, -1 where there
+    is none, ``arrays["side"]`` 0 in the patch that is mapped and 1 in that it falls on.
+    """
+
+    analysis = "partial_symmetries"
+
+
+RESULTS: dict[str, type[AnalysisResult]] = {
+    kind.analysis: kind
+    for kind in (Symmetries, PartialSymmetries, SymmetryEmbedding, IntrinsicSymmetry)
+}
 
 
 def _elements_record(result: AnalysisResult) -> dict[str, Any]:

@@ -30,6 +30,14 @@ def symsurf_auto(points: Points) -> Plane | None:
     return mirror if isinstance(mirror, Plane) else None
 
 
+def symsurf_icp(points: Points) -> Plane:
+    return symsurf.detect(points, "plane_icp", threads=1).mirror
+
+
+def symsurf_svd(points: Points) -> Plane:
+    return symsurf.detect(points, "plane_svd", threads=1).mirror
+
+
 def principal_axes(points: Points) -> Plane:
     """Of the planes through the centroid across the principal axes the one with the least
     distances from the images to the points."""
@@ -95,6 +103,8 @@ def _described(
 DETECTORS: dict[str, Callable[[Points], Plane | None]] = {
     "symsurf `plane`": symsurf_plane,
     "symsurf `auto`": symsurf_auto,
+    "symsurf `plane_icp`": symsurf_icp,
+    "symsurf `plane_svd`": symsurf_svd,
     "principal axes": principal_axes,
     "pyclarcs": pyclarcs,
     "reflective ICP": reflective_icp,

@@ -12,6 +12,10 @@ namespace symsurf::perpendicular {
 
 namespace {
 
+// Farther than `beyond` from the feet of pairs a mirror is extrapolated; points closer to each
+// other than `close` are no pair for that. In diagonals, and in spacings where these are longer.
+constexpr double beyond = 0.05, close = 0.03, sparse = 3;
+
 // Where partners are exact they agree about each other, and a point as near to its own image as
 // others to theirs lies on the mirror. Elsewhere no point is its own partner, and the surface may
 // end before it reaches the middle between two.
@@ -44,6 +48,31 @@ void pair_points(Result& result, const Cloud& cloud, PointTree tree, const Searc
   drop_false_pairs(result, cloud, surface.exact);
 }
 
+// How many of the points have a foot that is far from those of all pairs: the mirror goes on there
+// as it bends elsewhere, and nothing says that it is right. Points next to the mirror, whose
+// neighbours are their images', are no evidence.
+void tell_extrapolated(Result& result, const Cloud& cloud, double spacing, const Context& context) {
+  const double near = std::max(beyond * cloud.diagonal, sparse * spacing);
+  const double next_to = std::max(close * cloud.diagonal, sparse * spacing);
+  std::vector<char> paired(cloud.points.size(), 0);
+  std::vector<Index> evidence, others;
+  for (Index row = 0; row < result.pairs.rows(); ++row) {
+    const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
+    if ((cloud.points[i] - cloud.points[j]).norm() < next_to) continue;
+    evidence.push_back(row);
+    paired[i] = paired[j] = 1;
+  }
+  for (Index i = 0; i < cloud.points.size(); ++i)
+    if (!paired[i]) others.push_back(i);
+  const Points feet =
+      finite_rows(result.mirror->project(chosen_rows(cloud.points, others), context.stage(0, 0.7)));
+  const PointTree pairs(chosen_rows(result.surface_points, evidence), context.stage(0.7, 1));
+  Index far = 0;
+  for (Index k = 0; k < feet.rows(); ++k) far += pairs.nearest(feet.row(k), near * near).index < 0;
+  result.statistics["extrapolated_share"] =
+      static_cast<double>(far) / static_cast<double>(cloud.points.size());
+}
+
 // What chance explains has no score to rank by: then the search's own order holds.
 void put_first(const std::shared_ptr<Mirror>& mirror, Result& best) {
   const auto at = std::find_if(best.candidates.begin(), best.candidates.end(),
@@ -55,6 +84,7 @@ void put_first(const std::shared_ptr<Mirror>& mirror, Result& best) {
   best.candidates.clear();
   first.candidates.insert(first.candidates.begin(), std::move(best));
   best = std::move(first);
+  cap_candidates(best);
 }
 
 }  // namespace
@@ -74,13 +104,15 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
   for (std::size_t k = 0; k < std::min(most, found.size()); ++k) mirrors.push_back(found[k].mirror);
   Values statistics = std::move(result.statistics);
   result = score.ranked(result.method, mirrors);
-  if (result.score == 0) put_first(mirrors.front(), result);
+  if (beyond_chance(result) == 0) put_first(mirrors.front(), result);
   const GrownSurface& surface =
       found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
-  statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
+  const double spacing = searched.spacing * searched.diagonal;
+  statistics["typical_miss"] = surface.typical_miss * spacing;
   result.statistics.merge(statistics);
   pair_points(result, cloud, std::move(tree), searched, surface, values.real("pair_distance"),
-              context.stage(0.4, 1));
+              context.stage(0.4, 0.9));
+  tell_extrapolated(result, cloud, spacing, context.stage(0.9, 1));
 }
 
 std::vector<Parameter> search_parameters() {
@@ -88,7 +120,7 @@ std::vector<Parameter> search_parameters() {
       Parameter::integer("sample_size", 12000, 200, 100000, "points",
                          "Points that the search works on; larger clouds are thinned to it."),
       max_candidates(10, 1000, "mirrors"),
-      pair_distance(0.02),
+      pair_distance(),
   };
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace symsurf {
 
 namespace {
@@ -71,7 +73,7 @@ class CubeMap {
   std::vector<double> sums_;
 };
 
-CubeMap histogram(const SurfacePoints& cloud) {
+CubeMap histogram(const SurfacePoints& cloud, const Context& context) {
   CubeMap map;
   const Index n = cloud.size();
   const Index anchors = std::clamp<Index>(chord_budget / n, 1, n);
@@ -79,7 +81,7 @@ CubeMap histogram(const SurfacePoints& cloud) {
   const float shortest_squared = static_cast<float>(shortest * shortest);
   using Columns = Eigen::Array<float, Eigen::Dynamic, 3>;
   const Columns x = cloud.points.cast<float>(), normal = cloud.normals.cast<float>();
-  for (Index a = 0; a < anchors; ++a) {
+  const auto add_chords_of = [&](Index a) {
     const Index i = a * n / anchors;
     const std::array<float, 3> p{x(i, 0), x(i, 1), x(i, 2)};
     const std::array<float, 3> m{normal(i, 0), normal(i, 1), normal(i, 2)};
@@ -91,15 +93,18 @@ CubeMap histogram(const SurfacePoints& cloud) {
       const float there = normal(j, 0) * d[0] + normal(j, 1) * d[1] + normal(j, 2) * d[2];
       map.add(d, std::abs(here * there) / squared);
     }
-  }
+  };
+  constexpr Index stretch = 64;  // anchors, of some thousand chords each
+  interruptible_for(context, anchors, add_chords_of, stretch);
   map.integrate();
   return map;
 }
 
 }  // namespace
 
-std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count) {
-  const CubeMap map = histogram(cloud);
+std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count,
+                                   const Context& context) {
+  const CubeMap map = histogram(cloud, context);
   std::vector<ChordPeak> peaks;
   for (const int half : half_widths) {
     std::vector<ChordPeak> found;

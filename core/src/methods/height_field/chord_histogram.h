@@ -19,7 +19,7 @@ struct ChordPeak {
 /// The directions fall into the bins of a cube map; a chord counts as it crosses the surfaces at
 /// its ends, cos x cos, since chords within a surface show no direction of mapping. Box sums at
 /// several scales are held against the ring around them.
-std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count);
+std::vector<ChordPeak> chord_peaks(const SurfacePoints& cloud, Index count, const Context& context);
 
 /// The direction about `start` on which most chords agree, found by halving a cone as long as
 /// its core keeps more than its share of the chords.

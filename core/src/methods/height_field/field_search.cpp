@@ -111,7 +111,7 @@ FieldEstimate find_height_field(const SurfacePoints& cloud, const Vector3& given
   if (given)
     peaks.push_back({given_direction.normalized(), 0});
   else
-    peaks = chord_peaks(cloud, peaks_a_scale);
+    peaks = chord_peaks(cloud, peaks_a_scale, context);
   context.report(0.2);
 
   const FieldEstimate exact = exact_partners(cloud, peaks, peak_cone, context);

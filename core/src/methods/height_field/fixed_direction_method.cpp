@@ -84,8 +84,11 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
       find_height_field(work, given, result.statistics, context.stage(0.1, 0.7));
   if (found.nodes.rows() == 0) return result;
 
-  const HeightField field(found.direction, found.nodes);
-  result.mirror = field.transformed(frame.size, frame.axes, frame.centroid);
+  // Not by transformed(): what a height field knows of its nodes takes time to make.
+  Points nodes = frame.size * (found.nodes * frame.axes.transpose());
+  nodes.rowwise() += frame.centroid.transpose();
+  result.mirror =
+      std::make_shared<HeightField>(frame.axes * found.direction, std::move(nodes), context);
   PointTree tree(cloud.points, context.stage(0.7, 0.75));
   const NearestPoints points(cloud.points, tree, context);
   MirrorScore(cloud, points, context.stage(0.75, 0.8)).fill(result);

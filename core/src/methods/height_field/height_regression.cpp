@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "base/quadratic_fit.h"
 
 namespace symsurf {
@@ -16,11 +17,13 @@ constexpr Index most_left_out = 300;  // observations that cross-validation pred
 // Partners share patches, so that neighbours err together: prediction flatters few of them.
 constexpr double tolerated_error = 1.25;  // of the least
 constexpr double curvature_ridge = 1e-4;
+constexpr Index stretch = 256;  // fits, of some ten microseconds
 
 }  // namespace
 
-HeightRegression::HeightRegression(std::vector<HeightObservation> observations)
-    : observations_(std::move(observations)), tree_(positions()) {}
+HeightRegression::HeightRegression(std::vector<HeightObservation> observations,
+                                   const Context& context)
+    : observations_(std::move(observations)), context_(context), tree_(positions()) {}
 
 Points HeightRegression::positions() const {
   Points positions(static_cast<Index>(observations_.size()), 3);
@@ -71,12 +74,13 @@ Points HeightRegression::fitted(const Points& positions, Index neighbours) const
   Points fits = positions;
   std::vector<Index> kept;
   std::vector<Neighbour> near;
-  for (Index i = 0; i < positions.rows(); ++i) {
+  const auto fit = [&](Index i) {
     const Eigen::Vector2d position(positions(i, 0), positions(i, 1));
     nearest(position, neighbours, near);
     fits(i, 2) = height(position, near, -1);
     if (std::isfinite(fits(i, 2))) kept.push_back(i);
-  }
+  };
+  interruptible_for(context_, positions.rows(), fit, stretch);
   return fits(kept, Eigen::indexing::all);
 }
 
@@ -84,10 +88,11 @@ void HeightRegression::reject_outliers(Index neighbours) {
   const Index n = static_cast<Index>(observations_.size());
   std::vector<double> residuals(n);
   std::vector<Neighbour> near;
-  for (Index i = 0; i < n; ++i) {
+  const auto predict = [&](Index i) {
     nearest(observations_[i].position, neighbours, near);
     residuals[i] = std::abs(observations_[i].height - height(observations_[i].position, near, i));
-  }
+  };
+  interruptible_for(context_, n, predict, stretch);
   for (double& r : residuals)
     if (!std::isfinite(r)) r = 0;
   const double limit = 6 * median(residuals);
@@ -104,6 +109,7 @@ Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const
   std::vector<Error> errors(offered.size());
   std::vector<Neighbour> near;
   for (Index i = 0; i < n; i += step) {
+    context_.check();
     const HeightObservation& o = observations_[i];
     if (!(o.weight > 0)) continue;
     nearest(o.position, std::min(n - 1, offered.back()), near);

@@ -19,7 +19,8 @@ struct HeightObservation {
 /// Robust local quadratic regression (loess, Cleveland 1979) of heights over scattered positions.
 class HeightRegression {
  public:
-  explicit HeightRegression(std::vector<HeightObservation> observations);
+  /// The context, which must outlive it, is asked whether to go on.
+  HeightRegression(std::vector<HeightObservation> observations, const Context& context);
 
   /// The positions (rows u, v, anything) with the heights fitted there, each from its `neighbours`
   /// nearest observations, tricube weights; without positions where all of these were rejected.
@@ -46,6 +47,7 @@ class HeightRegression {
                 Index left_out) const;
 
   std::vector<HeightObservation> observations_;
+  const Context& context_;
   PointTree tree_;
 };
 

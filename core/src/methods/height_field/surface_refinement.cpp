@@ -57,13 +57,13 @@ FieldEstimate SurfaceRefinement::voted(const Vector3& direction, double scatter)
     observations.push_back({y.head<2>(), y.z(), c.weight});
   }
   if (observations.size() < least_matches) return {};
-  const HeightRegression regression(std::move(observations));
+  const HeightRegression regression(std::move(observations), context_);
   return {direction, frame.from_frame(regression.fitted(votes_.cells(), start_neighbours))};
 }
 
 SurfaceRefinement::Matches SurfaceRefinement::matches(const FieldEstimate& estimate) const {
   const Vector3& v = estimate.direction;
-  const HeightField field(v, estimate.nodes);
+  const HeightField field(v, estimate.nodes, context_);
   const double far = reach * cloud_.spacing;
   struct Match {
     Index point, partner;
@@ -127,7 +127,7 @@ SurfaceRefinement::Matches SurfaceRefinement::matches(const FieldEstimate& estim
 
 void SurfaceRefinement::refit(FieldEstimate& estimate, Matches found) const {
   const Frame frame(estimate.direction);
-  const HeightRegression regression(std::move(found.observations));
+  const HeightRegression regression(std::move(found.observations), context_);
   estimate.nodes =
       frame.from_frame(regression.fitted(frame.to_frame(estimate.nodes), round_neighbours));
   Eigen::Vector2d step = found.turn;
@@ -151,7 +151,7 @@ FieldEstimate SurfaceRefinement::operator()(const Vector3& direction, double sca
       continue;
     }
     const Frame frame(estimate.direction);
-    HeightRegression regression(std::move(found.observations));
+    HeightRegression regression(std::move(found.observations), context_);
     regression.reject_outliers(round_neighbours);
     const Index neighbours = regression.best_neighbours(offered_neighbours);
     estimate.nodes = frame.from_frame(

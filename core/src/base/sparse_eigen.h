@@ -1,0 +1,19 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/types.h>
+
+#include <Eigen/SparseCore>
+
+#include "base/symmetric_eigen.h"
+
+namespace symsurf {
+
+/// At most `count` least eigenvalues, ascending, with their vectors of A v = lambda M v, v' M v =
+/// 1, for a semidefinite A and positive masses: implicitly restarted Lanczos steps on the inverse
+/// of A - shift M (Spectra). The shift is negative and small beside the eigenvalues that matter.
+SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double>& semidefinite,
+                                                const Eigen::VectorXd& masses, Index count,
+                                                double shift, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+
+#include <Eigen/SparseCore>
+
+namespace symsurf {
+
+/// The Laplace-Beltrami operator of a surface on functions of its points: u' stiffness v is the
+/// integral of the product of their gradients, u' diag(areas) v that of their product.
+struct Laplacian {
+  Eigen::SparseMatrix<double> stiffness;  ///< symmetric, semidefinite, rows add up to 0
+  Eigen::VectorXd areas;                  ///< of the points, square input units; 0 beside faces
+};
+
+/// By linear finite elements (Pinkall and Polthier 1993), on any faces. The edges of degenerate
+/// faces are made longer by as little as gives all of them an area, a 1e-5th of an edge (Sharp and
+/// Crane 2020, intrinsic mollification).
+Laplacian cotangent_laplacian(PointsView points, TrianglesView faces);
+
+}  // namespace symsurf

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+
+#include <vector>
+
+#include "symmetries/embedding/near_symmetries.h"
+
+namespace symsurf {
+
+/// The Symmetry Factored Embedding of a point set (Lipman et al. 2010): points that a symmetry maps
+/// onto each other have the same coordinates.
+struct FactoredEmbedding {
+  std::vector<Index> orbits;    ///< of each point the number of its orbit, by first points
+  std::vector<Index> sizes;     ///< points of each orbit
+  Eigen::VectorXd eigenvalues;  ///< of the symmetry correspondence matrix, descending
+  Eigen::MatrixXd coordinates;  ///< a row a point: eigenvalue^power times the eigenvectors there
+};
+
+struct EmbeddingOptions {
+  double localization = 0.02;  ///< sigma of the correspondence, in diameters
+  double power = 1;            ///< t of the embedding
+  double resolution = 0.02;  ///< how near points of one orbit are without exact partners, diameters
+};
+
+/// The correspondence of x and y is exp(-(S / localization)^2), where S, in diameters, is the least
+/// D(X, gX) + |g x - y| of the maps g: an upper bound of Lipman's infimum that symmetries attain.
+/// Of more than some hundreds of orbits the eigenvectors are those of a few, carried on to the
+/// others by the matrix (Nyström).
+FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
+                                     const NearSymmetries& symmetries,
+                                     const EmbeddingOptions& options, const Context& context);
+
+}  // namespace symsurf

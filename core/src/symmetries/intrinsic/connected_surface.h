@@ -1,0 +1,32 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+
+#include <vector>
+
+#include "mesh/laplacian.h"
+
+namespace symsurf {
+
+/// A connected surface of distinct points, as a mesh or a cloud gives it, with its Laplacian.
+struct ConnectedSurface {
+  Points points;
+  Laplacian laplacian;  ///< areas add up to 1, eigenvalues are in their unit
+  Triangles triangles;  ///< wound alike
+  /// The first point of the input that each vertex is, and the vertex of each point; -1: of
+  /// another part.
+  std::vector<Index> point_of, vertex_of;
+  Index parts = 0;   ///< how many the input has
+  double share = 0;  ///< of the area of all in this one
+};
+
+/// The part of the input that has the most area. Equal points are merged; without faces the points
+/// are a cloud. Throws InvalidInput where nothing has an area.
+ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context);
+
+/// Lengths of the shortest ways along edges of the Laplacian from a vertex to all (Dijkstra 1959).
+Eigen::VectorXd edge_distances(const ConnectedSurface& surface, Index from);
+
+}  // namespace symsurf

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/math.h"
+#include "symmetries/analysis_registry.h"
+#include "symmetries/intrinsic/map_search.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index samples_searched = 200;  // vertices at which maps are compared
+constexpr Index samples_refined = 1000;  // at which the best is refined
+constexpr Index functions_refined = 30;  // from which on it is, a few more at a time
+constexpr Index functions_a_step = 5;
+constexpr double most_distortion = 0.08;  // mean, in the longest distance along the surface
+constexpr double least_confidence = 0.3;  // mean
+constexpr double half_confident = 0.02;   // diagonals between a point and the image of its image
+
+// Empty: the map is a symmetry.
+std::string reason_against(const IntrinsicMap& map, double confidence) {
+  if (map.signs.empty())
+    return "too few eigenvalues stand alone, as on a ball, whose symmetries are continuous";
+  if (map.map.size() == 0) return "no signs of the eigenfunctions give a map but the identity";
+  if (!(map.orientation < 0)) return "no map that reverses the orientation keeps distances";
+  if (map.distortion > most_distortion) return "the best map changes distances too much";
+  if (confidence < least_confidence) return "the image of a point's image is not the point";
+  return "";
+}
+
+void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
+                            const Context& context, AnalysisResult& result) {
+  const Index count = values.integer("functions");
+  const ConnectedSurface surface =
+      connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
+  const SurfaceBasis basis = surface_basis(surface, count, context.stage(0.1, 0.4));
+  const SurfaceSamples samples =
+      surface_samples(surface, samples_searched, context.stage(0.4, 0.5));
+  IntrinsicMap found = search_map(surface, basis, samples, context.stage(0.5, 0.8));
+
+  const Index size = surface.points.rows();
+  std::vector<Index> images(size, -1);
+  Eigen::VectorXd confidence = Eigen::VectorXd::Zero(size);
+  if (found.map.size() > 0) {
+    const std::vector<Index> dense = farthest_rows(surface.points, samples_refined, context);
+    const SampledFunctions sampled(basis, dense, surface.laplacian.areas(dense));
+    const Index from = std::min(functions_refined, basis.count());
+    found.map =
+        sampled.refined(sampled.images(found.map), from, basis.count(), functions_a_step, context);
+    images = all_images(basis, found.map, context.stage(0.8, 1));
+    for (Index v = 0; v < size; ++v) {
+      const double back = (surface.points.row(images[images[v]]) - surface.points.row(v)).norm() /
+                          (half_confident * cloud.diagonal);
+      confidence[v] = 1 / (1 + back * back);
+    }
+  }
+  const double mean = surface.laplacian.areas.dot(confidence);
+  const std::string reason = reason_against(found, mean);
+
+  Eigen::MatrixXd image(cloud.points.size(), 1), sure(cloud.points.size(), 1);
+  for (Index i = 0; i < cloud.points.size(); ++i) {
+    const Index v = surface.vertex_of[i];
+    const bool has_image = v >= 0 && reason.empty();
+    image(i) = has_image ? static_cast<double>(surface.point_of[images[v]]) : -1;
+    sure(i) = has_image ? confidence[v] : 0;
+  }
+  result.arrays = {{"image", image}, {"confidence", sure}};
+  result.statistics = {{"verdict", std::string(reason.empty() ? "found" : "none")},
+                       {"reason", reason},
+                       {"signs", found.signs},
+                       {"orientation", found.orientation},
+                       {"distortion", found.distortion},
+                       {"moved", found.moved},
+                       {"confidence", mean},
+                       {"parts", surface.parts},
+                       {"share", surface.share}};
+}
+
+}  // namespace
+
+AnalysisImplementation intrinsic_symmetry_analysis() {
+  AnalysisImplementation analysis;
+  analysis.name = "intrinsic_symmetry";
+  analysis.title = "Intrinsic symmetry";
+  analysis.summary =
+      "Gives for each point of a posed body the one on its other side, where no mirror maps left "
+      "to right.";
+  analysis.parameters = {Parameter::integer(
+      "functions", 60, 20, 60, "",
+      "Eigenfunctions that images are compared by; more follow details, fewer noise less.")};
+  analysis.arrays = {
+      {"image", ParameterType::Integer, 1, "The point on the other side, -1 for none.", false,
+       true},
+      {"confidence", ParameterType::Real, 1,
+       "0 to 1: halved where the image of the image lies 2 % of the diagonal away."},
+  };
+  analysis.shown = "confidence";
+  analysis.run = run_intrinsic_symmetry;
+  return analysis;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,153 @@
+#include "symmetries/intrinsic/map_search.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "symmetries/intrinsic/orientation.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index most_signs = 8;    // functions all of whose signs are tried
+constexpr Index looked_at = 16;    // among the first so many
+constexpr Index fewest_signs = 3;  // with which a map is determined
+// Shares of an eigenvalue that it is away from others. A pose mixes functions whose eigenvalues are
+// near each other, yet such functions may be all that tells two limbs apart: each share is tried.
+constexpr double alone = 0.02;
+constexpr std::array<double, 3> shares_alone{alone, 0.002, 0.05};
+constexpr std::size_t most_starts = 24;  // a share
+constexpr Index refined_to = 40;         // functions
+// More functions at a time: each way finds maps that the other misses.
+constexpr std::array<Index, 2> steps{1, 2};
+constexpr double same_map = 0.3;  // of the norm of the difference of unrelated maps
+constexpr double least_reversal = 0.3;
+constexpr double least_move = 0.03;  // in longest distances; the identity moves nothing
+
+// The functions whose eigenvalues stand alone, so that a symmetry can but change their signs.
+std::vector<Index> functions_alone(const Eigen::VectorXd& values, double share) {
+  std::vector<Index> found;
+  for (Index k = 0; k + 1 < std::min(looked_at + 1, values.size()); ++k) {
+    const double below = k == 0 ? values[0] : values[k] - values[k - 1];
+    if (std::min(below, values[k + 1] - values[k]) > share * values[k]) found.push_back(k);
+    if (static_cast<Index>(found.size()) == most_signs) break;
+  }
+  return found;
+}
+
+struct Start {
+  double distance;  // mean, between mapped functions and those at the images
+  std::string signs;
+  std::vector<Index> images;
+};
+
+std::string signs_of(const std::vector<Index>& functions, std::uint32_t odd) {
+  std::string signs(functions.back() + 1, '0');
+  for (std::size_t k = 0; k < functions.size(); ++k) signs[functions[k]] = odd >> k & 1 ? '-' : '+';
+  return signs;
+}
+
+// Of all signs but the identity's, in Gray's order, so that one sign changes at a time; the best
+// first.
+std::vector<Start> promising_starts(const SurfaceBasis& basis, const SurfaceSamples& samples,
+                                    const std::vector<Index>& functions, const Context& context) {
+  std::vector<Eigen::MatrixXd> odd_less_even;
+  Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(samples.weights.size(), samples.weights.size());
+  for (const Index k : functions) {
+    // In the global point signature's weights (Rustamov 2007).
+    const Eigen::VectorXd f = basis.functions(samples.vertices, k) / std::sqrt(basis.values[k]);
+    const Index size = f.size();
+    const Eigen::MatrixXd across = f.transpose().replicate(size, 1);
+    distances += (across.colwise() - f).cwiseAbs2();
+    odd_less_even.push_back(4 * f * f.transpose());
+  }
+  std::vector<Start> starts;
+  std::uint32_t odd = 0;
+  for (std::uint32_t k = 1; k < 1u << functions.size(); ++k) {
+    context.check();
+    const int changed = std::countr_zero(k);
+    odd ^= 1u << changed;
+    distances += (odd >> changed & 1 ? 1 : -1) * odd_less_even[changed];
+    Start start{0, signs_of(functions, odd), std::vector<Index>(distances.cols())};
+    for (Index i = 0; i < distances.cols(); ++i)
+      start.distance += samples.weights[i] *
+                        std::sqrt(std::max(0.0, distances.col(i).minCoeff(&start.images[i])));
+    starts.push_back(std::move(start));
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.distance < b.distance; });
+  if (starts.size() > most_starts) starts.resize(most_starts);
+  return starts;
+}
+
+IntrinsicMap judged(FunctionalMap map, const SampledFunctions& sampled,
+                    const SurfaceSamples& samples, const Orientation& orientation) {
+  const std::vector<Index> images = sampled.images(map);
+  const Eigen::MatrixXd after = samples.distances(images, images);
+  const Eigen::VectorXd& weights = samples.weights;
+  IntrinsicMap judged;
+  judged.distortion = weights.dot((after - samples.distances).cwiseAbs() * weights);
+  for (std::size_t i = 0; i < images.size(); ++i)
+    judged.moved +=
+        weights[static_cast<Index>(i)] * samples.distances(static_cast<Index>(i), images[i]);
+  judged.orientation = orientation.of(map, images);
+  judged.map = std::move(map);
+  return judged;
+}
+
+bool is_better(const IntrinsicMap& one, const IntrinsicMap& other) {
+  const auto cost = [](const IntrinsicMap& map) {
+    const double reversal = std::min(1.0, -map.orientation);
+    // A front mirrored to a back changes little, as it moves little.
+    return reversal < least_reversal ? INFINITY : map.distortion / (map.moved * reversal);
+  };
+  return cost(one) < cost(other);
+}
+
+}  // namespace
+
+IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& basis,
+                        const SurfaceSamples& samples, const Context& context) {
+  IntrinsicMap best;
+  if (static_cast<Index>(functions_alone(basis.values, alone).size()) < fewest_signs) return best;
+  std::vector<Start> starts;
+  for (const double share : shares_alone) {
+    const std::vector<Index> functions = functions_alone(basis.values, share);
+    if (static_cast<Index>(functions.size()) < fewest_signs) continue;
+    for (Start& start : promising_starts(basis, samples, functions, context)) {
+      const bool is_new = std::none_of(starts.begin(), starts.end(), [&](const Start& other) {
+        return other.signs == start.signs;
+      });
+      if (is_new) starts.push_back(std::move(start));
+    }
+  }
+  const Orientation orientation(surface, basis, samples);
+  const SampledFunctions sampled(basis, samples.vertices, samples.weights);
+  const Index last = std::min(refined_to, basis.count());
+  std::vector<FunctionalMap> seen;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    context.report(static_cast<double>(k) / static_cast<double>(starts.size()));
+    for (const Index step : steps) {
+      const auto first = static_cast<Index>(starts[k].signs.size());
+      FunctionalMap map = sampled.refined(starts[k].images, first, last, step, context);
+      const double unrelated = std::sqrt(2.0 * static_cast<double>(last));
+      const bool is_new = std::none_of(seen.begin(), seen.end(), [&](const FunctionalMap& other) {
+        return (map - other).norm() < same_map * unrelated;
+      });
+      if (!is_new) continue;
+      seen.push_back(map);
+      IntrinsicMap found = judged(std::move(map), sampled, samples, orientation);
+      found.signs = starts[k].signs;
+      if (found.moved >= least_move && (best.map.size() == 0 || is_better(found, best)))
+        best = std::move(found);
+    }
+  }
+  return best;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <complex>
+#include <vector>
+
+#include "cloud/surface_points.h"
+
+namespace symsurf {
+
+/// The surface about a point as a height over its tangent disc, in Zernike polynomials up to the
+/// fourth degree (Maximo et al. 2011): the second degree are the principal curvatures of Mitra et
+/// al. (2006), the others tell apart what these do not. Moduli do not change as the disc is turned
+/// or reflected, phases give the turn.
+struct HeightSignature {
+  static constexpr int length = 8, turning = 5;
+  /// The order in which each of `waves` repeats around the disc.
+  static constexpr std::array<int, turning> orders{1, 2, 2, 3, 4};
+
+  Vector3 origin = Vector3::Zero();     ///< on the fitted surface
+  Matrix3 frame = Matrix3::Identity();  ///< columns: two tangents and the normal, right-handed
+  double radius = 0;                    ///< of the disc, to which heights are relative
+  std::array<double, 2> even{};         ///< of the terms that no turn changes
+  std::array<std::complex<double>, turning> waves{};
+
+  Eigen::Vector<double, length> invariants() const;
+  /// The length of all that a turn changes.
+  double waviness() const;
+  /// The same surface seen from its other side.
+  HeightSignature from_behind() const;
+};
+
+/// Of the points about a point within a radius; `is_described` says whether there are enough.
+struct DescribedPoint {
+  HeightSignature signature;
+  bool is_described = false;
+};
+DescribedPoint described(const SurfacePoints& surface, Index i, double radius);
+
+/// A turn of one disc that lays it on another, reflected or not.
+struct DiscMatch {
+  double angle = 0;
+  double residual = 0;  ///< of what is left, to the mean length of the two signatures
+};
+
+/// The best turn, and others nearly as good.
+std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignature& onto,
+                               bool reflected);
+
+/// The similarity that lays one disc on the other.
+Eigen::Affine3d laid_onto(const HeightSignature& from, const HeightSignature& onto, bool reflected,
+                          double angle);
+
+}  // namespace symsurf

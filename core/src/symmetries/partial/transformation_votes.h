@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "symmetries/partial/height_signature.h"
+#include "symmetries/pieces/thinned_surface.h"
+
+namespace symsurf {
+
+/// A pair of like points and the map between them: mass in the space of transformations.
+struct TransformationVote {
+  Index from = -1, onto = -1;
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  double weight = 0;
+};
+
+struct VoteOptions {
+  bool reflections = true, motions = true, scales = false;
+  double radius = 0;  ///< of the discs, diagonals
+};
+
+/// Both ways of every pair of points that are among the most alike of the surface.
+std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surface,
+                                                     const VoteOptions& options,
+                                                     const Context& context);
+
+/// Votes around a mode of their density, the heaviest mode first.
+struct VoteCluster {
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();  ///< of the vote nearest to the mode
+  std::vector<Index> votes;
+  double mass = 0;
+};
+
+/// Mean shift (Comaniciu and Meer 2002) in the space of turns, shifts and scales, as in Mitra et
+/// al. (2006). Reflections and motions are two such spaces.
+std::vector<VoteCluster> vote_clusters(const std::vector<TransformationVote>& votes,
+                                       std::size_t most, const Context& context);
+
+}  // namespace symsurf

@@ -1,0 +1,102 @@
+"""Two pieces that a map takes to each other, 30 % of a cloud, among pieces that are no one's twin."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+import symsurf
+
+from .case import Case, Figures, at_least, at_most
+from .poses import Points, random_rotation
+from .solids import asymmetric
+from .symmetric_parts import noisy, rotation_about
+
+COUNT, SHARE, OTHERS = 10_000, 0.3, 5
+SOLIDS = ("bumpy", "lumps", "facets")
+Matrix = NDArray[np.float64]
+
+
+def planted(kind: str, rng: np.random.Generator) -> tuple[Points, Matrix, Matrix]:
+    """A cloud, the map (4, 4) from one twin to the other, and the middle of the first."""
+    twin = int(COUNT * SHARE / 2)
+    places = _places(2 + OTHERS, rng)
+    solid = _solid(2 * twin, rng)
+    linear = _linear(kind, places[1] - places[0], rng)
+    pieces = [solid[:twin] + places[0], solid[twin:] @ linear.T + places[1]]
+    for place in places[2:]:
+        other = _solid((COUNT - 2 * twin) // OTHERS, rng)
+        pieces.append(rng.uniform(0.8, 1.2) * other + place)
+    pose = np.eye(4)
+    pose[:3, :3] = np.exp(rng.normal()) * random_rotation(rng)
+    pose[:3, 3] = rng.normal(size=3)
+    planted_map = np.eye(4)
+    planted_map[:3, :3] = linear
+    planted_map[:3, 3] = places[1] - linear @ places[0]
+    points = np.vstack(pieces) @ pose[:3, :3].T + pose[:3, 3]
+    middle = pose @ np.append(places[0], 1)
+    return rng.permutation(points), pose @ planted_map @ np.linalg.inv(pose), middle
+
+
+def _solid(count: int, rng: np.random.Generator) -> Points:
+    points = asymmetric(SOLIDS[rng.integers(len(SOLIDS))], count, rng)
+    points = points - points.mean(axis=0)
+    return points / np.sqrt((points**2).sum(axis=1).mean()) @ random_rotation(rng).T
+
+
+def _places(count: int, rng: np.random.Generator) -> Points:
+    """In a box that grows until all are apart."""
+    places: list[Matrix] = []
+    side = 6.0
+    while len(places) < count:
+        side *= 1.01
+        place = rng.uniform(-side / 2, side / 2, size=3)
+        if all(np.linalg.norm(place - other) > 2.6 for other in places):
+            places.append(place)
+    return np.array(places)
+
+
+def _linear(kind: str, apart: Matrix, rng: np.random.Generator) -> Matrix:
+    if kind == "translation":
+        return np.eye(3)
+    if kind == "reflection":
+        return np.eye(3) - 2 * np.outer(apart, apart) / (apart @ apart)
+    axis = np.cross(apart, rng.normal(size=3))
+    return rotation_about(axis.tolist(), rng.uniform(np.pi / 9, np.pi))
+
+
+def _error(
+    found: Matrix, planted_map: Matrix, middle: Matrix, diagonal: float
+) -> tuple[float, float]:
+    """Degrees, and how far the image of the first twin's middle is off, in diagonals."""
+    between = found[:3, :3] @ planted_map[:3, :3].T
+    angle = np.degrees(np.arccos(np.clip((np.trace(between) - 1) / 2, -1, 1)))
+    return float(angle), float(np.linalg.norm((found - planted_map) @ middle) / diagonal)
+
+
+def _trial(kind: str, rng: np.random.Generator, noise: float) -> Figures:
+    points, planted_map, middle = planted(kind, rng)
+    points = noisy(points, noise, rng) if noise else points
+    start = time.process_time()
+    found = symsurf.partial_symmetries(points, threads=1).transformations
+    seconds = time.process_time() - start
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    errors = [
+        _error(matrix, planted_map, middle, diagonal)
+        for each in found
+        for matrix in (each.matrix, np.linalg.inv(each.matrix))
+    ]
+    angle, offset = min(errors, key=lambda error: error[0] + 100 * error[1], default=(180.0, 1.0))
+    found_it = angle < 1 and offset < 0.01
+    return {"found": float(found_it), "degrees": angle, "offset": offset, "seconds": seconds}
+
+
+KINDS = ("reflection", "rotation", "translation")
+BARS = {"found": at_least(1), "degrees": at_most(1), "seconds": at_most(3)}
+CASES = (
+    Case("partial symmetries", KINDS, lambda kind, rng: _trial(kind, rng, 0), BARS, trials=50),
+    Case("partial symmetries: noise 0.5 %", KINDS, lambda kind, rng: _trial(kind, rng, 0.005),
+         {"seconds": at_most(3)}, trials=50),
+)  # fmt: skip

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <symsurf/analysis.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "limbed_body.h"
+#include "symmetries/intrinsic/connected_surface.h"
+
+namespace symsurf {
+namespace {
+
+struct Error {
+  double mean = 0;   // distance along edges from images to where they belong, in the longest
+  double moved = 0;  // that of the points themselves: what the identity would leave
+};
+
+Error error_of(const LimbedBody& body, const Eigen::MatrixXd& images) {
+  const ConnectedSurface surface = connected_surface(body.points, body.faces, Context());
+  constexpr Index checked = 100;
+  Error error;
+  double longest = 0, count = 0;
+  for (Index i = 0; i < body.points.rows(); i += body.points.rows() / checked) {
+    const Eigen::VectorXd away = edge_distances(surface, surface.vertex_of[body.mirrored[i]]);
+    longest = std::max(longest, away.maxCoeff());
+    error.mean +=
+        images(i) < 0 ? away.maxCoeff() : away[surface.vertex_of[static_cast<Index>(images(i))]];
+    error.moved += away[surface.vertex_of[i]];
+    ++count;
+  }
+  error.mean /= count * longest;
+  error.moved /= count * longest;
+  return error;
+}
+
+std::string verdict(const AnalysisResult& result) {
+  return std::get<std::string>(result.statistics.at("verdict"));
+}
+
+AnalysisResult of_mesh(const LimbedBody& body) {
+  AnalysisOptions options;
+  options.faces = body.faces;
+  return analyse("intrinsic_symmetry", body.points, options);
+}
+
+TEST(IntrinsicSymmetry, MapsLeftToRightWhateverThePose) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const LimbedBody body = posed_animal(seed);
+    const AnalysisResult result = of_mesh(body);
+    EXPECT_EQ(verdict(result), "found") << seed;
+    const Error error = error_of(body, result.arrays.at("image"));
+    EXPECT_LT(error.mean, 0.03) << seed;
+    EXPECT_GT(error.moved, 0.1) << seed;
+  }
+}
+
+TEST(IntrinsicSymmetry, NeedsNoFaces) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    const LimbedBody body = posed_animal(seed);
+    const AnalysisResult result = analyse("intrinsic_symmetry", body.points);
+    EXPECT_EQ(verdict(result), "found") << seed;
+    EXPECT_LT(error_of(body, result.arrays.at("image")).mean, 0.03) << seed;
+  }
+}
+
+TEST(IntrinsicSymmetry, DoesNotDependOnPoseUnitAndOrder) {
+  RandomCloud random(0);
+  const LimbedBody body = posed_animal(1);
+  LimbedBody other = body;
+  std::vector<Index> order(body.points.rows()), place(body.points.rows());
+  std::iota(order.begin(), order.end(), Index{0});
+  for (Index i = body.points.rows() - 1; i > 0; --i)
+    std::swap(order[i], order[random.below(i + 1)]);
+  for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<Index>(i);
+  other.points = 1e3 * body.points(order, Eigen::indexing::all) * random.rotation().transpose();
+  other.faces = body.faces.unaryExpr([&](Index v) { return place[v]; });
+  for (std::size_t i = 0; i < order.size(); ++i) other.mirrored[i] = place[body.mirrored[order[i]]];
+  const Eigen::MatrixXd one = of_mesh(body).arrays.at("image");
+  const Eigen::MatrixXd two = of_mesh(other).arrays.at("image");
+  EXPECT_LT(error_of(other, two).mean, 0.03);
+  Eigen::MatrixXd carried(one.rows(), 1);
+  for (Index i = 0; i < one.rows(); ++i)
+    carried(i) = static_cast<double>(place[static_cast<Index>(one(order[i]))]);
+  LimbedBody expected = other;
+  for (Index i = 0; i < one.rows(); ++i) expected.mirrored[i] = static_cast<Index>(carried(i));
+  EXPECT_LT(error_of(expected, two).mean, 0.01);
+}
+
+TEST(IntrinsicSymmetry, TakesTheLargestPartAndFacesOfAnyKind) {
+  LimbedBody body = posed_animal(2);
+  const Index count = body.points.rows(), faces = body.faces.rows();
+  // Triangles whose corners are their own, a small part apart, a point of no face, and a face that
+  // is a third at an edge.
+  Points points(3 * faces + 5, 3);
+  Triangles corners(faces + 2, 3);
+  for (Index f = 0; f < faces; ++f)
+    for (int c = 0; c < 3; ++c) {
+      points.row(3 * f + c) = body.points.row(body.faces(f, c));
+      corners(f, c) = 3 * f + c;
+    }
+  points.bottomRows(5) << 50, 50, 50, 51, 50, 50, 50, 51, 50, 60, 60, 60,
+      points.row(0) + 0.5 * Vector3(1, 1, 1).transpose();
+  corners.row(faces) << 3 * faces, 3 * faces + 1, 3 * faces + 2;
+  corners.row(faces + 1) << 0, 1, 3 * faces + 4;
+  AnalysisOptions options;
+  options.faces = corners;
+  const AnalysisResult result = analyse("intrinsic_symmetry", points, options);
+  EXPECT_EQ(verdict(result), "found");
+  EXPECT_EQ(std::get<Index>(result.statistics.at("parts")), 2);
+  const Eigen::MatrixXd& images = result.arrays.at("image");
+  EXPECT_EQ(images(3 * faces), -1);
+  EXPECT_EQ(images(3 * faces + 3), -1);
+  EXPECT_EQ(result.arrays.at("confidence")(3 * faces), 0);
+  Eigen::MatrixXd merged(count, 1);
+  for (Index f = 0; f < faces; ++f)
+    for (int c = 0; c < 3; ++c) {
+      const auto corner = static_cast<Index>(images(3 * f + c));
+      // The point beside the edge stands for a corner of it.
+      merged(body.faces(f, c)) = static_cast<double>(
+          corner < 3 * faces ? body.faces(corner / 3, corner % 3) : body.faces(0, 0));
+    }
+  EXPECT_LT(error_of(body, merged).mean, 0.03);
+}
+
+// Any plane through its middle mirrors a ball: no function's sign is determined.
+TEST(IntrinsicSymmetry, SaysNoneOfABall) {
+  Points points(3000, 3);
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(points.rows());
+    const double turn = 2.399963229728653 * static_cast<double>(i);
+    points.row(i) << std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn),
+        z;
+  }
+  const AnalysisResult result = analyse("intrinsic_symmetry", points);
+  EXPECT_EQ(verdict(result), "none");
+  EXPECT_EQ(result.arrays.at("image").maxCoeff(), -1);
+  EXPECT_NE(std::get<std::string>(result.statistics.at("reason")).find("ball"), std::string::npos);
+}
+
+TEST(IntrinsicSymmetry, IsTheSameForAnyNumberOfThreads) {
+  const LimbedBody body = posed_animal(3);
+  AnalysisOptions options;
+  options.faces = body.faces;
+  const auto images = [&](int threads) -> Eigen::MatrixXd {
+    return analyse("intrinsic_symmetry", body.points, options, Context({}, threads))
+        .arrays.at("image");
+  };
+  EXPECT_EQ(images(1), images(3));
+}
+
+TEST(IntrinsicSymmetry, AnswersForFewPoints) {
+  for (Index count = 4; count < 40; count += 5) {
+    const Points points = RandomCloud(static_cast<std::uint64_t>(count)).box(count);
+    const AnalysisResult result = analyse("intrinsic_symmetry", points);
+    EXPECT_TRUE(result.arrays.at("confidence").allFinite());
+    EXPECT_LT(result.arrays.at("image").maxCoeff(), static_cast<double>(count));
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
