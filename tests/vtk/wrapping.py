@@ -129,7 +129,8 @@ class Wrapping(unittest.TestCase):
         elements = analysis.GetOutput(symsurf.vtkSymmetryAnalysis.ELEMENTS)
         self.assertGreater(elements.GetNumberOfPolys(), 0)
         for i in range(elements.GetNumberOfPoints()):
-            self.assertAlmostEqual(distance(elements.GetPoint(i)), 0, 6)
+            # Point groups are fitted to some of the points.
+            self.assertAlmostEqual(distance(elements.GetPoint(i)), 0, delta=2e-3)
 
     def test_sample_knows_its_mirror(self):
         source = symsurf.vtkMirrorSampleSource()
