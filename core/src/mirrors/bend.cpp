@@ -68,9 +68,10 @@ bool foot_and_normal(const Mirror& mirror, const Vector3& x, Vector3& foot, Vect
   return false;
 }
 
-Layout layout(const Mirror& mirror, PointsView object) {
+Layout layout(const Mirror& mirror, PointsView object, const Context& context) {
   Layout l;
   for (Index i = 0; i < object.size(); ++i) {
+    context.check();
     Vector3 foot, normal;
     if (!foot_and_normal(mirror, object[i], foot, normal)) continue;
     l.feet.push_back(foot);
@@ -139,7 +140,7 @@ class ArcLength {
 // Feet projected on the tangent plane in the middle, each coordinate stretched to arc length.
 class Spread final : public Chart {
  public:
-  Spread(const Mirror& mirror, const Layout& layout) : mirror_(mirror) {
+  Spread(const Mirror& mirror, const Layout& layout, const Context& context) : mirror_(mirror) {
     Vector3 normal;
     Index nearest = 0;
     for (std::size_t i = 0; i < layout.feet.size(); ++i)
@@ -160,7 +161,7 @@ class Spread final : public Chart {
         most.norm() > 0.5 ? Vector3(most.normalized()) : Vector3(normal.unitOrthogonal());
     axes_.col(1) = normal.cross(axes_.col(0));
     axes_.col(2) = normal;
-    for (int axis = 0; axis < 2; ++axis) measure(axis, layout);
+    for (int axis = 0; axis < 2; ++axis) measure(axis, layout, context);
   }
 
   Eigen::Vector2d flatten(const Vector3& foot) const override {
@@ -192,7 +193,7 @@ class Spread final : public Chart {
     return false;
   }
 
-  void measure(int axis, const Layout& layout) {
+  void measure(int axis, const Layout& layout, const Context& context) {
     constexpr int samples = 256;
     double low = 0, high = 0;
     for (const Vector3& foot : layout.feet) {
@@ -206,6 +207,7 @@ class Spread final : public Chart {
       const double sign = side == &ahead ? 1 : -1, end = side == &ahead ? high : -low;
       Vector3 last = origin_;
       for (double at = step; at < end + step; at += step) {
+        context.check();
         Eigen::Vector2d where = Eigen::Vector2d::Zero();
         where[axis] = sign * at;
         Vector3 foot, normal;
@@ -226,18 +228,18 @@ class Spread final : public Chart {
 
 // Laid out over an object that lies about the origin and is 1 long. The mirror must outlive it.
 // Throws InvalidInput when nothing of the object has a foot.
-std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object) {
-  const Layout l = layout(mirror, object);
+std::unique_ptr<Chart> chart_of(const Mirror& mirror, PointsView object, const Context& context) {
+  const Layout l = layout(mirror, object, context);
   if (const auto* cylinder = dynamic_cast<const Cylinder*>(&mirror))
     return std::make_unique<Unrolled>(*cylinder, l);
-  return std::make_unique<Spread>(mirror, l);
+  return std::make_unique<Spread>(mirror, l, context);
 }
 
 // Where the footprint lies about the origin and is 1 long: as exact there as where the object lies,
 // in whatever unit.
 class Workplace {
  public:
-  Workplace(const Mirror& mirror, PointsView points) {
+  Workplace(const Mirror& mirror, PointsView points, const Context& context) {
     require_extent(points, "points");
     require_extent(mirror.footprint(), "points of the footprint");
     const PointsView object = mirror.footprint().empty() ? points : mirror.footprint();
@@ -252,7 +254,7 @@ class Workplace {
     Points entered(object.size(), 3);
     for (Index i = 0; i < object.size(); ++i) entered.row(i) = to_frame(object[i]).transpose();
     mirror_ = mirror.transformed(1 / extent_, Matrix3::Identity(), -centre_ / extent_);
-    chart_ = chart_of(*mirror_, entered);
+    chart_ = chart_of(*mirror_, entered, context);
   }
 
   Vector3 to_frame(const Vector3& x) const { return (x - centre_) / extent_; }
@@ -286,7 +288,7 @@ Vector3 restored(const Vector3& x, const Chart& chart) {
 }  // namespace
 
 Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& context) {
-  const Workplace position(mirror, points);
+  const Workplace position(mirror, points, context);
   Points out(points.size(), 3);
   parallel_for(context, points.size(), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
@@ -301,7 +303,7 @@ Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& co
 }
 
 Plane straight_mirror(const Mirror& mirror, PointsView object) {
-  const Workplace position(mirror, object);
+  const Workplace position(mirror, object, Context());
   const Vector3 normal = position.chart().axes().col(2);
   return Plane(normal, -normal.dot(position.from_frame(position.chart().origin())));
 }
