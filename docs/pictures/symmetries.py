@@ -11,6 +11,7 @@ import pyvista
 from PIL import Image
 
 import symsurf
+from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 from accuracy.limbed import BODIES, posed
@@ -30,7 +31,16 @@ def twins_and_another():
     one, other = head(4), vertebra(40)
     turned = symsurf.synthetic.rotate(one.points, 10, 35, 70) + (3, 0.4, 0)
     apart = (other.points - other.points.mean(axis=0)) / np.ptp(other.points) * 2.5 + (1.5, 2.6, 0)
-    return np.vstack([one.points, turned, apart])
+    count = len(one.points)
+    faces = [one.faces, one.faces + count, other.faces + 2 * count]
+    return Shape(np.vstack([one.points, turned, apart]), np.vstack(faces))
+
+
+def cube(cells=10):
+    """The points of a grid on the surface of a cube."""
+    steps = np.linspace(-1, 1, cells + 1)
+    grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
+    return grid[np.abs(grid).max(axis=1) == 1]
 
 
 def write(result, path, camera=None):
@@ -48,7 +58,7 @@ def main(folder):
         folder / "partial_symmetries.png",
         (0, -0.3, 1),
     )
-    write(symsurf.symmetry_embedding(nut().subdivide(3)), folder / "symmetry_embedding.png", above)
+    write(symsurf.symmetry_embedding(cube()), folder / "symmetry_embedding.png", above)
     body = BODIES["animal"]
     points = posed(body, np.random.default_rng(1), 0.9)
     write(symsurf.intrinsic_symmetry(points, faces=body.faces), folder / "intrinsic_symmetry.png")
