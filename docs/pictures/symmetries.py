@@ -36,7 +36,7 @@ def twins_and_another():
     return Shape(np.vstack([one.points, turned, apart]), np.vstack(faces))
 
 
-def cube(cells=10):
+def cube(cells=6):
     """The points of a grid on the surface of a cube."""
     steps = np.linspace(-1, 1, cells + 1)
     grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
