@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "expect_error.h"
-#include "synthetic/bent_plane.h"
+#include "synthetic/benchmark_mirror.h"
 #include "synthetic/portable_sine.h"
 #include "synthetic/random_body.h"
 #include "synthetic/smooth_asymmetry.h"

@@ -9,7 +9,7 @@
 #include "base/find_named.h"
 #include "base/math.h"
 #include "base/random.h"
-#include "synthetic/bent_plane.h"
+#include "synthetic/benchmark_mirror.h"
 #include "synthetic/random_body.h"
 #include "synthetic/smooth_asymmetry.h"
 

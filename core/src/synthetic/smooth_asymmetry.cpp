@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/symmetric_eigen.h"
-#include "synthetic/bent_plane.h"
+#include "synthetic/benchmark_mirror.h"
 #include "synthetic/portable_sine.h"
 
 namespace symsurf {

@@ -1,4 +1,4 @@
-#include "synthetic/bent_plane.h"
+#include "synthetic/benchmark_mirror.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
