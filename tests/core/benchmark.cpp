@@ -75,11 +75,11 @@ TEST(SmoothAsymmetry, MovesPointsAsFarAsItSays) {
   }
 }
 
-TEST(BentPlane, KeepsImagesImagesAndIsUndone) {
+TEST(BenchmarkMirror, KeepsImagesImagesAndIsUndone) {
   Random random(3);
   for (const char* bend : {"straight", "bent", "domed", "waved", "twisted"})
     for (int trial = 0; trial < 20; ++trial) {
-      const BentPlane plane(bend, 0.25, random);
+      const BenchmarkMirror plane(bend, 0.25, random);
       const Vector3 x(random.uniform(-0.4, 0.4), random.uniform(-0.3, 0.3),
                       random.uniform(-0.25, 0.25));
       const Vector3 foot = plane.bent({x.x(), x.y(), 0});

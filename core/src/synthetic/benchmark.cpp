@@ -64,14 +64,14 @@ class Shape {
   Vector3 straight(Random& random) const {
     return asymmetry_->operator()((body_->point(random) - middle_) / size_);
   }
-  const BentPlane& plane() const { return *plane_; }
+  const BenchmarkMirror& plane() const { return *plane_; }
 
  private:
   std::unique_ptr<RandomBody> body_;
   Vector3 middle_ = Vector3::Zero();
   double size_ = 1;
   std::unique_ptr<SmoothAsymmetry> asymmetry_;
-  std::unique_ptr<BentPlane> plane_;
+  std::unique_ptr<BenchmarkMirror> plane_;
 };
 
 Shape::Shape(const BenchmarkCase& wanted, Random& random) {
@@ -91,7 +91,7 @@ Shape::Shape(const BenchmarkCase& wanted, Random& random) {
     x = (x - middle_) / size_;
     reach = std::max(reach, std::abs(x.z()));
   }
-  plane_ = std::make_unique<BentPlane>(wanted.bend, reach + 2 * wanted.asymmetry, random);
+  plane_ = std::make_unique<BenchmarkMirror>(wanted.bend, reach + 2 * wanted.asymmetry, random);
   asymmetry_ = std::make_unique<SmoothAsymmetry>(wanted.asymmetry, points, random);
 }
 
@@ -204,7 +204,7 @@ void thin_out(Drawn& points, Random& random) {
   points.keep(kept);
 }
 
-void add_noise(Drawn& points, double deviation, const BentPlane& plane, Random& random) {
+void add_noise(Drawn& points, double deviation, const BenchmarkMirror& plane, Random& random) {
   for (Index k = 0; k < points.size(); ++k) {
     for (int axis = 0; axis < 3; ++axis) points.bent[k][axis] += deviation * nearly_normal(random);
     points.straight[k] = plane.straightened(points.bent[k], points.straight[k]);

@@ -15,7 +15,7 @@ constexpr double steepest = 0.7;  // of a radius of curvature, how far a body ma
 
 }  // namespace
 
-BentPlane::BentPlane(std::string_view bend, double reach, Random& random)
+BenchmarkMirror::BenchmarkMirror(std::string_view bend, double reach, Random& random)
     : bend_(bend == "bent"      ? Bend::Bent
             : bend == "domed"   ? Bend::Domed
             : bend == "waved"   ? Bend::Waved
@@ -35,7 +35,7 @@ BentPlane::BentPlane(std::string_view bend, double reach, Random& random)
   slope_ = std::min(random.uniform(0.3, 1), steepest / reach);
 }
 
-Vector3 BentPlane::bent(const Vector3& x) const {
+Vector3 BenchmarkMirror::bent(const Vector3& x) const {
   const double u = along_x_ * x.x() + along_y_ * x.y(), v = along_x_ * x.y() - along_y_ * x.x();
   const double turns = tau * radius_;  // around
   switch (bend_) {
@@ -65,7 +65,7 @@ Vector3 BentPlane::bent(const Vector3& x) const {
   return x;
 }
 
-Vector3 BentPlane::straightened(const Vector3& x, const Vector3& start) const {
+Vector3 BenchmarkMirror::straightened(const Vector3& x, const Vector3& start) const {
   constexpr double step = 1e-6, rounding = 1e-15;
   constexpr int most = 20;
   Vector3 at = start;
@@ -88,7 +88,7 @@ Vector3 BentPlane::straightened(const Vector3& x, const Vector3& start) const {
   return at;
 }
 
-std::string BentPlane::kind() const {
+std::string BenchmarkMirror::kind() const {
   switch (bend_) {
     case Bend::Straight:
       return "plane";
@@ -101,7 +101,8 @@ std::string BentPlane::kind() const {
   }
 }
 
-Values BentPlane::mirror(double scale, const Matrix3& rotation, const Vector3& translation) const {
+Values BenchmarkMirror::mirror(double scale, const Matrix3& rotation,
+                               const Vector3& translation) const {
   const Vector3 centre = scale * (rotation * Vector3(0, 0, -radius_)) + translation;
   switch (bend_) {
     case Bend::Straight: {

@@ -14,12 +14,12 @@ inline Vector3 over_mirror(const Vector3& x) { return {x.x(), x.y(), -x.z()}; }
 
 /// The plane z = 0 after it was bent, with the space around it: a point over (x, y) moves along the
 /// surface's normal, at the same distance from it, so that images stay images.
-class BentPlane {
+class BenchmarkMirror {
  public:
   /// "straight", "bent" (a cylinder), "domed" (a sphere), "waved" (a sine) or "twisted" (a
   /// hyperbolic paraboloid), drawn for a body of diagonal 1 that reaches so far from the plane: the
   /// radius of curvature is at least `reach` / 0.7.
-  BentPlane(std::string_view bend, double reach, Random& random);
+  BenchmarkMirror(std::string_view bend, double reach, Random& random);
 
   Vector3 bent(const Vector3& x) const;
   /// The inverse near `start`, by Newton's method.
