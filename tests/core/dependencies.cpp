@@ -147,4 +147,24 @@ TEST(Dependencies, NoTwoSourcesShareAName) {
     }
 }
 
+// Two of one name in one namespace would break the one definition rule, which no linker reports.
+TEST(Dependencies, NoTwoHeadersDefineAClassOfOneName) {
+  const std::regex space("^namespace ([a-z:]+) \\{"),
+      definition("^(class|struct) (\\w+)[^;]*\\{?$");
+  std::map<std::string, fs::path> seen;
+  for (const auto& entry : fs::recursive_directory_iterator(SYMSURF_CORE)) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream source(entry.path());
+    std::string inside;
+    std::smatch match;
+    for (std::string line; std::getline(source, line);) {
+      if (std::regex_search(line, match, space)) inside = match[1];
+      if (!std::regex_search(line, match, definition)) continue;
+      const auto [other, is_new] = seen.emplace(inside + "::" + match[2].str(), entry.path());
+      EXPECT_TRUE(is_new) << match[2] << " in " << entry.path() << " and " << other->second;
+    }
+  }
+  EXPECT_GT(seen.size(), 100u);
+}
+
 }  // namespace

@@ -35,8 +35,7 @@ void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
   const ConnectedSurface surface =
       connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
   const SurfaceBasis basis = surface_basis(surface, count, context.stage(0.1, 0.4));
-  const SurfaceSamples samples =
-      surface_samples(surface, samples_searched, context.stage(0.4, 0.5));
+  const SampledPoints samples = surface_samples(surface, samples_searched, context.stage(0.4, 0.5));
   IntrinsicMap found = search_map(surface, basis, samples, context.stage(0.5, 0.8));
 
   const Index size = surface.points.rows();

@@ -54,7 +54,7 @@ std::string signs_of(const std::vector<Index>& functions, std::uint32_t odd) {
 
 // Of all signs but the identity's, in Gray's order, so that one sign changes at a time; the best
 // first.
-std::vector<Start> promising_starts(const SurfaceBasis& basis, const SurfaceSamples& samples,
+std::vector<Start> promising_starts(const SurfaceBasis& basis, const SampledPoints& samples,
                                     const std::vector<Index>& functions, const Context& context) {
   std::vector<Eigen::MatrixXd> odd_less_even;
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(samples.weights.size(), samples.weights.size());
@@ -86,7 +86,7 @@ std::vector<Start> promising_starts(const SurfaceBasis& basis, const SurfaceSamp
 }
 
 IntrinsicMap judged(FunctionalMap map, const SampledFunctions& sampled,
-                    const SurfaceSamples& samples, const Orientation& orientation) {
+                    const SampledPoints& samples, const Orientation& orientation) {
   const std::vector<Index> images = sampled.images(map);
   const Eigen::MatrixXd after = samples.distances(images, images);
   const Eigen::VectorXd& weights = samples.weights;
@@ -112,7 +112,7 @@ bool is_better(const IntrinsicMap& one, const IntrinsicMap& other) {
 }  // namespace
 
 IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& basis,
-                        const SurfaceSamples& samples, const Context& context) {
+                        const SampledPoints& samples, const Context& context) {
   IntrinsicMap best;
   if (static_cast<Index>(functions_alone(basis.values, alone).size()) < fewest_signs) return best;
   std::vector<Start> starts;

@@ -22,6 +22,6 @@ struct IntrinsicMap {
 /// of a few functions are tried at samples, and the most promising ones refined with ZoomOut. Empty
 /// signs: too few eigenvalues stand alone.
 IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& basis,
-                        const SurfaceSamples& samples, const Context& context);
+                        const SampledPoints& samples, const Context& context);
 
 }  // namespace symsurf

@@ -15,7 +15,7 @@ constexpr Index most_functions = 10;  // whose products are compared
 }  // namespace
 
 Orientation::Orientation(const ConnectedSurface& surface, const SurfaceBasis& basis,
-                         const SurfaceSamples& samples)
+                         const SampledPoints& samples)
     : weights_(samples.weights) {
   std::vector<Index> sample_of(surface.points.rows(), -1), position(surface.points.rows(), -1);
   for (std::size_t s = 0; s < samples.vertices.size(); ++s)

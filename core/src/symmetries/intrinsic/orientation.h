@@ -11,7 +11,7 @@ namespace symsurf {
 class Orientation {
  public:
   Orientation(const ConnectedSurface& surface, const SurfaceBasis& basis,
-              const SurfaceSamples& samples);
+              const SampledPoints& samples);
 
   /// The mean correlation of the products before and after: 1 for an isometry that keeps the
   /// orientation, -1 for one that reverses it; 0 without triangles. `images`: of the samples, by

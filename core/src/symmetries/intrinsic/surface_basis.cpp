@@ -33,9 +33,9 @@ std::vector<Index> farthest_rows(const Eigen::MatrixXd& rows, Index count, const
   return chosen;
 }
 
-SurfaceSamples surface_samples(const ConnectedSurface& surface, Index count,
-                               const Context& context) {
-  SurfaceSamples samples;
+SampledPoints surface_samples(const ConnectedSurface& surface, Index count,
+                              const Context& context) {
+  SampledPoints samples;
   const Index size = surface.points.rows();
   count = std::min(count, size);
   samples.distances.resize(count, count);

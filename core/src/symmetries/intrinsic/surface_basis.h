@@ -18,14 +18,13 @@ struct SurfaceBasis {
 SurfaceBasis surface_basis(const ConnectedSurface& surface, Index count, const Context& context);
 
 /// Vertices far from each other, to compare functions at.
-struct SurfaceSamples {
+struct SampledPoints {
   std::vector<Index> vertices;
   Eigen::VectorXd weights;    ///< the area nearest to each along edges; their sum is 1
   Eigen::MatrixXd distances;  ///< between them along edges, in the longest; where these were asked
 };
 
-SurfaceSamples surface_samples(const ConnectedSurface& surface, Index count,
-                               const Context& context);
+SampledPoints surface_samples(const ConnectedSurface& surface, Index count, const Context& context);
 
 /// Rows each of which lies farthest from those before, the first of them from their mean.
 std::vector<Index> farthest_rows(const Eigen::MatrixXd& rows, Index count, const Context& context);
