@@ -12,13 +12,13 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr Index patches = 1000, best_planes = 6,  // of the cloud; candidates
-    principal_planes = 9;
-constexpr double alike = 0.05;           // mirrors closer than this are one
-constexpr Index few = 600, many = 2000;  // points that planes are bent by
-constexpr std::size_t most_bent = 3;     // to the end
-constexpr double least_of_best = 0.85;   // of the best support: less is another mirror's
-constexpr double unbent = 0.997;         // flatness of what is a plane still
+constexpr Index patches = 1000, best_planes = 6;  // of the cloud; candidates
+constexpr double alike = 0.05;                    // mirrors closer than this are one
+constexpr Index few = 600, many = 2000;           // points that planes are bent by
+constexpr std::size_t most_bent = 3;              // to the end
+constexpr double least_of_best = 0.85;            // of the best support: less is another mirror's
+constexpr double unbent = 0.997;                  // flatness of what is a plane still
+constexpr double beyond_others = 1.1;  // of their support, what planes half-way must have
 constexpr double bent_foot_precision = 1e-6;
 
 // From a stiff plane that looks far to one that bends and looks near. It is soft before it looks
@@ -38,14 +38,14 @@ double stiffness_at(double part) {
   return stiffest * std::pow(softest / stiffest, std::min(1.0, part / soft_from));
 }
 
-// The principal planes and those half-way between: what twists a body turns its axes, too.
-std::vector<Vector3> principal_normals() {
-  std::vector<Vector3> normals;
-  for (int axis = 0; axis < 3; ++axis) normals.push_back(Vector3::Unit(axis));
+// Half-way between the principal planes: what twists a body turns its axes, too.
+std::vector<UnitPlane> half_way_planes() {
+  std::vector<UnitPlane> planes;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {1.0, -1.0})
-      normals.push_back((Vector3::Unit(axis) + side * Vector3::Unit((axis + 1) % 3)).normalized());
-  return normals;
+      planes.push_back(
+          {(Vector3::Unit(axis) + side * Vector3::Unit((axis + 1) % 3)).normalized(), 0});
+  return planes;
 }
 
 std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& context) {
@@ -56,8 +56,8 @@ std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& cont
   for (PlaneCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
   suppress_non_maxima(candidates, alike, best_planes);
-  for (const Vector3& normal : principal_normals()) candidates.push_back({{normal, 0}, 0});
-  suppress_non_maxima(candidates, alike, best_planes + principal_planes);
+  for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
+  suppress_non_maxima(candidates, alike, best_planes + 3);
   std::vector<UnitPlane> planes;
   for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
   return planes;
@@ -116,10 +116,19 @@ bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
 void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context) {
   std::vector<BentPlane> bent;
+  const auto bend_first = [&](const UnitPlane& plane) {
+    BentPlane one = laid_on(search, in_input_units(plane, cloud.frame));
+    bend(search, 0, first_stages, few, one);
+    return one;
+  };
+  double best = 0;
   for (const UnitPlane& plane : candidate_mirrors(cloud, context.stage(0, 0.1))) {
-    bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
-    bend(search, 0, first_stages, few, bent.back());
+    bent.push_back(bend_first(plane));
+    best = std::max(best, bent.back().support());
   }
+  for (const UnitPlane& plane : half_way_planes())
+    if (BentPlane one = bend_first(plane); one.support() > beyond_others * best)
+      bent.push_back(std::move(one));
   std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
     return a.support() > b.support();
   });
