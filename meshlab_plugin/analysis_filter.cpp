@@ -17,7 +17,6 @@ const std::vector<Parameter>& analysis_arguments() {
       only_selected_parameter(),
       Parameter::boolean("use_faces", true,
                          "Use the layer's faces, where it has some; otherwise its vertices alone."),
-      seed_parameter("analyses"),
       threads_parameter(),
   };
   return described;
@@ -81,7 +80,6 @@ Outcome AnalysisFilter::apply(const RichParameterList& parameters, MeshDocument&
   AnalysisOptions options;
   options.parameters = read_parameters(parameters, analysis_.parameters, diagonal);
   options.faces = cloud.faces;
-  options.seed = static_cast<std::uint64_t>(given.integer("seed"));
   const Context context(progress, static_cast<int>(given.integer("threads")));
   const AnalysisResult result = analyse(analysis_.name, cloud.points, options, context);
 

@@ -3,6 +3,8 @@
 
 #include <symsurf/detect.h>
 
+#include <limits>
+
 #include "cloud_conversion.h"
 #include "parameter_dialog.h"
 #include "result_layers.h"
@@ -26,7 +28,8 @@ const std::vector<Parameter>& common_parameters() {
           "has faces; otherwise its vertices alone do."),
       Parameter::boolean("show_candidates", false,
                          "Add a layer for each of the other mirrors that were found."),
-      seed_parameter("methods"),
+      Parameter::integer("seed", 0, 0, std::numeric_limits<int>::max(), "",
+                         "Of the methods that draw at random."),
       threads_parameter(),
   };
   return described;

@@ -101,11 +101,6 @@ Parameter only_selected_parameter() {
                             "percentages are then of the selection's diagonal.");
 }
 
-Parameter seed_parameter(const std::string& what) {
-  return Parameter::integer("seed", 0, 0, std::numeric_limits<int>::max(), "",
-                            "Of the " + what + " that draw at random.");
-}
-
 Parameter threads_parameter() {
   return Parameter::integer(
       "threads", 0, 0, std::numeric_limits<int>::max(), "",

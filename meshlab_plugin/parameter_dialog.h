@@ -9,9 +9,8 @@
 
 namespace symsurf::meshlab {
 
-/// What several filters ask beside the core's parameters. `what` draws at random: "methods".
+/// What several filters ask beside the core's parameters.
 Parameter only_selected_parameter();
-Parameter seed_parameter(const std::string& what);
 Parameter threads_parameter();
 
 /// Appends an entry for each described parameter, in order. Those in units of the diagonal become

@@ -38,6 +38,8 @@ vtkNew<Array> named(const char* name, int components = 1) {
 // The data of the cells: lines come before polygons.
 class Elements {
  public:
+  Elements() { points_->SetDataTypeToDouble(); }
+
   void add_axis(const symsurf::SymmetryAxis& axis, symsurf::PointsView shape, vtkIdType index) {
     lines_->InsertNextCell(2);
     for (const symsurf::Vector3& end : axis.segment(shape))
@@ -137,7 +139,6 @@ int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inp
     symsurf::AnalysisOptions options;
     options.parameters = chosen_parameters(this);
     options.faces = faces.view();
-    options.seed = this->Seed;
     options.refuse_nonfinite = this->RefuseNonfinite;
     const symsurf::AnalysisResult result = symsurf::analyse(
         this->Analysis, points.view(), options, context_of(this, this->NumberOfThreads));
@@ -159,7 +160,6 @@ void vtkSymmetryAnalysis::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseFaces: " << (this->UseFaces ? "On" : "Off") << "\n";
   os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
 }

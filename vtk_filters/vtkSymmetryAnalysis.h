@@ -5,8 +5,8 @@
  * Analysis chooses what is sought; each has its own parameters. The outputs are
  *
  * - 0 "Shape": the input. Point data: what the analysis gives each point, in arrays that begin with
- *   its title ("PartialSymmetriesPatch"), one of them the active scalars. Field data: Analysis and
- *   its statistics.
+ *   its title ("PartialSymmetriesTransformation"), one of them the active scalars. Field data:
+ * Analysis and its statistics.
  * - 1 "Elements": mirror planes as triangles and axes of rotation as lines over the shape. Cell
  *   data: ElementKind ("plane" or "axis"), ElementIndex (from 0, of each kind) and ElementOrder (of
  *   an axis: a turn by 360 degrees / order maps the shape onto itself, 0: any turn; of a plane 2).
@@ -55,14 +55,6 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
 
   ///@{
   /**
-   * Seed of the analyses that draw at random.
-   */
-  vtkSetMacro(Seed, unsigned int);
-  vtkGetMacro(Seed, unsigned int);
-  ///@}
-
-  ///@{
-  /**
    * Threads to use; 0: as many as the machine has. The results are the same for any number.
    */
   vtkSetMacro(NumberOfThreads, int);
@@ -86,7 +78,6 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
 
   bool UseFaces = true;
   bool RefuseNonfinite = false;
-  unsigned int Seed = 0;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
 

@@ -21,14 +21,13 @@ Points ends_of(const std::array<Vector3, 2>& segment) {
 }
 
 py::dict analyse_fields(const std::string& name, const PointsArgument& points,
-                        const FacesArgument& faces, bool refuse_nonfinite, py::handle seed,
+                        const FacesArgument& faces, bool refuse_nonfinite,
                         const py::object& threads, const py::object& progress,
                         const py::dict& parameters) {
   const Analysis& described = analysis(name);
   AnalysisOptions options;
   options.parameters = values_from(parameters, described.parameters);
   options.faces = view_of(faces);
-  options.seed = seed_from(seed);
   options.refuse_nonfinite = refuse_nonfinite;
   const Context context = context_from(progress, threads);
   const AnalysisResult result =
@@ -82,7 +81,7 @@ void bind_analyses(py::module_& module) {
       },
       "All analyses by name, in the order to show them in.");
   module.def("analyse", &analyse_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
-             py::arg("refuse_nonfinite"), py::arg("seed"), py::arg("threads"), py::arg("progress"),
+             py::arg("refuse_nonfinite"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), "The fields of an analysis' result.");
 }
 

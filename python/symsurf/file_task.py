@@ -145,7 +145,6 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
         task.operation,
         shape,
         nonfinite=task.nonfinite,
-        seed=task.seed,
         threads=task.threads,
         progress=progress,
         **task.parameters,

@@ -75,7 +75,7 @@ TEST(TransformationKind, IsThatOfGeometry) {
     Matrix4 matrix = Matrix4::Identity();
     matrix.topLeftCorner<3, 3>() = linear;
     matrix.topRightCorner<3, 1>() = shift;
-    return kind_of(matrix, 1e-6, 1e-6);
+    return kind_of(matrix, Vector3(1, 2, 3), 1e-6, 1e-6);
   };
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);

@@ -51,7 +51,6 @@ void fuzz(Source& source) {
   AnalysisOptions options;
   options.parameters = parameters(source, analysis.parameters);
   options.faces = triangles;
-  options.seed = source.ConsumeIntegral<std::uint8_t>();
   options.refuse_nonfinite = one_in(source, 2);
   show("analysis", '"' + analysis.name + '"');
   show("parameters", options.parameters);

@@ -50,7 +50,7 @@ def test_there_is_one_filter_an_analysis():
 def test_parameters_of_analyses_are_those_described(analysis):
     described = symsurf.analyses()[analysis].parameters
     shown = cloud().mesh_set().filter_parameter_values(f"compute_{analysis}")
-    of_the_host = {"only_selected", "use_faces", "seed", "threads"}
+    of_the_host = {"only_selected", "use_faces", "threads"}
     assert set(shown) == {p.name for p in described} | of_the_host
     assert_defaults(shown, described)
 

@@ -9,7 +9,6 @@
 #include <symsurf/triangles_view.h>
 #include <symsurf/value.h>
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -56,7 +55,6 @@ struct Transformation {
 struct AnalysisOptions {
   Values parameters = {};    ///< by name; the rest keep their defaults
   TrianglesView faces = {};  ///< optional, between the points
-  std::uint64_t seed = 0;    ///< of the analyses that draw at random
   /// Whether a point that is not finite is an error. Otherwise such points are left out, with their
   /// faces: AnalysisResult::statistics has their number.
   bool refuse_nonfinite = false;

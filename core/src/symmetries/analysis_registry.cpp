@@ -85,7 +85,6 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   Cloud cloud;
   cloud.points = points;
   cloud.faces = options.faces;
-  cloud.seed = options.seed;
   cloud.partition = Partition(points.size());
   NonfiniteRemoval removal(analysis.minimum_points, options.refuse_nonfinite);
   const Context before = context.stage(0, 0);  // no progress worth telling

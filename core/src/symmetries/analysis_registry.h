@@ -11,7 +11,7 @@ namespace symsurf {
 
 /// An analysis and how it runs.
 struct AnalysisImplementation : Analysis {
-  /// Gets a validated cloud of finite points, with its faces and seed; fills in all but parameters,
+  /// Gets a validated cloud of finite points, with its faces; fills in all but parameters,
   /// footprint and seconds, with a row of the arrays for each point of the cloud.
   void (*run)(const Cloud& cloud, const ParameterValues& values, const Context& context,
               AnalysisResult& result) = nullptr;

@@ -6,9 +6,10 @@
 
 namespace symsurf {
 
-std::string kind_of(const Matrix4& matrix, double angle_tolerance, double length_tolerance) {
+std::string kind_of(const Matrix4& matrix, const Vector3& centre, double angle_tolerance,
+                    double length_tolerance) {
   const Matrix3 linear = matrix.topLeftCorner<3, 3>();
-  const Vector3 shift = matrix.topRightCorner<3, 1>();
+  const Vector3 shift = linear * centre + matrix.topRightCorner<3, 1>() - centre;
   const double scale = std::cbrt(linear.determinant());
   if (std::abs(std::abs(scale) - 1) > angle_tolerance) return "similarity";
   // x -> turn x or -turn x, and the shift.

@@ -25,7 +25,7 @@ from .batch_options import (
     worked_on,
 )
 from .described_options import add_parameters, given_values
-from .values import shown, whole
+from .values import shown
 
 
 class AnalysisCommand:
@@ -61,9 +61,6 @@ class AnalysisCommand:
             )
         add_batch_options(parser)
         add_absolute(parser)
-        parser.add_argument(
-            "--seed", default="0", metavar="N", help="of the analyses that draw lots"
-        )
         add_parameters(parser, self._analysis)
 
     def run(self, arguments: argparse.Namespace) -> int:
@@ -75,7 +72,6 @@ class AnalysisCommand:
                 task,
                 operation=self._analysis.name,
                 parameters=given_values(arguments) | arguments.absolute,
-                seed=whole(arguments.seed),
                 threads=threads,
                 outputs=tuple(outputs.get(task.file, ())),
             )

@@ -7,12 +7,19 @@
 from . import functions
 from .elements import Axis, Transformation
 from .functions import *  # one for each in analyses()
-from .results import AnalysisResult, IntrinsicSymmetry, Symmetries, SymmetryEmbedding
+from .results import (
+    AnalysisResult,
+    IntrinsicSymmetry,
+    PartialSymmetries,
+    Symmetries,
+    SymmetryEmbedding,
+)
 
 __all__ = [
     "AnalysisResult",
     "Axis",
     "IntrinsicSymmetry",
+    "PartialSymmetries",
     "Symmetries",
     "SymmetryEmbedding",
     "Transformation",

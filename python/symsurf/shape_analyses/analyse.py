@@ -19,7 +19,6 @@ def analyse(
     faces: ArrayLike | None = None,
     nonfinite: str = "skip",
     absolute: bool = False,
-    seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
@@ -30,7 +29,7 @@ def analyse(
         described = _core.analyses()[name].parameters
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
     made = _core.analyse(
-        name, given.points, given.faces, refuses(nonfinite), seed, threads, progress, parameters
+        name, given.points, given.faces, refuses(nonfinite), threads, progress, parameters
     )
     warn(made["statistics"])
     return RESULTS[name].from_fields(Shape(made["points"], given.faces), made)

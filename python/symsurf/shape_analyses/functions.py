@@ -20,7 +20,7 @@ _DOCUMENTED = {
     '``InputWarning``; "refuse": they are an error.',
     "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
     "bounding box; ``parameters`` of what is given back has them as fractions.",
-    "seed, threads, progress": "as for ``detect``.",
+    "threads, progress": "as for ``detect``.",
 }
 
 

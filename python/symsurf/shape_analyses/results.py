@@ -116,6 +116,10 @@ class AnalysisResult(Summarised):
             raise InvalidParameter(
                 f"path is {str(path)!r}; allowed are the suffixes {', '.join(ANALYSIS_FORMATS)}"
             )
+        if not self.arrays and suffix in (".csv", ".npy"):
+            raise InvalidParameter(
+                f"path is {str(path)!r}; {self.analysis} gives no arrays: allowed are the other suffixes"
+            )
         write_whole(path, ANALYSIS_FORMATS[suffix](self))
 
     def plot(
@@ -193,7 +197,7 @@ class Symmetries(AnalysisResult):
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Every field by its name, in what ``json.dumps`` takes; an axis has the order
+        """The group and its elements by name, in what ``json.dumps`` takes; an axis has the order
         "continuous" in place of 0."""
         return {
             "group": self.group,

@@ -44,7 +44,6 @@ class SymmetryAnalysis(Algorithm):
             "refuse_nonfinite": Property(
                 False, "Whether points that are not finite are an error, not left out."
             ),
-            "seed": Property(0, "Seed of the analyses that draw at random."),
             "number_of_threads": THREADS,
         },
     )
@@ -60,7 +59,6 @@ class SymmetryAnalysis(Algorithm):
                 points_of(source),
                 faces=faces_of(source).corners if options["use_faces"] else None,
                 nonfinite="refuse" if options["refuse_nonfinite"] else "skip",
-                seed=options["seed"],
                 threads=options["number_of_threads"],
                 progress=self._progress,
                 **self._chosen("analysis", analyses()),

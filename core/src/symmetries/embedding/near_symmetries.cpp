@@ -3,7 +3,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/math.h"
 
@@ -37,8 +36,8 @@ class Search {
   }
 
   NearSymmetries run(double tolerance) {
-    add_exact();
-    found_.exact = found_.maps.size() > 1;
+    add_exact();  // which of a flat cloud adds the reflection that leaves all points in their
+                  // places
     if (!found_.exact) add_near(tolerance);
     return std::move(found_);
   }
@@ -136,11 +135,14 @@ class Search {
     if (is_known(found_.maps, linear, apart)) return;
     const double limit = 4 * tolerance() * tolerance();
     double squares = 0;
+    bool moves = false;
     for (Index i = 0; i < rows_.cols(); ++i) {
       const Neighbour partner = tree_.nearest(image(map, i), limit);
       if (partner.index < 0) return;
       squares += partner.squared_distance;
+      moves = moves || partner.index != i;
     }
+    found_.exact = found_.exact || moves;
     found_.maps.push_back(
         {map, std::sqrt(squares / static_cast<double>(rows_.cols())) / found_.diameter});
   }

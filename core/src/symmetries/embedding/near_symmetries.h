@@ -21,7 +21,7 @@ struct NearSymmetries {
   Vector3 centre = Vector3::Zero();  ///< the centroid
   double diameter = 0;               ///< twice the largest distance from it
   std::vector<NearSymmetry> maps;    ///< the identity first
-  bool exact = false;                ///< they map points onto points, up to rounding
+  bool exact = false;                ///< they map points onto others, up to rounding
 };
 
 /// The symmetries of a point set of which each point has its partners: those that map a base of two

@@ -51,8 +51,7 @@ void add_stationary_set(PointsView points, const Points& means, const NearSymmet
   constexpr const char* names[] = {"point", "line", "plane", "none"};
   const Index extent = (variances.array() > least_variance).count();
   if (extent == 1)
-    result.axes.push_back(
-        {centre, principal.vectors.col(2), symmetries.exact ? turns_among(symmetries) : Index{0}});
+    result.axes.push_back({centre, principal.vectors.col(2), turns_among(symmetries)});
   if (extent == 2) {
     const Vector3 normal = principal.vectors.col(0);
     result.planes.push_back({normal, -normal.dot(centre)});
@@ -87,10 +86,11 @@ void run_symmetry_embedding(const Cloud& cloud, const ParameterValues& values,
                    {"embedding", coordinates},
                    {"stationary", means},
                    {"stationary_distance", (points.matrix() - means).rowwise().norm()}};
-  constexpr double rounding = 1e-4;  // radians and diameters; exact maps are exact to 1e-6
+  // Radians and diameters: exact maps are exact to 1e-6, fitted ones miss by the noise.
+  const double missed = symmetries.exact ? 1e-4 : 0.02;
   for (const NearSymmetry& symmetry : symmetries.maps)
     result.transformations.push_back(
-        {kind_of(symmetry.map.matrix(), rounding, rounding * symmetries.diameter),
+        {kind_of(symmetry.map.matrix(), symmetries.centre, missed, missed * symmetries.diameter),
          symmetry.map.matrix(),
          weight_of(symmetry, options.localization),
          {},

@@ -130,6 +130,7 @@ IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& bas
   const SampledFunctions sampled(basis, samples.vertices, samples.weights);
   const Index last = std::min(refined_to, basis.count());
   std::vector<FunctionalMap> seen;
+  best.signs = starts.front().signs;  // there are some, though no map may come of them
   for (std::size_t k = 0; k < starts.size(); ++k) {
     context.report(static_cast<double>(k) / static_cast<double>(starts.size()));
     for (const Index step : steps) {

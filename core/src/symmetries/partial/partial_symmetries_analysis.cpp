@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "symmetries/analysis_registry.h"
@@ -31,10 +30,13 @@ void run_partial_symmetries(const Cloud& cloud, const ParameterValues& values,
   for (const PatchPair& pair : found) {
     Transformation transformation;
     transformation.matrix = surface.in_input_units(pair.map);
-    transformation.kind = kind_of(transformation.matrix, same_angle, same_length * cloud.diagonal);
+    transformation.kind = kind_of(transformation.matrix, cloud.frame.centroid, same_angle,
+                                  same_length * cloud.diagonal);
     transformation.score = pair.score;
     transformation.from = surface.near(pair.from);
     transformation.onto = surface.near(pair.onto);
+    // Of a coarse mesh, whose surface is sampled, a patch may lie between the points.
+    if (transformation.from.empty() || transformation.onto.empty()) continue;
     const auto number = static_cast<double>(result.transformations.size());
     const auto mark = [&](const std::vector<Index>& patch, double which) {
       for (const Index i : patch)
@@ -48,7 +50,7 @@ void run_partial_symmetries(const Cloud& cloud, const ParameterValues& values,
     result.transformations.push_back(std::move(transformation));
   }
   result.arrays = {{"transformation", best}, {"side", side}};
-  result.statistics["transformations"] = static_cast<Index>(found.size());
+  result.statistics["transformations"] = static_cast<Index>(result.transformations.size());
   result.statistics["diagonal"] = cloud.diagonal;
 }
 

@@ -22,7 +22,11 @@ void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Con
   constexpr double rounding = 1e-6;  // radians and diagonals; the elements are a group to less
   for (const Matrix4& element : found.elements)
     result.transformations.push_back(
-        {kind_of(element, rounding, rounding * cloud.diagonal), element, found.score, {}, {}});
+        {kind_of(element, found.centre, rounding, rounding * cloud.diagonal),
+         element,
+         found.score,
+         {},
+         {}});
   result.planes = std::move(found.planes);
   result.axes = std::move(found.axes);
   result.statistics = {{"group", found.group},
