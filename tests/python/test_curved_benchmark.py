@@ -9,7 +9,10 @@ import pytest
 from command_line import run_here
 
 import symsurf
-from symsurf.benchmark import Answer, case_names, figures_of, read_benchmark
+from symsurf.benchmark import case_names
+from symsurf.benchmark.answers import Answer
+from symsurf.benchmark.files import read_benchmark
+from symsurf.benchmark.scores import figures_of
 from symsurf.synthetic import benchmark
 
 

@@ -8,7 +8,10 @@ import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ..benchmark import BenchmarkSample, Figures, answer_in, figures_of, read_benchmark, summary
+from ..benchmark import BenchmarkSample
+from ..benchmark.answers import answer_in
+from ..benchmark.files import read_benchmark
+from ..benchmark.scores import Figures, figures_of, summary
 from ..plain import plain
 from ..saving import write_whole
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..benchmark import SIZES, benchmark, write_benchmark
+from ..benchmark import SIZES, benchmark
+from ..benchmark.files import write_benchmark
 from .values import whole
 
 SUMMARY = "Benchmark of curved mirrors: a folder of points, their true images and the truth"

@@ -130,40 +130,7 @@ UnitPlane Refinement::refined(const UnitPlane& start) const {
   const bool close = closely.support > roughly;
   const UnitPlane plane =
       fitted(close ? closely.shape : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
-  return exact(balanced(plane));
-}
-
-// A fit to what agrees closely follows one part of a shape whose sides differ everywhere, and one
-// to tangent planes lets the rest slide. There all of it counts, as far as the sides differ; and
-// how far a partner is along the surface, as much as the sampling lets it say.
-UnitPlane Refinement::balanced(const UnitPlane& start) const {
-  constexpr double least_along = 0.3, sampling = 0.15;  // of the spacing, to the nearest point
-  constexpr double narrowest = 0.02, widest = 0.06, deviations = 10;
-  constexpr int steps = 40;
-  const double different = asymmetry(start);
-  const double squared = different * different;
-  const double along = squared / (squared + sampling * sampling * spacing_ * spacing_);
-  if (!(along > least_along)) return start;
-  const double tolerance = std::clamp(deviations * different, narrowest, widest);
-  return fitted(start, tolerance, stride_for(many_samples), steps, {}, along);
-}
-
-// Of images that land on a surface, robustly, and less what noise makes.
-double Refinement::asymmetry(const UnitPlane& plane) const {
-  constexpr std::size_t least = 50;
-  constexpr double normal = 1.4826;  // deviations a median of absolute values
-  std::vector<double> off;
-  for (const Match& match : matches(plane, reach, stride_for(few_samples))) {
-    const Sample& s = samples_[match.sample];
-    const Vector3 gap = smoothed_gap(plane, match);
-    const double counts = displaced(plane.distance(s.smoothed), score_tolerance) *
-                          match.surfel->flatness * inside_surface(gap, *match.surfel, spacing_);
-    if (counts > 0.5) off.push_back(std::abs(gap.dot(match.surfel->normal)));
-  }
-  if (off.size() < least) return 0;
-  const double deviation = normal * median(std::move(off));
-  const double noise = noise_.shows() ? noise_.deviation() : 0;
-  return std::sqrt(std::max(0.0, deviation * deviation - noise * noise));
+  return exact(plane);
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
@@ -175,11 +142,10 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
 // nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
 // plane has moved by a part of the spacing, or has settled between them.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps,
-                             std::vector<Match> found, double along_surface) const {
+                             std::vector<Match> found) const {
   constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
+  constexpr double along_surface = 0.01;  // partners hold the plane hardly where they may slide
   const double stale = 0.1 * spacing_, settled = 0.02 * spacing_;
-  const bool slides = along_surface == sliding;
-  const double rim = slides ? spacing_ : spacing_ + 2 * tolerance;  // how far a partner is from it
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
@@ -197,21 +163,18 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
       const Correspondence correspondence(gap, plane.reflect_direction(s.surfel->normal),
                                           s.surfel->flatness, p);
       const double r = distance_past(gap, p, spacing_) / tolerance;
-      const double facing = slides ? correspondence.normal_consistency : 1;
-      const double trusted = weight * facing * inside_surface(gap, p, rim) * fading(r * r / 2);
+      const double trusted = weight * correspondence.normal_consistency *
+                             inside_surface(gap, p, spacing_) * fading(r * r / 2);
       squares += trusted * r * r;
       weights += trusted;
-      Metric metric = correspondence.metric(along_surface);
-      if (!slides) metric.off_surface *= 1 - along_surface;
-      sum.add(s.smoothed, gap, metric, trusted);
+      sum.add(s.smoothed, gap, correspondence.metric(along_surface), trusted);
     }
     if (weights < 4) return plane;
     double change;
     plane = sum.taken(&change);
     moved += change;
-    if (slides)
-      tolerance = std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance,
-                             tolerance);
+    tolerance =
+        std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
     if (change < still) {
       if (moved < settled) return plane;
       moved = std::numeric_limits<double>::infinity();

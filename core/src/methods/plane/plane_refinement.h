@@ -53,14 +53,9 @@ class Refinement {
 
   std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
   double support(const UnitPlane& plane, const std::vector<Match>& found, Index stride) const;
-  UnitPlane balanced(const UnitPlane& start) const;
-  // Standard deviation of the images from the surface, over the cloud's size.
-  double asymmetry(const UnitPlane& plane) const;
-  // What a partner's offset along the surface counts where it may slide: hardly.
-  static constexpr double sliding = 0.01;
-  // `found`: the plane's partners, where they are known. The tolerance shrinks if they may slide.
+  // `found`: the plane's partners, where they are known.
   UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps,
-                   std::vector<Match> found = {}, double along_surface = sliding) const;
+                   std::vector<Match> found = {}) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
