@@ -43,7 +43,7 @@ class BenchmarkSample(NamedTuple):
 
 
 def case_names(patterns: Sequence[str] = ("*",)) -> list[str]:
-    """The cases that match one of the patterns, such as "head-*-noise-1".
+    """The cases that match one of the patterns, such as ``head-*-noise-1``.
 
     Raises InvalidParameter for a pattern that no case matches.
     """
@@ -74,7 +74,7 @@ def benchmark(
     Args:
         size: "small", "medium" or "large": 2,000, 10,000 or 100,000 points.
         seed: of shapes, poses and points; another seed gives other ones.
-        cases: names or patterns of names, such as "head-*-noise-1".
+        cases: names or patterns of names, such as ``head-*-noise-1``.
 
     Raises:
         InvalidParameter: an unknown size, a pattern that no case matches, a seed that is no whole
