@@ -51,9 +51,7 @@ std::string AnalysisFilter::info() const {
   return text;
 }
 
-FilterPlugin::FilterClass AnalysisFilter::menus() const {
-  return FilterPlugin::FilterClass(FilterPlugin::Quality | FilterPlugin::PointSet);
-}
+FilterPlugin::FilterClass AnalysisFilter::menus() const { return FilterPlugin::PointSet; }
 
 // With MM_VERTNUMBER among them MeshLab offers no preview, which could not take layers back.
 int AnalysisFilter::changes() const {
