@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ._core import InvalidParameter, analyses
 from .drawing import (
+    OBJECT,
     UNPAIRED,
     add_title,
     colour_map,
@@ -28,9 +29,8 @@ from .shape_analyses.results import AnalysisResult, Symmetries
 if TYPE_CHECKING:
     import pyvista
 
-OBJECT = "#efdcb8"
 AXIS = "#a83244"
-# Labels repeat them. Neighbours in the list are told apart by people who see few colours, too.
+# Labels repeat them; neighbours in the list differ in lightness, too, for colour-blind readers.
 LABELS = (
     "#4477aa",
     "#ee6677",

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 SIZE = (1200, 900)
 UNPAIRED = "#9aa3ad"
 MIRROR = "#2f7fd0"
+OBJECT = "#efdcb8"
 BACKGROUND = "#ffffff"
 INK = "#333333"
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ._core import InvalidInput, Mirror
 from .drawing import (
     INK,
+    OBJECT,
     add_title,
     colour_map,
     draw_mirror,
@@ -41,7 +42,6 @@ from .summary import percent
 if TYPE_CHECKING:
     import pyvista
 
-OBJECT = "#efdcb8"
 # The colours of Completed.origin.
 ORIGINS = {"original": OBJECT, "mirrored": "#de8350", "seam": "#74204f"}
 # From blue over light to red: what lies too far out, and what lies too far in.

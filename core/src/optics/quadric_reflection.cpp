@@ -19,7 +19,7 @@ using std::numbers::pi;
 constexpr int pieces = 2;  // samples between two nodes at the least
 constexpr int most_halves = 40;
 constexpr double settled_from = 1e-3;  // sizes: how near a root Newton is let go
-constexpr double hopeless = 0.3;       // of a sample: a parabola that ends above it has no roots
+constexpr double no_root_above = 0.3;  // of a sample: a parabola that ends above it has no roots
 constexpr int halves_at_end = 12;
 constexpr int most_splits = 2000;  // of one search: where rounding is all that moves, it ends
 constexpr double smooth = 0.95;    // cosine between neighbouring samples' normals and views
@@ -190,7 +190,7 @@ class Search {
       // y + slope d + bend d^2, d from b.
       const double bend = (left / h - right / l) / (h - l), slope = left / h - bend * h;
       const double lowest = sign * y - slope * slope / (4 * bend);
-      if (!(bend > 0) || lowest > hopeless * sign * y) return;
+      if (!(bend > 0) || lowest > no_root_above * sign * y) return;
       const Sample next = sample(b.angle - slope / (2 * bend));
       if (!next.is_real || next.angle == b.angle) return;
       if ((next.branch[k].law < 0) != (y < 0)) {

@@ -86,7 +86,7 @@ struct Candidate {
   double cost;
 };
 
-void keep_unlike(std::vector<Candidate>& candidates, std::size_t most) {
+void suppress_similar(std::vector<Candidate>& candidates, std::size_t most) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   suppress_non_maxima(candidates, most, [](const Candidate& a, const Candidate& b) {
@@ -123,7 +123,7 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
       const UnitPlane plane = iterated(starts[k], few, on_thinned, update, one.stage(0, 0.9));
       candidates.push_back({plane, cost(plane, few, one.stage(0.9, 1))});
     }
-    keep_unlike(candidates, finalists);
+    suppress_similar(candidates, finalists);
   }
   const auto go_on = [&](const Points& points, const Rest& rest, const Context& level) {
     const IndexedPoints indexed(points, level.stage(0, 0.1));
@@ -133,7 +133,7 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
       plane = iterated(plane, indexed, rest, update, one.stage(0, 0.9));
       candidates[k].cost = cost(plane, indexed, one.stage(0.9, 1));
     }
-    keep_unlike(candidates, finalists);
+    suppress_similar(candidates, finalists);
   };
   const Points all = in_frame(cloud.points, cloud.frame);
   const Index stride = all.rows() / some_points;
