@@ -1,0 +1,143 @@
+#include "symmetries/recurring/part_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "symmetries/recurring/closed_lines.h"
+#include "symmetries/recurring/part_union.h"
+
+namespace symsurf {
+
+namespace {
+
+// Pairs of lines that are tried as the beginning of a match, in all and of one line.
+constexpr std::size_t most_pairs = 100000, most_alike = 1000;
+
+// Of the tolerance: shorter lines begin no match, where nearly any direction fits.
+constexpr double least_seed = 3;
+
+class PartSearch {
+ public:
+  PartSearch(const FeatureLines& graph, double tolerance)
+      : graph_(graph),
+        tolerance_(tolerance),
+        taken_(graph.lines.size(), 0),
+        tried_(graph.lines.size(), 0),
+        matching_(graph, tolerance, taken_) {
+    for (std::size_t k = 0; k < graph.lines.size(); ++k) {
+      const FeatureLine& line = graph.lines[k];
+      if (line.start != line.end && line.length > least_seed * tolerance)
+        by_length_.push_back(static_cast<Index>(k));
+    }
+    std::stable_sort(by_length_.begin(), by_length_.end(), [&](Index a, Index b) {
+      return graph.lines[a].length < graph.lines[b].length;
+    });
+    // What is long and recurs often begins.
+    std::vector<double> potential(graph.lines.size(), 0);
+    for (const Index line : by_length_)
+      potential[line] = graph.lines[line].length * static_cast<double>(alike(line).size() - 1);
+    seeds_ = by_length_;
+    constexpr double rounding = 1e-6;
+    std::stable_sort(seeds_.begin(), seeds_.end(), [&](Index a, Index b) {
+      return std::round(potential[a] / rounding / tolerance) >
+             std::round(potential[b] / rounding / tolerance);
+    });
+  }
+
+  std::vector<RecurringPart> run(Index count, const Context& context) {
+    std::vector<RecurringPart> parts;
+    while (static_cast<Index>(parts.size()) < count) {
+      seed(context);
+      const auto best = std::max_element(
+          candidates_.begin(), candidates_.end(),
+          [](const RecurringPart& a, const RecurringPart& b) { return a.saved() < b.saved(); });
+      if (best == candidates_.end()) break;
+      parts.push_back(*best);
+      for (const RecurringPart::Instance& instance : parts.back().instances)
+        for (const Index line : instance.lines) taken_[line] = 1;
+      drop_taken();
+    }
+    return parts;
+  }
+
+ private:
+  // Lines that may be images of this one.
+  std::vector<Index> alike(Index line) const {
+    const FeatureLine& own = graph_.lines[line];
+    const auto from = std::lower_bound(
+        by_length_.begin(), by_length_.end(), own.length - 2 * tolerance_,
+        [&](Index other, double length) { return graph_.lines[other].length < length; });
+    std::vector<Index> found;
+    for (auto other = from; other != by_length_.end(); ++other) {
+      if (graph_.lines[*other].length > own.length + 2 * tolerance_ || found.size() == most_alike)
+        break;
+      if (!taken_[*other] && graph_.lines[*other].wings.size() == own.wings.size())
+        found.push_back(*other);
+    }
+    return found;
+  }
+
+  // Begins with each line that is in no candidate yet.
+  void seed(const Context& context) {
+    for (const Index line : seeds_) {
+      if (taken_[line] || tried_[line]) continue;
+      context.check();
+      tried_[line] = 1;
+      const std::vector<Index> others = alike(line);
+      if (others.size() < 2 || pairs_ + others.size() > most_pairs) continue;
+      pairs_ += others.size();
+      RecurringPart part = seed_part(line, others, graph_, matching_, context);
+      if (part.instances.empty()) continue;
+      mark(part, 1);
+      candidates_.push_back(std::move(part));
+    }
+  }
+
+  void mark(const RecurringPart& part, char tried) {
+    for (const RecurringPart::Instance& instance : part.instances)
+      for (const Index line : instance.lines) tried_[line] = tried;
+  }
+
+  // Candidates that have lost lines go; what they had may begin again.
+  void drop_taken() {
+    const auto has_lost = [&](const RecurringPart& part) {
+      return std::any_of(part.instances.begin(), part.instances.end(),
+                         [&](const RecurringPart::Instance& instance) {
+                           return std::any_of(instance.lines.begin(), instance.lines.end(),
+                                              [&](Index line) { return taken_[line]; });
+                         });
+    };
+    const auto lost =
+        std::stable_partition(candidates_.begin(), candidates_.end(),
+                              [&](const RecurringPart& part) { return !has_lost(part); });
+    for (auto part = lost; part != candidates_.end(); ++part) mark(*part, 0);
+    candidates_.erase(lost, candidates_.end());
+    for (const RecurringPart& part : candidates_) mark(part, 1);
+  }
+
+  const FeatureLines& graph_;
+  double tolerance_;
+  std::vector<char> taken_, tried_;
+  LineMatching matching_;
+  std::vector<Index> by_length_, seeds_;
+  std::vector<RecurringPart> candidates_;
+  std::size_t pairs_ = 0;
+};
+
+}  // namespace
+
+std::vector<RecurringPart> part_search(const FeatureLines& graph, double tolerance, Index count,
+                                       const Context& context) {
+  std::vector<RecurringPart> parts = PartSearch(graph, tolerance).run(count, context);
+  for (RecurringPart& part : closed_line_parts(graph, tolerance, context))
+    parts.push_back(std::move(part));
+  parts = united(std::move(parts), graph, tolerance);
+  std::stable_sort(parts.begin(), parts.end(), [](const RecurringPart& a, const RecurringPart& b) {
+    return a.saved() > b.saved();
+  });
+  if (static_cast<Index>(parts.size()) > count) parts.resize(static_cast<std::size_t>(count));
+  return parts;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "symmetries/recurring/line_match.h"
+
+namespace symsurf {
+
+/// Lines that recur, and the maps to their instances.
+struct RecurringPart {
+  std::vector<Index> lines;  ///< of the first instance
+  struct Instance {
+    Eigen::Isometry3d map = Eigen::Isometry3d::Identity();  ///< from the first
+    std::vector<Index> lines;                               ///< the images, in the order of lines
+  };
+  std::vector<Instance> instances;  ///< the first by the identity
+  double length = 0;                ///< of the lines of one
+
+  /// What a description by one instance and maps to the others saves.
+  double saved() const { return length * static_cast<double>(instances.size() - 1); }
+};
+
+/// The part with this line that saves most; without instances where there is none. `alike`: the
+/// lines that it may be taken to, itself among them. No line is in two instances.
+RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
+                        const LineMatching& matching, const Context& context);
+
+}  // namespace symsurf
