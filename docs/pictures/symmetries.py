@@ -15,6 +15,7 @@ from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 from accuracy.limbed import BODIES, posed
+from accuracy.repeated import facade
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "python"))
 from shapes import head, vertebra
@@ -57,6 +58,12 @@ def main(folder):
         symsurf.partial_symmetries(twins_and_another()),
         folder / "partial_symmetries.png",
         (0, -0.3, 1),
+    )
+    points, faces, _ = facade(4, 6, np.random.default_rng(0), cells=4)
+    write(
+        symsurf.recurring_parts(points, faces=faces),
+        folder / "recurring_parts.png",
+        (0.3, 0.25, 1),
     )
     write(symsurf.symmetry_embedding(cube()), folder / "symmetry_embedding.png", above)
     body = BODIES["animal"]

@@ -95,7 +95,8 @@ def gear(
         steps = _divided([0, 1], cells, rng)
         at = corner + steps[:, None] * (after - corner)
         outline.append(at[:-1])
-        tooth += [k // 4] * (len(at) - 1) if k % 4 < 3 else [k // 4] + [-1] * (len(at) - 2)
+        inside = [k // 4 if k % 4 < 3 else -1] * (len(at) - 2)
+        tooth += [k // 4 if k % 4 in (1, 2) else -1, *inside]
         at[-1] = after
 
         def wall(u: Line, v: Line, at: Line = at, steps: Line = steps) -> tuple[Line, Line, Line]:

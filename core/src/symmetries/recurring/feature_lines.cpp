@@ -146,7 +146,8 @@ class LineExtraction {
     for (int step = 0; step < FeatureLine::steps; ++step) {
       const double at = line.length * step / FeatureLine::steps;
       while (k + 1 < places.size() && reached[k] < at) ++k;
-      const double share = (at - reached[k - 1]) / (reached[k] - reached[k - 1]);
+      const double edge = reached[k] - reached[k - 1];
+      const double share = edge > 0 ? (at - reached[k - 1]) / edge : 0;
       line.samples[step] = (1 - share) * position(places[k - 1]) + share * position(places[k]);
       if (step == FeatureLine::steps / 2) line.wings = edges_[edges[k - 1]].wings;
     }

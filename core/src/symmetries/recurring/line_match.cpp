@@ -15,7 +15,7 @@ namespace {
 constexpr double same_wing = 0.966;
 
 // Of its length, how far a short line may be off.
-constexpr double of_length = 0.15;
+constexpr double of_length = 0.1;
 
 Vector3 sample(const FeatureLine& line, const Vector3& end, int step, bool reversed) {
   if (!reversed) return line.samples[step];

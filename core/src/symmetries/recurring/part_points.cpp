@@ -114,6 +114,22 @@ PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
       found.instance[i] = owner.instance;
     }
   });
+  for (const RecurringPart& part : parts) {
+    found.members.emplace_back();
+    for (const RecurringPart::Instance& instance : part.instances) {
+      std::vector<Index>& members = found.members.back().emplace_back();
+      for (const Index line : instance.lines)
+        members.insert(members.end(), graph.lines[line].points.begin(),
+                       graph.lines[line].points.end());
+    }
+  }
+  for (Index i = 0; i < count; ++i)
+    if (found.part[i] >= 0) found.members[found.part[i]][found.instance[i]].push_back(i);
+  for (std::vector<std::vector<Index>>& part : found.members)
+    for (std::vector<Index>& members : part) {
+      std::sort(members.begin(), members.end());
+      members.erase(std::unique(members.begin(), members.end()), members.end());
+    }
   return found;
 }
 

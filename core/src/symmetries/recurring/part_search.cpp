@@ -11,8 +11,9 @@ namespace symsurf {
 
 namespace {
 
-// Pairs of lines that are tried as the beginning of a match, in all and of one line.
-constexpr std::size_t most_pairs = 100000, most_alike = 1000;
+// Pairs of lines that are tried as the beginning of a match, in all and of one line. To walk over
+// so many lines takes as long as a pair.
+constexpr std::size_t most_pairs = 30000, most_alike = 1000, lines_a_pair = 100;
 
 // Of the tolerance: shorter lines begin no match, where nearly any direction fits.
 constexpr double least_seed = 3;
@@ -33,6 +34,7 @@ class PartSearch {
     std::stable_sort(by_length_.begin(), by_length_.end(), [&](Index a, Index b) {
       return graph.lines[a].length < graph.lines[b].length;
     });
+    count_connected();
     // What is long and recurs often begins.
     std::vector<double> potential(graph.lines.size(), 0);
     for (const Index line : by_length_)
@@ -49,9 +51,7 @@ class PartSearch {
     std::vector<RecurringPart> parts;
     while (static_cast<Index>(parts.size()) < count) {
       seed(context);
-      const auto best = std::max_element(
-          candidates_.begin(), candidates_.end(),
-          [](const RecurringPart& a, const RecurringPart& b) { return a.saved() < b.saved(); });
+      const auto best = best_part(candidates_);
       if (best == candidates_.end()) break;
       parts.push_back(*best);
       for (const RecurringPart::Instance& instance : parts.back().instances)
@@ -78,6 +78,24 @@ class PartSearch {
     return found;
   }
 
+  // Of each line how many are connected with it.
+  void count_connected() {
+    connected_.assign(graph_.lines.size(), 0);
+    for (const Index seed : by_length_) {
+      if (connected_[seed] > 0) continue;
+      std::vector<Index> all{seed};
+      connected_[seed] = 1;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        for (const Index corner : {graph_.lines[all[k]].start, graph_.lines[all[k]].end})
+          for (const Index next : graph_.at[corner])
+            if (connected_[next] == 0) {
+              connected_[next] = 1;
+              all.push_back(next);
+            }
+      for (const Index line : all) connected_[line] = all.size();
+    }
+  }
+
   // Begins with each line that is in no candidate yet.
   void seed(const Context& context) {
     for (const Index line : seeds_) {
@@ -85,8 +103,9 @@ class PartSearch {
       context.check();
       tried_[line] = 1;
       const std::vector<Index> others = alike(line);
-      if (others.size() < 2 || pairs_ + others.size() > most_pairs) continue;
-      pairs_ += others.size();
+      const std::size_t cost = others.size() + connected_[line] / lines_a_pair;
+      if (others.size() < 2 || pairs_ + cost > most_pairs) continue;
+      pairs_ += cost;
       RecurringPart part = seed_part(line, others, graph_, matching_, context);
       if (part.instances.empty()) continue;
       mark(part, 1);
@@ -122,6 +141,7 @@ class PartSearch {
   LineMatching matching_;
   std::vector<Index> by_length_, seeds_;
   std::vector<RecurringPart> candidates_;
+  std::vector<std::size_t> connected_;
   std::size_t pairs_ = 0;
 };
 

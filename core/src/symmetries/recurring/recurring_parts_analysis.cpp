@@ -10,8 +10,9 @@ namespace symsurf {
 
 namespace {
 
-// Radians: what a fitted map may miss the symmetry by that it is named after.
-constexpr double named_angle = 0.02;
+// Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
+// after.
+constexpr double named_angle = 0.02, named_share = 0.1;
 
 Matrix4 in_units_of(const Cloud& cloud, const Eigen::Isometry3d& map) {
   Matrix4 input = Matrix4::Identity();
@@ -44,37 +45,31 @@ void run_recurring_parts(const Cloud& cloud, const ParameterValues& values, cons
 
   const Index count = cloud.points.size();
   Eigen::VectorXd part(count), instance(count);
-  std::vector<std::vector<std::vector<Index>>> members;
-  for (const RecurringPart& each : parts) members.emplace_back(each.instances.size());
   for (Index i = 0; i < count; ++i) {
     part[i] = static_cast<double>(points.part[i]);
     instance[i] = static_cast<double>(points.instance[i]);
-    if (points.part[i] >= 0) members[points.part[i]][points.instance[i]].push_back(i);
   }
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t k = 0; k < parts[p].instances.size(); ++k) {
-      // A corner may be one of two instances: it is of both, though it counts for one.
-      std::vector<Index>& own = members[p][k];
-      for (const Index line : parts[p].instances[k].lines)
-        own.insert(own.end(), graph.lines[line].points.begin(), graph.lines[line].points.end());
-      std::sort(own.begin(), own.end());
-      own.erase(std::unique(own.begin(), own.end()), own.end());
-    }
-  for (std::size_t p = 0; p < parts.size(); ++p)
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Vector3 middle =
+        cloud.points.matrix()(points.members[p][0], Eigen::indexing::all).colwise().mean();
     for (std::size_t k = 0; k < parts[p].instances.size(); ++k) {
       Transformation transformation;
       transformation.matrix = in_units_of(cloud, parts[p].instances[k].map);
-      transformation.kind = kind_of(transformation.matrix, cloud.frame.centroid, named_angle,
-                                    tolerance * cloud.diagonal);
+      const Vector3 moved = (transformation.matrix * middle.homogeneous()).head<3>() - middle;
+      // But the first none is the identity, however little it moves.
+      transformation.kind =
+          k == 0 ? "identity"
+                 : kind_of(transformation.matrix, middle, named_angle,
+                           std::min(tolerance * cloud.diagonal, named_share * moved.norm()));
       transformation.score = points.scores[p][k];
-      transformation.from = members[p][0];
-      transformation.onto = members[p][k];
+      transformation.from = points.members[p][0];
+      transformation.onto = points.members[p][k];
       result.transformations.push_back(std::move(transformation));
     }
+  }
   result.arrays = {{"part", part}, {"instance", instance}};
   result.statistics["parts"] = static_cast<Index>(parts.size());
-  result.statistics["instances"] =
-      parts.empty() ? Index{0} : static_cast<Index>(parts[0].instances.size());
+  result.statistics["instances"] = static_cast<Index>(result.transformations.size());
   result.statistics["feature_lines"] = static_cast<Index>(graph.lines.size());
 }
 

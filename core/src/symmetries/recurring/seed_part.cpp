@@ -13,9 +13,13 @@ namespace symsurf {
 
 namespace {
 
-// Lines that make up a part; of a sector of a ring, whose neighbours touch it, more: the sides of
-// a prism or cube are none.
-constexpr std::size_t least_lines = 3, least_lines_of_sector = 5;
+// Lines that make up a part; where other lines go on from it more: the sides of a prism or cube are
+// none.
+constexpr std::size_t least_lines = 3, least_lines_of_piece = 5;
+
+// Of what the best candidate saves: another, that is a whole or has
+// more instances, comes before it down to this.
+constexpr double nearly_best = 0.75;
 
 // Radians: turns that are one.
 constexpr double same_turn = 0.02;
@@ -47,8 +51,11 @@ class PartOfSeed {
       return (match.map.linear() - Matrix3::Identity()).norm() < same_turn;
     });
     // A whole that recurs is a part, and no ring of its sectors.
-    if (best_.lines.size() < lines_.size()) consider_ring();
-    return std::move(best_);
+    if (std::none_of(candidates_.begin(), candidates_.end(),
+                     [&](const RecurringPart& part) { return part.lines.size() == lines_.size(); }))
+      consider_ring();
+    const auto best = best_part(candidates_);
+    return best == candidates_.end() ? RecurringPart() : std::move(*best);
   }
 
  private:
@@ -72,7 +79,6 @@ class PartOfSeed {
           const auto match = matching.grown(seed_, other, {reversed, reflected});
           if (match && match->lines.size() >= least_lines) add(*match);
         }
-    // The plainest come first; of those all that holds most is kept in order_.
     std::vector<double> plainness;
     for (const LocalMatch& match : matches_)
       plainness.push_back(LineMatch{match.map, {}}.plainness());
@@ -140,8 +146,8 @@ class PartOfSeed {
                    return match->images[line] >= 0;
                  });
                }),
-               least_lines, matches_);
-      consider(shared(level, 0, graph_.lines[seed_].middle()), least_lines, matches_);
+               matches_);
+      consider(shared(level, 0, graph_.lines[seed_].middle()), matches_);
     }
   }
 
@@ -219,7 +225,7 @@ class PartOfSeed {
     const Vector3 tip = middle(start);
     consider(
         shared(powers, static_cast<std::int32_t>(start), tip + aside * (ring[1].map * tip - tip)),
-        least_lines_of_sector, ring);
+        ring);
   }
 
   // First one map, then the other.
@@ -233,10 +239,11 @@ class PartOfSeed {
   }
 
   // A part of these lines: as many instances as do not share a line, of maps in their order.
-  void consider(const std::vector<std::int32_t>& part, std::size_t least,
-                const std::vector<LocalMatch>& maps) {
-    if (part.size() < least) return;
+  void consider(const std::vector<std::int32_t>& part, const std::vector<LocalMatch>& maps) {
+    const bool is_whole = part.size() == lines_.size();
+    if (part.size() < (is_whole ? least_lines : least_lines_of_piece)) return;
     RecurringPart found;
+    found.is_whole = is_whole;
     std::vector<char> claimed(graph_.lines.size(), 0);
     for (const LocalMatch& match : maps) {
       RecurringPart::Instance instance{match.map, {}};
@@ -254,19 +261,20 @@ class PartOfSeed {
       found.length += graph_.lines[lines_[line]].length;
     }
     // A pair is one only as a whole: of two halves of a body all lines go on to the other.
-    if (found.instances.size() < 2 ||
-        (found.instances.size() == 2 && part.size() < lines_.size()) || is_halved(found))
-      return;
-    constexpr double more = 1 + 1e-9;
-    if (best_.instances.empty() || found.saved() > more * best_.saved()) best_ = std::move(found);
+    const std::size_t least = is_whole ? 2 : 3;
+    if (found.instances.size() >= least && !is_halved(found))
+      candidates_.push_back(std::move(found));
   }
 
-  // Whether a reflection or half-turn takes the first instance to one that it touches: these are
-  // halves of a part that is symmetric.
+  // Whether a reflection or half-turn takes the first instance to one that it touches, or that a
+  // line joins it to: these are halves of a part that is symmetric.
   bool is_halved(const RecurringPart& part) const {
     std::unordered_set<Index> own;
     for (const Index line : part.lines)
-      own.insert({graph_.lines[line].start, graph_.lines[line].end});
+      for (const Index corner : {graph_.lines[line].start, graph_.lines[line].end})
+        if (corner >= 0)
+          for (const Index next : graph_.at[corner])
+            own.insert({graph_.lines[next].start, graph_.lines[next].end});
     return std::any_of(
         part.instances.begin() + 1, part.instances.end(),
         [&](const RecurringPart::Instance& instance) {
@@ -285,10 +293,26 @@ class PartOfSeed {
   std::vector<std::int32_t> local_;  // of each line; -1: not connected with the seed
   std::vector<Index> lines_;         // of each local one
   std::vector<LocalMatch> matches_;  // the identity first
-  RecurringPart best_;
+  std::vector<RecurringPart> candidates_;
 };
 
 }  // namespace
+
+std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts) {
+  double most = 0;
+  for (const RecurringPart& part : parts) most = std::max(most, part.saved());
+  const auto comes_before = [](const RecurringPart& a, const RecurringPart& b) {
+    constexpr double more = 1 + 1e-9;
+    if (a.is_whole != b.is_whole) return a.is_whole;
+    if (a.instances.size() != b.instances.size()) return a.instances.size() > b.instances.size();
+    return a.saved() > more * b.saved();
+  };
+  auto best = parts.end();
+  for (auto part = parts.begin(); part != parts.end(); ++part)
+    if (part->saved() >= nearly_best * most && (best == parts.end() || comes_before(*part, *best)))
+      best = part;
+  return best;
+}
 
 RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
                         const LineMatching& matching, const Context& context) {
