@@ -16,7 +16,8 @@ namespace {
 // Of the length of a line: how far beside it the surface is compared.
 constexpr double beside = 0.1;
 
-// The box along the principal axes of the lines of a part.
+// The smallest of the boxes around the lines of a part that lie along one of them and a face
+// beside it, or along the principal axes.
 class PartBox {
  public:
   PartBox(const std::vector<Index>& lines, const FeatureLines& graph, double margin) {
@@ -29,10 +30,29 @@ class PartBox {
     Points rows = rows_of(points);
     const Eigen::RowVector3d centre = rows.colwise().mean();
     rows.rowwise() -= centre;
-    axes_ = eigen_of_scatter(rows).vectors;
-    for (const Vector3& x : points) box_.extend(axes_.transpose() * x);
-    box_.min().array() -= margin;
-    box_.max().array() += margin;
+    double least = infinity;
+    const auto try_axes = [&](const Matrix3& axes) {
+      Eigen::AlignedBox3d box;
+      for (const Vector3& x : points) box.extend(axes.transpose() * x);
+      box.min().array() -= margin;
+      box.max().array() += margin;
+      constexpr double less = 1 - 1e-6;
+      if (box.volume() >= less * least) return;
+      least = box.volume();
+      axes_ = axes;
+      box_ = box;
+    };
+    try_axes(eigen_of_scatter(rows).vectors);
+    constexpr std::size_t most = 50;
+    for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) {
+      const FeatureLine& own = graph.lines[lines[k]];
+      if (!own.has_ends() || own.start == own.end) continue;
+      Matrix3 axes;
+      axes.col(0) = (graph.corners[own.end] - graph.corners[own.start]).normalized();
+      axes.col(2) = axes.col(0).cross(own.wings.front()).normalized();
+      axes.col(1) = axes.col(2).cross(axes.col(0));
+      if (axes.isUnitary(1e-6)) try_axes(axes);
+    }
   }
 
   bool holds(const Vector3& x) const { return box_.contains(Vector3(axes_.transpose() * x)); }
@@ -42,14 +62,18 @@ class PartBox {
   Eigen::AlignedBox3d box_;
 };
 
-// Points of the surface on the lines and close beside them.
-std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& graph) {
+// Points of the surface on the lines and close beside them, where it goes on so far.
+std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& graph,
+                           const ClosestPointOnMesh& closest, double tolerance) {
+  constexpr double on_it = 0.1;  // of the tolerance
   std::vector<Vector3> points;
   for (const Index line : lines) {
     const FeatureLine& own = graph.lines[line];
     points.insert(points.end(), own.samples.begin(), own.samples.end());
-    for (const Vector3& wing : own.wings)
-      points.push_back(own.middle() + beside * own.length * wing);
+    for (const Vector3& wing : own.wings) {
+      const Vector3 x = own.middle() + beside * own.length * wing;
+      if (closest(x, on_it * tolerance * on_it * tolerance).face >= 0) points.push_back(x);
+    }
   }
   return points;
 }
@@ -73,7 +97,7 @@ PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
   const ClosestPointOnMesh closest(cloud.points, cloud.faces, context.stage(0, 0.4));
   for (std::size_t p = 0; p < parts.size(); ++p) {
     boxes.emplace_back(parts[p].lines, graph, tolerance);
-    const std::vector<Vector3> surface = about(parts[p].lines, graph);
+    const std::vector<Vector3> surface = about(parts[p].lines, graph, closest, tolerance);
     std::vector<double> scores;
     for (std::size_t i = 0; i < parts[p].instances.size(); ++i) {
       const RecurringPart::Instance& instance = parts[p].instances[i];

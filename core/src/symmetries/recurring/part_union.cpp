@@ -16,10 +16,12 @@ constexpr double nearby = 1.5;
 // into the two halves of a wall.
 constexpr double most_of_saved = 0.9;
 
+// The same in whichever direction the line is followed.
 Vector3 middle_of(const FeatureLine& line) {
+  const int first = line.has_ends() ? 1 : 0;
   Vector3 sum = Vector3::Zero();
-  for (const Vector3& x : line.samples) sum += x / FeatureLine::steps;
-  return sum;
+  for (int step = first; step < FeatureLine::steps; ++step) sum += line.samples[step];
+  return sum / (FeatureLine::steps - first);
 }
 
 Vector3 centre_of(const std::vector<Index>& lines, const FeatureLines& graph) {
@@ -51,14 +53,19 @@ std::optional<std::vector<Index>> images(const Eigen::Isometry3d& map,
   for (const Index line : lines) {
     const FeatureLine& own = graph.lines[line];
     const Vector3 middle = map * middle_of(own);
-    std::size_t k = 0;
-    while (k < among.size() &&
-           (used[k] || std::abs(graph.lines[among[k]].length - own.length) > 2 * tolerance ||
-            (middle_of(graph.lines[among[k]]) - middle).norm() > 2 * tolerance))
-      ++k;
-    if (k == among.size()) return {};
-    used[k] = 1;
-    found.push_back(among[k]);
+    std::size_t nearest = among.size();
+    double least = 2 * tolerance;
+    for (std::size_t k = 0; k < among.size(); ++k) {
+      const FeatureLine& other = graph.lines[among[k]];
+      const double distance = (middle_of(other) - middle).norm();
+      if (used[k] || std::abs(other.length - own.length) > 2 * tolerance || distance >= least)
+        continue;
+      least = distance;
+      nearest = k;
+    }
+    if (nearest == among.size()) return {};
+    used[nearest] = 1;
+    found.push_back(among[nearest]);
   }
   return found;
 }

@@ -9,6 +9,8 @@
 #include <queue>
 #include <unordered_set>
 
+#include "base/math.h"
+
 namespace symsurf {
 
 namespace {
@@ -209,23 +211,45 @@ class PartOfSeed {
     if (ring.empty()) return;
     std::vector<const LocalMatch*> powers;
     for (const LocalMatch& power : ring) powers.push_back(&power);
-    // A sector begins with what stands out farthest from the axis, as the tip of a tooth does. Of
-    // what lies as near on both of its sides, that on the same one is taken.
+    // A sector begins with what stands out from the axis, as the tip of a tooth does: with what
+    // gives the most compact one.
     const auto middle = [&](std::size_t line) { return graph_.lines[lines_[line]].middle(); };
-    std::size_t start = 0;
-    double farthest = -1;
+    const auto chord = [&](std::size_t line) {
+      return ring.front().images[line] < 0 ? 0 : (ring[1].map * middle(line) - middle(line)).norm();
+    };
+    double farthest = 0;
+    for (std::size_t line = 0; line < lines_.size(); ++line)
+      farthest = std::max(farthest, chord(line));
+    constexpr double stands_out = 0.9, less = 1 - 1e-6;
+    std::vector<char> seen(graph_.lines.size(), 0);
+    std::vector<std::int32_t> sector;
+    double least = infinity;
     for (std::size_t line = 0; line < lines_.size(); ++line) {
-      const double chord = (ring[1].map * middle(line) - middle(line)).norm();
-      constexpr double more = 1 + 1e-6;
-      if (ring.front().images[line] < 0 || chord <= more * farthest) continue;
-      farthest = chord;
-      start = line;
+      if (seen[lines_[line]] || chord(line) < stands_out * farthest) continue;
+      for (const LocalMatch& power : ring) seen[power.images[line]] = 1;
+      // Of what lies as near on both of its sides, that on the same one is taken.
+      constexpr double aside = 0.05;  // of the distance to the next sector
+      const Vector3 tip = middle(line);
+      std::vector<std::int32_t> own =
+          shared(powers, static_cast<std::int32_t>(line), tip + aside * (ring[1].map * tip - tip));
+      const double spread = spread_of(own);
+      if (own.size() < sector.size() || (own.size() == sector.size() && spread >= less * least))
+        continue;
+      least = spread;
+      sector = std::move(own);
     }
-    constexpr double aside = 0.05;  // of the distance to the next sector
-    const Vector3 tip = middle(start);
-    consider(
-        shared(powers, static_cast<std::int32_t>(start), tip + aside * (ring[1].map * tip - tip)),
-        ring);
+    consider(sector, ring);
+  }
+
+  // The mean squared distance of lines from their centre.
+  double spread_of(const std::vector<std::int32_t>& part) const {
+    Vector3 centre = Vector3::Zero();
+    for (const std::int32_t line : part) centre += graph_.lines[lines_[line]].middle();
+    centre /= static_cast<double>(part.size());
+    double sum = 0;
+    for (const std::int32_t line : part)
+      sum += (graph_.lines[lines_[line]].middle() - centre).squaredNorm();
+    return sum / static_cast<double>(part.size());
   }
 
   // First one map, then the other.
