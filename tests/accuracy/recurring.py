@@ -31,7 +31,9 @@ def _trial(subject: str, rng: np.random.Generator, noise: float) -> Figures:
     order = rng.permutation(len(points))
     position = np.argsort(order)
     start = time.process_time()
-    found = symsurf.recurring_parts(points[order], faces=position[rng.permutation(faces)], threads=1)
+    found = symsurf.recurring_parts(
+        points[order], faces=position[rng.permutation(faces)], threads=1
+    )
     seconds = time.process_time() - start
     return {
         "found": float(_is_right(found, label[order])),

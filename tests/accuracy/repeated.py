@@ -4,6 +4,7 @@ Their triangulation is irregular, so that no two instances have the same triangl
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,9 +42,11 @@ def facade(
     ]
     surface = _Patches(rng)
     low, high = (lines_x[0], lines_y[0]), (lines_x[-1], lines_y[-1])
-    for x0, x1 in zip(lines_x[:-1], lines_x[1:]):
-        for y0, y1 in zip(lines_y[:-1], lines_y[1:]):
-            if not any(a <= x0 and x1 <= b and c <= y0 and y1 <= d for (a, b), (c, d) in [*recesses, door]):
+    for x0, x1 in pairwise(lines_x):
+        for y0, y1 in pairwise(lines_y):
+            if not any(
+                a <= x0 and x1 <= b and c <= y0 and y1 <= d for (a, b), (c, d) in [*recesses, door]
+            ):
                 surface.add([x0, x1], [y0, y1], lambda u, v: (u, v, 0 * u))
     whole = lines_x, lines_y
     surface.add(*whole, lambda u, v: (u, v, 0 * u - 1.5))
@@ -136,7 +139,7 @@ def _divided(lines: ArrayLike, cells: int, rng: np.random.Generator) -> Line:
     """With lines between them, at random places."""
     lines = np.asarray(lines, dtype=float)
     found = [lines[:1]]
-    for a, b in zip(lines[:-1], lines[1:]):
+    for a, b in pairwise(lines):
         count = rng.integers(max(1, cells - 1), cells + 2)
         shares = np.arange(1, count) + rng.uniform(-0.25, 0.25, size=count - 1)
         found += [a + (b - a) * shares / count, [b]]
@@ -148,7 +151,12 @@ def _between(lines: Line, low: float, high: float) -> Line:
 
 
 def _tunnel(
-    surface: _Patches, low: tuple[float, float], high: tuple[float, float], xs: Line, ys: Line, zs: Line
+    surface: _Patches,
+    low: tuple[float, float],
+    high: tuple[float, float],
+    xs: Line,
+    ys: Line,
+    zs: Line,
 ) -> None:
     """The four walls from one end of ``zs`` to the other."""
     for x in (low[0], high[0]):
