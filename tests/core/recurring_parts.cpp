@@ -70,9 +70,11 @@ Triangles faces_of(Index points) {
   return faces;
 }
 
-AnalysisResult recurring_parts(const Points& points, const Context& context = {}) {
+AnalysisResult recurring_parts(const Points& points, const Context& context = {},
+                               double tolerance = 0.002) {
   const Triangles faces = faces_of(points.rows());
   AnalysisOptions options;
+  options.parameters["tolerance"] = tolerance;
   options.faces = faces;
   return analyse("recurring_parts", points, options, context);
 }
@@ -218,8 +220,8 @@ TEST(RecurringParts, AreTheTeethOfAGear) {
 Soup tetrahedron(RandomCloud& random) {
   std::vector<Vector3> x;
   for (const Vector3& corner :
-       {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)})
-    x.push_back(corner + 0.3 * random.in_box());
+       {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1.5, 0), Vector3(0, 0, 2)})
+    x.push_back(corner + 0.1 * random.in_box());
   Soup soup(random);
   for (int k = 0; k < 4; ++k) soup.add(x[k], x[(k + 1) % 4], x[(k + 2) % 4]);
   return soup;
@@ -234,10 +236,13 @@ TEST(RecurringParts, AreTurnedAndReflectedCopiesAmongOthers) {
     std::vector<Eigen::Affine3d> maps;
     for (int k = 0; k < 5; ++k) {
       maps.push_back(random_motion(random, k % 2));
+      maps.back().translation() = Vector3(6 * k, 0, 0);
       scene.add(one, maps.back());
-      scene.add(tetrahedron(random), random_motion(random, false));
+      Eigen::Affine3d apart = random_motion(random, false);
+      apart.translation() = Vector3(6 * k, 6, 0);
+      scene.add(tetrahedron(random), apart);
     }
-    const AnalysisResult result = recurring_parts(scene.points());
+    const AnalysisResult result = recurring_parts(scene.points(), {}, 2e-4);
     ASSERT_EQ(result.transformations.size(), 5u);
     for (const Transformation& found : result.transformations) {
       // From the one that happens to come first.
