@@ -82,9 +82,10 @@ def gear(
     teeth: int, rng: np.random.Generator, cells: int = 2, hole: bool = True
 ) -> tuple[Points, NDArray[np.int64], NDArray[np.int64]]:
     """A spur gear with straight flanks and a round hole: points, faces and the tooth that each
-    point is of (n,), -1 where it is on none, or between two."""
-    depth, thickness = rng.uniform(0.15, 0.3), rng.uniform(0.2, 0.6)
-    root, tip = rng.uniform(0.3, 0.45), rng.uniform(0.2, 0.35)
+    point is of (n,), -1 where it is on none, or between two. The outline bends by more than 30
+    degrees at the foot of each flank."""
+    depth, thickness = rng.uniform(0.2, 0.3), rng.uniform(0.2, 0.6)
+    root, tip = rng.uniform(0.35, 0.45), rng.uniform(0.3, 0.4)
     slope = (1 - root - tip) / 2
     phases = np.array([0, slope, slope + tip, 2 * slope + tip])
     angle = 2 * np.pi * (np.arange(teeth)[:, None] + phases).ravel() / teeth

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "symmetries/recurring/closed_lines.h"
 #include "symmetries/recurring/part_union.h"
@@ -11,9 +11,9 @@ namespace symsurf {
 
 namespace {
 
-// Pairs of lines that are tried as the beginning of a match, in all and of one line. To walk over
-// so many lines takes as long as a pair.
-constexpr std::size_t most_pairs = 30000, most_alike = 1000, lines_a_pair = 100;
+// Lines that one is compared with, and what all comparisons may cost: a pair of lines that few are
+// connected with costs 1, of those that many are more. To walk over so few lines costs as much.
+constexpr std::size_t most_alike = 20000, most_cost = 100000, many = 100, few = 25;
 
 // Of the tolerance: shorter lines begin no match, where nearly any direction fits.
 constexpr double least_seed = 3;
@@ -38,7 +38,7 @@ class PartSearch {
     // What is long and recurs often begins.
     std::vector<double> potential(graph.lines.size(), 0);
     for (const Index line : by_length_)
-      potential[line] = graph.lines[line].length * static_cast<double>(alike(line).size() - 1);
+      potential[line] = graph.lines[line].length * static_cast<double>(as_long(line).size());
     seeds_ = by_length_;
     constexpr double rounding = 1e-6;
     std::stable_sort(seeds_.begin(), seeds_.end(), [&](Index a, Index b) {
@@ -62,19 +62,22 @@ class PartSearch {
   }
 
  private:
+  // Those of by_length_ that are about as long as this one.
+  std::span<const Index> as_long(Index line) const {
+    const double length = graph_.lines[line].length;
+    const auto length_of = [&](Index other) { return graph_.lines[other].length; };
+    const auto from = std::ranges::lower_bound(by_length_, length - 2 * tolerance_, {}, length_of),
+               to = std::ranges::upper_bound(by_length_, length + 2 * tolerance_, {}, length_of);
+    return {from, to};
+  }
+
   // Lines that may be images of this one.
   std::vector<Index> alike(Index line) const {
-    const FeatureLine& own = graph_.lines[line];
-    const auto from = std::lower_bound(
-        by_length_.begin(), by_length_.end(), own.length - 2 * tolerance_,
-        [&](Index other, double length) { return graph_.lines[other].length < length; });
     std::vector<Index> found;
-    for (auto other = from; other != by_length_.end(); ++other) {
-      if (graph_.lines[*other].length > own.length + 2 * tolerance_ || found.size() == most_alike)
-        break;
-      if (!taken_[*other] && graph_.lines[*other].wings.size() == own.wings.size())
-        found.push_back(*other);
-    }
+    for (const Index other : as_long(line))
+      if (found.size() < most_alike && !taken_[other] &&
+          graph_.lines[other].wings.size() == graph_.lines[line].wings.size())
+        found.push_back(other);
     return found;
   }
 
@@ -103,9 +106,10 @@ class PartSearch {
       context.check();
       tried_[line] = 1;
       const std::vector<Index> others = alike(line);
-      const std::size_t cost = others.size() + connected_[line] / lines_a_pair;
-      if (others.size() < 2 || pairs_ + cost > most_pairs) continue;
-      pairs_ += cost;
+      const std::size_t around = std::min(connected_[line], many);
+      const std::size_t cost = others.size() * (1 + around / few) + connected_[line] / few;
+      if (others.size() < 2 || cost_ + cost > most_cost) continue;
+      cost_ += cost;
       RecurringPart part = seed_part(line, others, graph_, matching_, context);
       if (part.instances.empty()) continue;
       mark(part, 1);
@@ -142,7 +146,7 @@ class PartSearch {
   std::vector<Index> by_length_, seeds_;
   std::vector<RecurringPart> candidates_;
   std::vector<std::size_t> connected_;
-  std::size_t pairs_ = 0;
+  std::size_t cost_ = 0;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <queue>
@@ -214,18 +213,23 @@ class PartOfSeed {
     // A sector begins with what stands out from the axis, as the tip of a tooth does: with what
     // gives the most compact one.
     const auto middle = [&](std::size_t line) { return graph_.lines[lines_[line]].middle(); };
+    const auto is_in_ring = [&](std::size_t line) { return ring.front().images[line] >= 0; };
     const auto chord = [&](std::size_t line) {
-      return ring.front().images[line] < 0 ? 0 : (ring[1].map * middle(line) - middle(line)).norm();
+      return (ring[1].map * middle(line) - middle(line)).norm();
     };
-    double farthest = 0;
+    double farthest = 0, nearest = infinity;
     for (std::size_t line = 0; line < lines_.size(); ++line)
-      farthest = std::max(farthest, chord(line));
-    constexpr double stands_out = 0.9, less = 1 - 1e-6;
+      if (is_in_ring(line)) {
+        farthest = std::max(farthest, chord(line));
+        nearest = std::min(nearest, chord(line));
+      }
+    constexpr double stands_out = 0.75, less = 1 - 1e-6;
+    const double far = nearest + stands_out * (farthest - nearest);
     std::vector<char> seen(graph_.lines.size(), 0);
     std::vector<std::int32_t> sector;
     double least = infinity;
     for (std::size_t line = 0; line < lines_.size(); ++line) {
-      if (seen[lines_[line]] || chord(line) < stands_out * farthest) continue;
+      if (!is_in_ring(line) || seen[lines_[line]] || chord(line) < far) continue;
       for (const LocalMatch& power : ring) seen[power.images[line]] = 1;
       // Of what lies as near on both of its sides, that on the same one is taken.
       constexpr double aside = 0.05;  // of the distance to the next sector
