@@ -13,7 +13,7 @@ namespace {
 
 // Lines that one is compared with, and what all comparisons may cost: a pair of lines that few are
 // connected with costs 1, of those that many are more. To walk over so few lines costs as much.
-constexpr std::size_t most_alike = 20000, most_cost = 100000, many = 100, few = 25;
+constexpr std::size_t most_alike = 20000, most_cost = 40000, many = 100, few = 25;
 
 // Of the tolerance: shorter lines begin no match, where nearly any direction fits.
 constexpr double least_seed = 3;
