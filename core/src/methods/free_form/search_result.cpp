@@ -16,10 +16,12 @@ namespace {
 // other than `close` are no pair for that. In diagonals, and in spacings where these are longer.
 constexpr double beyond = 0.05, close = 0.03, sparse = 3;
 
-// Where partners are exact they agree about each other, and a point as near to its own image as
-// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the surface may
-// end before it reaches the middle between two.
-void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
+// Where partners are exact they agree about each other, or lie on the image: beside a crease the
+// nearest part of the mirror is another for the partner. A point as near to its own image as others
+// to theirs lies on the mirror. Where partners are not exact no point is its own, and the surface
+// may end before it reaches the middle between two.
+void drop_false_pairs(Result& result, const Cloud& cloud, bool exact, double spacing) {
+  constexpr double on_image = 0.15;  // spacings
   constexpr double as_near = 2, rounding = 1e-9;
   if (result.pairs.rows() == 0) return;
   const std::vector<double> residuals(result.residuals.begin(), result.residuals.end());
@@ -31,7 +33,9 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
   std::vector<Index> kept;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
-    if ((j == i && result.residuals[row] > on_mirror) || (exact && partner[j] != i)) continue;
+    const double residual = result.residuals[row];
+    if (j == i && residual > on_mirror) continue;
+    if (exact && partner[j] != i && residual > on_image * spacing) continue;
     if (result.surface_points.row(row).allFinite()) kept.push_back(row);
   }
   keep_pairs(result, kept);
@@ -39,13 +43,13 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
 
 void pair_points(Result& result, const Cloud& cloud, PointTree tree, const SearchCloud& searched,
                  const GrownSurface& surface, double pair_distance, const Context& context) {
+  const double spacing = searched.spacing * searched.diagonal;
   // Farther off there are only mere neighbours.
-  const double limit = std::min(pair_distance * cloud.diagonal,
-                                reach(surface) * searched.spacing * searched.diagonal);
+  const double limit = std::min(pair_distance * cloud.diagonal, reach(surface) * spacing);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit, context.stage(0, 0.6));
   if (!surface.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.6, 1));
-  drop_false_pairs(result, cloud, surface.exact);
+  drop_false_pairs(result, cloud, surface.exact, spacing);
 }
 
 // How many of the points have a foot that is far from those of all pairs: the mirror goes on there
