@@ -14,7 +14,8 @@ import symsurf
 from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
-from accuracy.limbed import BODIES, posed
+from accuracy.limbed import BODIES
+from accuracy.posing import posed
 from accuracy.repeated import facade
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "python"))

@@ -84,7 +84,17 @@ class AnalysisResult(Summarised):
         axis has the order "continuous" in place of 0, a transformation "from" and "onto"."""
         return {
             "analysis": self.analysis,
-            **_elements_record(self),
+            "planes": [
+                {"normal": plane.normal.tolist(), "offset": plane.offset} for plane in self.planes
+            ],
+            "axes": [
+                {
+                    "point": axis.point.tolist(),
+                    "direction": axis.direction.tolist(),
+                    "order": axis.order or "continuous",
+                }
+                for axis in self.axes
+            ],
             "transformations": [
                 {
                     "kind": each.kind,
@@ -197,17 +207,16 @@ class Symmetries(AnalysisResult):
         )
 
     def to_json(self) -> dict[str, Any]:
-        """The group and its elements by name, in what ``json.dumps`` takes; an axis has the order
-        "continuous" in place of 0."""
+        """What every analysis gives, with the group, its centre, ``inversion``, ``elements`` as lists
+        of rows, ``score`` and ``missing`` by name, in what ``json.dumps`` takes."""
         return {
+            **super().to_json(),
             "group": self.group,
             "centre": self.centre.tolist(),
-            **_elements_record(self),
             "inversion": self.inversion,
             "elements": self.elements.tolist(),
             "score": self.score,
             "missing": self.missing,
-            "seconds": self.seconds,
         }
 
     def to_bop(self) -> dict[str, Any]:
@@ -341,19 +350,3 @@ RESULTS: dict[str, type[AnalysisResult]] = {
         IntrinsicSymmetry,
     )
 }
-
-
-def _elements_record(result: AnalysisResult) -> dict[str, Any]:
-    return {
-        "planes": [
-            {"normal": plane.normal.tolist(), "offset": plane.offset} for plane in result.planes
-        ],
-        "axes": [
-            {
-                "point": axis.point.tolist(),
-                "direction": axis.direction.tolist(),
-                "order": axis.order or "continuous",
-            }
-            for axis in result.axes
-        ],
-    }
