@@ -62,9 +62,9 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
                   vtkInformationVector* outputs, const OperationCall& call) {
   vtkPolyData* given = vtkPolyData::GetData(inputs[1]);
   return core_call(filter, [&] {
-    const auto shape = shape_of(filter, inputs);
-    const PointArray points = points_of(shape);
     const ControllerCommunicator processes(filter->GetController());
+    const auto shape = shape_of(filter, inputs, processes);
+    const PointArray points = points_of(shape);
     if (are_elsewhere(processes, points.view().size(), "an operation")) return;
     const TriangleArray faces(shape);
     const symsurf::OperationInput input{points.view(), faces.view(),

@@ -2,9 +2,11 @@
 
 #include <symsurf/errors.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "controller_communicator.h"
 #include "point_arrays.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCompositeDataIterator.h"
@@ -93,4 +95,21 @@ Shape shape_of(vtkShapeAlgorithm* filter, vtkDataObject* data) {
 
 vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationVector** inputs) {
   return shape_of(filter, vtkDataObject::GetData(inputs[0]));
+}
+
+vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationVector** inputs,
+                                      const ControllerCommunicator& processes) {
+  if (processes.size() == 1) return shape_of(filter, inputs);
+  Shape shape;
+  std::string problem;
+  try {
+    shape = shape_of(filter, inputs);
+  } catch (const symsurf::InvalidInput& error) {
+    problem = error.what();
+  }
+  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(problem))))
+    if (!theirs.empty())
+      throw symsurf::InvalidInput(
+          std::string(reinterpret_cast<const char*>(theirs.data()), theirs.size()));
+  return shape;
 }

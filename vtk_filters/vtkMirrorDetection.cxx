@@ -22,7 +22,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -161,22 +160,15 @@ void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCha
 
 }  // namespace
 
-vtkCxxSetObjectMacro(vtkMirrorDetection, Controller, vtkMultiProcessController);
-
-vtkMirrorDetection::vtkMirrorDetection() {
-  this->SetNumberOfOutputPorts(3);
-  this->SetController(vtkMultiProcessController::GetGlobalController());
-}
-
-vtkMirrorDetection::~vtkMirrorDetection() { this->SetController(nullptr); }
+vtkMirrorDetection::vtkMirrorDetection() { this->SetNumberOfOutputPorts(3); }
 
 int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                     vtkInformationVector* outputs) {
   return core_call(this, [&] {
-    const auto input = shape_of(this, inputs);
+    const ControllerCommunicator processes(this->Controller);
+    const auto input = shape_of(this, inputs, processes);
     const PointArray points = points_of(input);
     const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
-    const ControllerCommunicator processes(this->Controller);
     if (this->UseNormals) require_normals(processes, normals.view().size() < points.view().size());
     const symsurf::Index before = points_before(processes, points.view().size());
 
@@ -213,6 +205,4 @@ void vtkMirrorDetection::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
   os << indent << "ShowCandidates: " << (this->ShowCandidates ? "On" : "Off") << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "Controller: " << this->Controller << "\n";
 }

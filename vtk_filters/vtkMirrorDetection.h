@@ -38,8 +38,6 @@
 #include "vtkMirrorDetectionParameters.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
-class vtkMultiProcessController;
-
 class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionParameters {
  public:
   static vtkMirrorDetection* New();
@@ -95,26 +93,9 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   vtkGetMacro(Seed, unsigned int);
   ///@}
 
-  ///@{
-  /**
-   * Threads to use; 0: as many as the machine has. The results are the same for any number.
-   */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that share out the input; null, or one process: all of it is here. Initially the
-   * global controller.
-   */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
-  ///@}
-
  protected:
   vtkMirrorDetection();
-  ~vtkMirrorDetection() override;
+  ~vtkMirrorDetection() override = default;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -123,8 +104,6 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorDetection : public vtkMirrorDetectionPar
   bool RefuseNonfinite = false;
   bool ShowCandidates = false;
   unsigned int Seed = 0;
-  int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
 
  private:
   vtkMirrorDetection(const vtkMirrorDetection&) = delete;

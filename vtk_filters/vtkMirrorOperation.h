@@ -25,14 +25,12 @@
 
 #include <string>  // for the members
 
-#include "vtkShapeAlgorithm.h"
+#include "vtkSharedShapeAlgorithm.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
-class vtkMultiProcessController;
-
-class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkShapeAlgorithm {
+class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorithm {
  public:
-  vtkTypeMacro(vtkMirrorOperation, vtkShapeAlgorithm);
+  vtkTypeMacro(vtkMirrorOperation, vtkSharedShapeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -54,33 +52,14 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkShapeAlgorithm {
   vtkGetCharFromStdStringMacro(Method);
   ///@}
 
-  ///@{
-  /**
-   * Threads to use; 0: as many as the machine has. The results are the same for any number.
-   */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that share out the input; null, or one process: all of it is here. Initially the
-   * global controller.
-   */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
-  ///@}
-
  protected:
   vtkMirrorOperation();
-  ~vtkMirrorOperation() override;
+  ~vtkMirrorOperation() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override = 0;
 
   std::string Method;
-  int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
 
  private:
   vtkMirrorOperation(const vtkMirrorOperation&) = delete;

@@ -119,21 +119,14 @@ void set_transformations(vtkPolyData* output, symsurf::PointsView shape,
 
 }  // namespace
 
-vtkCxxSetObjectMacro(vtkSymmetryAnalysis, Controller, vtkMultiProcessController);
-
-vtkSymmetryAnalysis::vtkSymmetryAnalysis() {
-  this->SetNumberOfOutputPorts(3);
-  this->SetController(vtkMultiProcessController::GetGlobalController());
-}
-
-vtkSymmetryAnalysis::~vtkSymmetryAnalysis() { this->SetController(nullptr); }
+vtkSymmetryAnalysis::vtkSymmetryAnalysis() { this->SetNumberOfOutputPorts(3); }
 
 int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                      vtkInformationVector* outputs) {
   return core_call(this, [&] {
-    const auto input = shape_of(this, inputs);
-    const PointArray points = points_of(input);
     const ControllerCommunicator processes(this->Controller);
+    const auto input = shape_of(this, inputs, processes);
+    const PointArray points = points_of(input);
     if (are_elsewhere(processes, points.view().size(), "an analysis")) return;
     const TriangleArray faces(this->UseFaces ? input : nullptr);
     symsurf::AnalysisOptions options;
@@ -160,6 +153,4 @@ void vtkSymmetryAnalysis::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseFaces: " << (this->UseFaces ? "On" : "Off") << "\n";
   os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "Controller: " << this->Controller << "\n";
 }

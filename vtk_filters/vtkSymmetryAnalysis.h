@@ -25,8 +25,6 @@
 #include "vtkSymmetryAnalysisParameters.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
-class vtkMultiProcessController;
-
 class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisParameters {
  public:
   static vtkSymmetryAnalysis* New();
@@ -53,33 +51,14 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
   vtkBooleanMacro(RefuseNonfinite, bool);
   ///@}
 
-  ///@{
-  /**
-   * Threads to use; 0: as many as the machine has. The results are the same for any number.
-   */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that share out the input; null, or one process: all of it is here. Initially the
-   * global controller.
-   */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
-  ///@}
-
  protected:
   vtkSymmetryAnalysis();
-  ~vtkSymmetryAnalysis() override;
+  ~vtkSymmetryAnalysis() override = default;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool UseFaces = true;
   bool RefuseNonfinite = false;
-  int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
 
  private:
   vtkSymmetryAnalysis(const vtkSymmetryAnalysis&) = delete;

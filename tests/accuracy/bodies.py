@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 import symsurf
 from symsurf import Cylinder, Plane
@@ -143,6 +144,33 @@ def _straightened(subject: str, rng: np.random.Generator) -> Figures:
     }
 
 
+WITHIN = 0.05  # of the diagonal: so far from a pair's foot the mirror is extrapolated
+VOXEL = 0.02  # of the diagonal
+
+
+def _cut(subject: str, rng: np.random.Generator) -> Figures:
+    """How much of the mirror has no pairs, told and true, of a body and of one that lacks an end of
+    one side."""
+    mesh, bend = subject.split()
+    points, faces, plane = mirrored_mesh(mesh)
+    straight = sampled(points, faces, COUNT, rng)
+    shape, images = bent_body(straight, plane, bend, rng)
+    feet = plane.project(straight)
+    along = (feet - feet.mean(axis=0)) @ rng.normal(size=3)
+    side = plane.signed_distance(straight) > 0
+    gone = side & (along > np.quantile(along[side], 1 - rng.uniform(0.2, 0.5)))
+    told = [
+        symsurf.detect(part, method="perpendicular", threads=1).statistics["extrapolated_share"]
+        for part in (shape, shape[~gone])
+    ]
+    # A voxel of the true mirror has evidence where a point on the side that was cut is near.
+    size = diagonal(shape)
+    middle = (shape + images)[~gone] / 2 / size
+    voxels = np.unique(np.floor(middle / VOXEL), axis=0) * VOXEL + VOXEL / 2
+    far = KDTree(middle[side[~gone]]).query(voxels)[0] > WITHIN
+    return {"whole": told[0], "cut": told[1], "true": far.mean(), "of true": told[1] / far.mean()}
+
+
 def _bars(median: float, ninth: float) -> dict[str, Bar]:
     return {"image error": at_most(median), "90th": at_most(ninth), "right": at_least(1)}
 
@@ -156,4 +184,6 @@ CASES = tuple(
     Case("auto, straightened bodies",
          tuple(f"{mesh} {bend}" for mesh in MESHES for bend in ("cylinder", *BENDS)),
          _straightened, {"to unbent": at_most(2)}),
+    Case("perpendicular, cut bodies", tuple(f"{mesh} {bend}" for mesh in MESHES for bend in BENDS),
+         _cut, {"whole": at_most(0.01)}),
 )  # fmt: skip

@@ -107,14 +107,15 @@ def _oracle(
     damage: Damage = none,
     waves: tuple[int, ...] = WAVES,
     exact: bool = True,
+    pairs: bool = True,
 ) -> Case:
-    """What the points of the same sheets give to one who knows the mirror nearly."""
+    """What the points of the same sheets give to one who knows the mirror nearly, and the pairs."""
 
     def run(subject: str, rng: np.random.Generator) -> Figures:
         near, far = DISTANCES[subject]
         sheets = perpendicular_sheets(subject, near, far, int(rng.choice(waves)), exact, rng)
         points, footprint = damage(sheets, rng)
-        paired = exact and len(points) == len(sheets.points)
+        paired = pairs and exact and len(points) == len(sheets.points)
         surfaces = (
             oracle.from_pairs(points, sheets.pairs, sheets.points)
             if paired
@@ -156,6 +157,7 @@ CASES = (
     _perpendicular("4:1 density, no exact partners", _bars(0.0015, 0.9), uneven, exact=False),
     _oracle("1 to 4 waves", _bars(0.0005, 0.95), waves=(1, 2, 4)),
     _oracle("noise 1 %", _bars(0.002, 0.95), noisy(0.01)),
+    _oracle("noise 1 %, unknown pairs", _bars(0.002, 0.95), noisy(0.01), pairs=False),
     _oracle("4:1 density, some partners left", _bars(0.0015, 0.9), uneven),
     _oracle("4:1 density, no exact partners", _bars(0.0015, 0.9), uneven, exact=False),
 )  # fmt: skip

@@ -27,8 +27,13 @@ std::vector<LongCall> long_calls() {
   std::vector<LongCall> calls{
       {"estimate_normals",
        [](const Context& context) { estimate_normals(points, 10, "pca", context); }},
-      {"match", [](const Context& context) {
+      {"match",
+       [](const Context& context) {
          match(points, Plane({1, 0, 0}, 0), 0.05, context);
+       }},
+      // Half its time it lays the mirror out, before it carries a point.
+      {"bend", [](const Context& context) {
+         bend(points, Sphere({0, 0, -3}, 3), Bend::Straighten, context);
        }}};
   static const Points few = RandomCloud(0).sphere(60);
   for (const Method& method : methods()) {

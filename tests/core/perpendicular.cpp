@@ -2,6 +2,7 @@
 #include <symsurf/bend.h>
 #include <symsurf/cylinder.h>
 #include <symsurf/detect.h>
+#include <symsurf/metrics.h>
 #include <symsurf/sphere.h>
 
 #include <Eigen/Geometry>
@@ -78,6 +79,23 @@ TEST(Perpendicular, PlacesEveryPairOnItsSurface) {
     EXPECT_LE(result.mirror->signed_distance(result.surface_points).cwiseAbs().maxCoeff(),
               1e-9 * diagonal(s.points))
         << seed;
+  }
+}
+
+// At one end all points are left, at the other one of four, so that few have their partner there.
+TEST(Perpendicular, CoversLayersThatThinOut) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);
+    RandomCloud random(seed);
+    std::vector<Index> left;
+    for (Index i = 0; i < s.points.rows(); ++i)
+      if (random.uniform(0, 1) < 1 - 0.75 * static_cast<double>(i) / s.points.rows())
+        left.push_back(i);
+    const Points points = s.points(left, Eigen::all);
+    const Result result = detect(points, {.method = "perpendicular"});
+    const Cylinder truth(s.shift, s.rotation * Vector3::UnitY(), 2);
+    EXPECT_GT(coverage(result.surface_points, truth, points, 0.02), 0.9) << seed;
+    EXPECT_LT(surface_distance(result.surface_points, truth, points), 0.002) << seed;
   }
 }
 

@@ -23,15 +23,19 @@ std::vector<Choice> choices_from(const Descriptions& descriptions) {
 
 std::vector<Described> all_described() {
   std::vector<Described> all{
-      {"vtkMirrorDetection", "Method", "How the mirror is sought.", choices_from(methods())},
-      {"vtkMirrorSampleSource", "Generator", "How the points are made.",
+      {"vtkMirrorDetection", "vtkSharedShapeAlgorithm", "Method", "How the mirror is sought.",
+       choices_from(methods())},
+      {"vtkMirrorSampleSource", "vtkShapeAlgorithm", "Generator", "How the points are made.",
        choices_from(generators())},
-      {"vtkPointDamage", "Damage", "What is done to the points.", choices_from(damages())},
-      {"vtkMirrorReflection", "", "", {}},
-      {"vtkSymmetryAnalysis", "Analysis", "Which symmetries are sought.", choices_from(analyses())},
+      {"vtkPointDamage", "vtkShapeAlgorithm", "Damage", "What is done to the points.",
+       choices_from(damages())},
+      {"vtkMirrorReflection", "vtkShapeAlgorithm", "", "", {}},
+      {"vtkSymmetryAnalysis", "vtkSharedShapeAlgorithm", "Analysis", "Which symmetries are sought.",
+       choices_from(analyses())},
   };
   for (const Operation& operation : operations())
     all.push_back({"vtk" + filter_name(operation),
+                   "vtkMirrorOperation",
                    "",
                    "",
                    {{"", operation.summary, operation.parameters}},

@@ -20,8 +20,9 @@ struct Choice {
 
 /// A VTK class with a property that chooses and the properties of every choice.
 struct Described {
-  std::string vtk_class;  ///< "vtkMirrorDetection"
-  std::string selector;   ///< the property that chooses: "Method"; none for a class of one choice
+  std::string vtk_class;   ///< "vtkMirrorDetection"
+  std::string superclass;  ///< of its parameters, or of itself where it has none
+  std::string selector;    ///< the property that chooses: "Method"; none for a class of one choice
   std::string selector_doc;
   std::vector<Choice> choices;  ///< the first is the default
   /// Of the filter that runs it: the whole class is made, not only its parameters.

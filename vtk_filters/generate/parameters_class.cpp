@@ -16,12 +16,13 @@ std::string parameters_header(const Described& d) {
   const std::string name = class_name(d);
   std::ostringstream out;
   out << notice() << "#ifndef " << name << "_h\n#define " << name << "_h\n\n"
-      << "#include \"vtkShapeAlgorithm.h\"\n"
+      << "#include \"" << d.superclass << ".h\"\n"
       << "#include \"vtkSymsurfFiltersModule.h\" // for the export macro\n\n"
       << "#include <string> // for the members\n\n"
       << "/**\n * @class " << name << "\n * @brief The parameters of " << d.vtk_class << ".\n */\n"
-      << "class VTKSYMSURFFILTERS_EXPORT " << name << " : public vtkShapeAlgorithm {\n public:\n"
-      << "  vtkTypeMacro(" << name << ", vtkShapeAlgorithm);\n"
+      << "class VTKSYMSURFFILTERS_EXPORT " << name << " : public " << d.superclass
+      << " {\n public:\n"
+      << "  vtkTypeMacro(" << name << ", " << d.superclass << ");\n"
       << "  void PrintSelf(ostream& os, vtkIndent indent) override;\n\n"
       << text_accessors(d.selector, selector_documentation(d, "\n   * - ")) << accessors(d)
       << " protected:\n  " << name << "() = default;\n  ~" << name << "() override = default;\n\n"

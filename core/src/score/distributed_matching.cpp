@@ -140,7 +140,8 @@ void send_back(Result& result, const Cloud& cloud, const Slabs& slabs,
 }
 
 void drop_unpaired(Result& result) {
-  if ((result.pairs.col(1).array() >= 0).all()) return;
+  // Eigen's columns of no rows would be an offset to a null pointer.
+  if (result.pairs.rows() == 0 || (result.pairs.col(1).array() >= 0).all()) return;
   std::vector<Index> found;
   for (Index row = 0; row < result.pairs.rows(); ++row)
     if (result.pairs(row, 1) >= 0) found.push_back(row);

@@ -16,7 +16,7 @@ from ..truth import read_truth, truth_path, write_sample
 from .described_options import add_kinds, given_values
 from .values import whole
 
-SUMMARY = "Damage points; the truth beside them, where there is one, follows"
+SUMMARY = "Damages points; the truth beside them, where there is one, follows."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,9 +13,7 @@ from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
 
-SUMMARY = (
-    "Find the mirrors of two real meshes, straight, bent and damaged, and use them; with a report"
-)
+SUMMARY = "Finds the mirrors of two real meshes, straight, bent and damaged, and uses them; with a report."
 
 HEADINGS = "mesh", "change", "points", "mirror", "score", "error", "time"
 ROW = "{:9} {:16} {:>7} {:>9} {:>7} {:>10} {:>9}"

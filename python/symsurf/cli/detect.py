@@ -23,7 +23,7 @@ from .batch_options import (
 from .method_options import add_method_options, given_parameters
 from .values import shown, whole
 
-SUMMARY = "Find the mirror of each file"
+SUMMARY = "Finds the mirror of each file."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -15,7 +15,7 @@ from ..truth import read_truth, truth_path
 from . import evaluate_benchmark
 from .each_file import for_each_file
 
-SUMMARY = "Compare results with the truth of the sample, or the benchmark, they were found in"
+SUMMARY = "Compares results with the truth of the sample, or the benchmark, they were found in."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

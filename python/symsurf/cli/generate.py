@@ -14,7 +14,7 @@ from ..truth import Truth, write_sample
 from . import generate_benchmark
 from .described_options import add_kinds, given_values
 
-SUMMARY = "Make points with a known mirror, and a file with the truth beside them"
+SUMMARY = "Makes points with a known mirror, and a file with the truth beside them."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -9,7 +9,9 @@ from ..benchmark import SIZES, benchmark
 from ..benchmark.files import write_benchmark
 from .values import whole
 
-SUMMARY = "Benchmark of curved mirrors: a folder of points, their true images and the truth"
+SUMMARY = (
+    "Makes the benchmark of curved mirrors: a folder of points, their true images and the truth."
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

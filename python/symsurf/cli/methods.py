@@ -13,7 +13,7 @@ from .._core import methods as all_methods
 from ..plain import plain
 from .values import shown
 
-SUMMARY = "List the methods and their parameters"
+SUMMARY = "Lists the methods and their parameters."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

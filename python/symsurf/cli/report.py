@@ -18,7 +18,7 @@ from .batch_options import (
 )
 from .described_options import add_parameters, given_values
 
-SUMMARY = "Write an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures"
+SUMMARY = "Writes an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -313,7 +313,40 @@ class PartialSymmetries(AnalysisResult):
     analysis = "partial_symmetries"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class RecurringParts(AnalysisResult):
+    """The parts of a mesh that recur.
+
+    ``transformations`` has the maps from the first instance of a part to each of its instances, the
+    identity first, part after part: those that make up most of the feature lines come first.
+    ``arrays["part"]`` and ``arrays["instance"]`` have for each point the numbers of its part and of its
+    instance of that part, -1 for none.
+    """
+
+    analysis = "recurring_parts"
+
+    @property
+    def parts(self) -> list[list[Transformation]]:
+        """The maps to the instances of each part, the identity first."""
+        found: list[list[Transformation]] = []
+        for each in self.transformations:
+            if each.kind == "identity":
+                found.append([])
+            found[-1].append(each)
+        return found
+
+    def __repr__(self) -> str:
+        counts = ", ".join(str(len(part)) for part in self.parts)
+        return f"RecurringParts({self.shape!r}, instances of each part: {counts or 'none'})"
+
+
 RESULTS: dict[str, type[AnalysisResult]] = {
     kind.analysis: kind
-    for kind in (Symmetries, PartialSymmetries, SymmetryEmbedding, IntrinsicSymmetry)
+    for kind in (
+        Symmetries,
+        PartialSymmetries,
+        RecurringParts,
+        SymmetryEmbedding,
+        IntrinsicSymmetry,
+    )
 }

@@ -1,4 +1,5 @@
-"""The second of the processes has no points, or none that is finite; or nobody has any.
+"""The second of the processes has no points, none that is finite or a shape that none can use; or
+nobody has any points.
 
 What each process found and said in each case. Arguments: the answer file, the points as NumPy's.
 """
@@ -12,7 +13,7 @@ from paraview import simple
 from session import answer, field, is_client
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 controller = vtkMultiProcessController.GetGlobalController()
@@ -23,18 +24,25 @@ others = np.array_split(whole, size - 1)[rank - (rank > 1)] if rank != 1 else No
 cases = {
     "no points": nothing if rank == 1 else others,
     "no finite point": unknown if rank == 1 else others,
+    "no shape": "a table" if rank == 1 else others,
     "nobody has points": nothing,
     "nobody has a finite point": unknown,
 }
 
 
-def run(method, rows):
+def data_of(rows):
+    if isinstance(rows, str):
+        return vtkTable()
     points = vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(rows), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
+    return data
+
+
+def run(method, rows):
     source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
+    source.GetClientSideObject().SetOutput(data_of(rows))
     detection = simple.MirrorDetection(Input=source, Method=method)
     algorithm = detection.GetClientSideObject()
     said = {"ErrorEvent": [], "WarningEvent": []}

@@ -8,7 +8,10 @@
 
 namespace symsurf::perpendicular {
 namespace {
-constexpr double exact_miss = 0.25;  // spacings, in the median
+constexpr double exact_miss = 0.25;  // spacings
+// Of the partners found. Where single points are missing fewer are exact, and the others say more
+// about the mirror than a surface would that goes only where partners are.
+constexpr double least_exact = 0.8;
 constexpr double flat_enough = 0.995;
 constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
 constexpr double least_component = 0.15;                   // of the largest
@@ -155,8 +158,10 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, GrownSurface& surfac
     surface.partners.push_back(static_cast<std::int32_t>(near.index));
   }
   if (misses.empty()) return;
+  const auto exact =
+      std::count_if(misses.begin(), misses.end(), [](double miss) { return miss < exact_miss; });
+  surface.exact = static_cast<double>(exact) >= least_exact * static_cast<double>(misses.size());
   surface.typical_miss = median(std::move(misses));
-  surface.exact = surface.typical_miss < exact_miss;
 }
 
 void match(const SearchCloud& cloud, double precision, GrownSurface& surface) {

@@ -7,6 +7,7 @@
 #include "methods/common_parameters.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf::perpendicular {
 
@@ -15,11 +16,14 @@ namespace {
 // Farther than `beyond` from the feet of pairs a mirror is extrapolated; points closer to each
 // other than `close` are no pair for that. In diagonals, and in spacings where these are longer.
 constexpr double beyond = 0.05, close = 0.03, sparse = 3;
+constexpr double voxels_within = 0.4;  // of what is near: edges that a voxel's middle stands for
 
-// Where partners are exact they agree about each other, and a point as near to its own image as
-// others to theirs lies on the mirror. Elsewhere no point is its own partner, and the surface may
-// end before it reaches the middle between two.
-void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
+// Where partners are exact they agree about each other, or lie on the image: beside a crease the
+// nearest part of the mirror is another for the partner. A point as near to its own image as others
+// to theirs lies on the mirror. Where partners are not exact no point is its own, and the surface
+// may end before it reaches the middle between two.
+void drop_false_pairs(Result& result, const Cloud& cloud, bool exact, double spacing) {
+  constexpr double on_image = 0.15;  // spacings
   constexpr double as_near = 2, rounding = 1e-9;
   if (result.pairs.rows() == 0) return;
   const std::vector<double> residuals(result.residuals.begin(), result.residuals.end());
@@ -31,7 +35,9 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
   std::vector<Index> kept;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     const Index i = result.pairs(row, 0), j = result.pairs(row, 1);
-    if ((j == i && result.residuals[row] > on_mirror) || (exact && partner[j] != i)) continue;
+    const double residual = result.residuals[row];
+    if (j == i && residual > on_mirror) continue;
+    if (exact && partner[j] != i && residual > on_image * spacing) continue;
     if (result.surface_points.row(row).allFinite()) kept.push_back(row);
   }
   keep_pairs(result, kept);
@@ -39,21 +45,39 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact) {
 
 void pair_points(Result& result, const Cloud& cloud, PointTree tree, const SearchCloud& searched,
                  const GrownSurface& surface, double pair_distance, const Context& context) {
+  const double spacing = searched.spacing * searched.diagonal;
   // Farther off there are only mere neighbours.
-  const double limit = std::min(pair_distance * cloud.diagonal,
-                                reach(surface) * searched.spacing * searched.diagonal);
+  const double limit = std::min(pair_distance * cloud.diagonal, reach(surface) * spacing);
   add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit, context.stage(0, 0.6));
   if (!surface.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.6, 1));
-  drop_false_pairs(result, cloud, surface.exact);
+  drop_false_pairs(result, cloud, surface.exact, spacing);
 }
 
-// How many of the points have a foot that is far from those of all pairs: the mirror goes on there
-// as it bends elsewhere, and nothing says that it is right. Points next to the mirror, whose
-// neighbours are their images', are no evidence.
-void tell_extrapolated(Result& result, const Cloud& cloud, double spacing, const Context& context) {
-  const double near = std::max(beyond * cloud.diagonal, sparse * spacing);
-  const double next_to = std::max(close * cloud.diagonal, sparse * spacing);
+// The voxels, in the search's frame and of an edge in its unit, that hold any of the points.
+std::vector<Vector3> occupied_voxels(Points points, const SearchCloud& searched, double edge) {
+  if (points.rows() == 0) return {};
+  points = (points.rowwise() - searched.centroid.transpose()) * searched.axes / searched.diagonal;
+  const VoxelGrid grid(points.colwise().minCoeff(), points.colwise().maxCoeff(), edge);
+  std::vector<Index> voxels;
+  for (Index k = 0; k < points.rows(); ++k)
+    voxels.push_back(grid.index(grid.cell_of(points.row(k).transpose())));
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  std::vector<Vector3> middles;
+  for (const Index voxel : voxels)
+    middles.push_back(searched.axes * grid.middle(grid.cell(voxel)) * searched.diagonal +
+                      searched.centroid);
+  return middles;
+}
+
+// How much of the mirror under the points is far from the feet of all pairs: it goes on there as it
+// bends elsewhere, and nothing says that it is right. Points next to the mirror, whose neighbours
+// are their images', are no evidence. By area: where one side is missing there are fewer points.
+void tell_extrapolated(Result& result, const Cloud& cloud, const SearchCloud& searched,
+                       const Context& context) {
+  const double near = std::max(beyond, sparse * searched.spacing);
+  const double next_to = std::max(close, sparse * searched.spacing) * searched.diagonal;
   std::vector<char> paired(cloud.points.size(), 0);
   std::vector<Index> evidence, others;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
@@ -64,13 +88,20 @@ void tell_extrapolated(Result& result, const Cloud& cloud, double spacing, const
   }
   for (Index i = 0; i < cloud.points.size(); ++i)
     if (!paired[i]) others.push_back(i);
+  const Points pairs = chosen_rows(result.surface_points, evidence);
   const Points feet =
       finite_rows(result.mirror->project(chosen_rows(cloud.points, others), context.stage(0, 0.7)));
-  const PointTree pairs(chosen_rows(result.surface_points, evidence), context.stage(0.7, 1));
-  Index far = 0;
-  for (Index k = 0; k < feet.rows(); ++k) far += pairs.nearest(feet.row(k), near * near).index < 0;
-  result.statistics["extrapolated_share"] =
-      static_cast<double>(far) / static_cast<double>(cloud.points.size());
+  Points all(pairs.rows() + feet.rows(), 3);
+  all << pairs, feet;
+  const std::vector<Vector3> mirror =
+      occupied_voxels(std::move(all), searched, voxels_within * near);
+  const PointTree tree(pairs, context.stage(0.7, 1));
+  const double squared = near * near * searched.diagonal * searched.diagonal;
+  const auto far = std::count_if(mirror.begin(), mirror.end(), [&](const Vector3& x) {
+    return tree.nearest(x, squared).index < 0;
+  });
+  const auto voxels = static_cast<double>(std::max<std::size_t>(1, mirror.size()));
+  result.statistics["extrapolated_share"] = static_cast<double>(far) / voxels;
 }
 
 // What chance explains has no score to rank by: then the search's own order holds.
@@ -107,12 +138,11 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
   if (beyond_chance(result) == 0) put_first(mirrors.front(), result);
   const GrownSurface& surface =
       found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
-  const double spacing = searched.spacing * searched.diagonal;
-  statistics["typical_miss"] = surface.typical_miss * spacing;
+  statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
   result.statistics.merge(statistics);
   pair_points(result, cloud, std::move(tree), searched, surface, values.real("pair_distance"),
               context.stage(0.4, 0.9));
-  tell_extrapolated(result, cloud, spacing, context.stage(0.9, 1));
+  tell_extrapolated(result, cloud, searched, context.stage(0.9, 1));
 }
 
 std::vector<Parameter> search_parameters() {
