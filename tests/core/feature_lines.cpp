@@ -1,0 +1,79 @@
+#include "symmetries/recurring/feature_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+constexpr double angle = std::numbers::pi / 6;
+
+// A prism over a regular polygon in a random pose, each of its sides divided in `cells`.
+FeatureLines lines_of_prism(int sides, int cells, RandomCloud& random) {
+  const Matrix3 turn = random.rotation();
+  std::vector<Vector3> points;
+  std::vector<Index> corners;
+  const auto add = [&](double turns, double share, double height) {
+    const auto at = [&](double k) {
+      const double around = 2 * std::numbers::pi * k / sides;
+      return Vector3(std::cos(around), std::sin(around), height);
+    };
+    points.push_back(turn * ((1 - share) * at(turns) + share * at(turns + 1)));
+  };
+  for (const double height : {0.0, 1.0})
+    for (int k = 0; k < sides; ++k)
+      for (int c = 0; c < cells; ++c) add(k, static_cast<double>(c) / cells, height);
+  const Index around = sides * cells;
+  points.push_back(Vector3::Zero());
+  points.push_back(turn * Vector3::UnitZ());
+  for (Index k = 0; k < around; ++k) {
+    const Index next = (k + 1) % around;
+    corners.insert(corners.end(), {k, next, around + next, k, around + next, around + k});
+    corners.insert(corners.end(), {k, next, 2 * around, around + k, around + next, 2 * around + 1});
+  }
+  Points rows(static_cast<Index>(points.size()), 3);
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = points[i].transpose();
+  const TrianglesView faces(corners.data(), static_cast<Index>(corners.size()) / 3);
+  return feature_lines(rows, faces, angle, {});
+}
+
+TEST(FeatureLines, AreTheEdgesOfAPrismHoweverTheyAreDivided) {
+  RandomCloud random(0);
+  for (const int cells : {1, 2, 5}) {
+    const FeatureLines found = lines_of_prism(6, cells, random);
+    EXPECT_EQ(found.corners.size(), 12u);
+    ASSERT_EQ(found.lines.size(), 18u);
+    for (const FeatureLine& line : found.lines) {
+      EXPECT_NEAR(line.length, 1, 1e-12);  // as long as the polygon's radius, and its height
+      ASSERT_TRUE(line.has_ends());
+      const Vector3 middle = (found.corners[line.start] + found.corners[line.end]) / 2;
+      EXPECT_LT((line.middle() - middle).norm(), 1e-12);
+      ASSERT_EQ(line.wings.size(), 2u);
+      // At right angles, or at the hexagon's.
+      const double cosine = line.wings[0].dot(line.wings[1]);
+      EXPECT_LT(std::min(std::abs(cosine), std::abs(cosine + 0.5)), 1e-9);
+    }
+    for (const std::vector<Index>& at : found.at) EXPECT_EQ(at.size(), 3u);
+  }
+}
+
+TEST(FeatureLines, OfARoundBarAreItsRims) {
+  RandomCloud random(1);
+  const FeatureLines found = lines_of_prism(40, 1, random);
+  EXPECT_TRUE(found.corners.empty());
+  ASSERT_EQ(found.lines.size(), 2u);
+  for (const FeatureLine& line : found.lines) {
+    EXPECT_FALSE(line.has_ends());
+    EXPECT_NEAR(line.length, 80 * std::sin(std::numbers::pi / 40), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace symsurf
