@@ -125,6 +125,35 @@ TEST(IntrinsicSymmetry, TakesTheLargestPartAndFacesOfAnyKind) {
 }
 
 // Any plane through its middle mirrors a ball: no function's sign is determined.
+// Front and hind part as meshes of their own, a twentieth of an edge apart.
+TEST(IntrinsicSymmetry, JoinsPartsThatTouch) {
+  LimbedBody body = posed_animal(0);
+  const Index count = body.points.rows();
+  Points points(2 * count, 3);
+  points << body.points, (body.points.array() + 0.05).matrix();
+  std::vector<Index> place(count);  // of each vertex, in the last part that has it
+  Triangles corners = body.faces;
+  for (Index f = 0; f < corners.rows(); ++f) {
+    double y = 0;
+    for (int c = 0; c < 3; ++c) y += body.points(body.faces(f, c), 1) / 3;
+    for (int c = 0; c < 3; ++c) {
+      if (y < 8) corners(f, c) += count;
+      place[body.faces(f, c)] = corners(f, c);
+    }
+  }
+  AnalysisOptions options;
+  options.faces = corners;
+  const AnalysisResult result = analyse("intrinsic_symmetry", points, options);
+  EXPECT_EQ(verdict(result), "found");
+  EXPECT_EQ(std::get<Index>(result.statistics.at("parts")), 1);
+  Eigen::MatrixXd images(count, 1);
+  for (Index v = 0; v < count; ++v) {
+    const auto image = static_cast<Index>(result.arrays.at("image")(place[v]));
+    images(v) = static_cast<double>(image < 0 ? image : image % count);
+  }
+  EXPECT_LT(error_of(body, images).mean, 0.03);
+}
+
 TEST(IntrinsicSymmetry, SaysNoneOfABall) {
   Points points(3000, 3);
   for (Index i = 0; i < points.rows(); ++i) {

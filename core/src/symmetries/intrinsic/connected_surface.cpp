@@ -11,6 +11,7 @@
 #include "base/math.h"
 #include "cloud/cloud_laplacian.h"
 #include "mesh/triangle_mesh.h"
+#include "spatial/point_tree.h"
 #include "spatial/triple_index.h"
 
 namespace symsurf {
@@ -62,6 +63,43 @@ std::vector<Index> numbered_parts(const Eigen::SparseMatrix<double>& graph) {
   return parts;
 }
 
+double mean_edge(const Points& points, const Eigen::SparseMatrix<double>& graph, Index vertex) {
+  double sum = 0;
+  Index count = 0;
+  for (Eigen::SparseMatrix<double>::InnerIterator next(graph, vertex); next; ++next) {
+    if (next.row() == vertex) continue;
+    sum += (points.row(next.row()) - points.row(vertex)).norm();
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+// Joins parts that all but touch, as wings modelled apart from their fuselage do: each vertex to
+// the nearest one of another part, if that is no farther than its edges are long in the mean.
+void join_touching_parts(const Points& points, Laplacian& surface, const Context& context) {
+  constexpr double weight = 1;  // cotangents of even triangles give 0.58 to an edge
+  const std::vector<Index> part_of = numbered_parts(surface.stiffness);
+  const PointTree tree(points, context);
+  std::vector<Eigen::Triplet<double>> links;
+  for (Index v = 0; v < points.rows(); ++v) {
+    Neighbour nearest;
+    tree.within(points.row(v), mean_edge(points, surface.stiffness, v),
+                [&](Index other, double squared) {
+                  if (part_of[other] != part_of[v] && surface.areas[other] > 0)
+                    nearest = std::min(nearest, Neighbour{other, squared});
+                });
+    const Index other = nearest.index;
+    if (other < 0) continue;
+    for (const auto& [one, two] : {std::pair(v, other), std::pair(other, v)}) {
+      links.emplace_back(one, one, weight);
+      links.emplace_back(one, two, -weight);
+    }
+  }
+  Eigen::SparseMatrix<double> joints(points.rows(), points.rows());
+  joints.setFromTriplets(links.begin(), links.end());
+  surface.stiffness += joints;
+}
+
 }  // namespace
 
 ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context) {
@@ -73,6 +111,7 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
   } else {
     const Triangles corners = renamed(faces, distinct.number);
     static_cast<Laplacian&>(whole) = cotangent_laplacian(positions, corners);
+    join_touching_parts(positions, whole, context);
     whole.triangles = TriangleMesh(positions, corners, context).manifold_faces();
   }
 

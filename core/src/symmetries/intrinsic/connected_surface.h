@@ -18,12 +18,13 @@ struct ConnectedSurface {
   /// The first point of the input that each vertex is, and the vertex of each point; -1: of
   /// another part.
   std::vector<Index> point_of, vertex_of;
-  Index parts = 0;   ///< how many the input has
+  Index parts = 0;   ///< of the input that do not touch
   double share = 0;  ///< of the area of all in this one
 };
 
-/// The part of the input that has the most area. Equal points are merged; without faces the points
-/// are a cloud. Throws InvalidInput where nothing has an area.
+/// The part of the input that has the most area. Equal points are merged, parts of a mesh joined
+/// where they are as near each other as neighbouring vertices; without faces the points are a
+/// cloud. Throws InvalidInput where nothing has an area.
 ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context);
 
 /// Lengths of the shortest ways along edges of the Laplacian from a vertex to all (Dijkstra 1959).

@@ -25,7 +25,10 @@ constexpr std::size_t most_starts = 24;  // a share
 constexpr Index refined_to = 40;         // functions
 // More functions at a time: each way finds maps that the other misses.
 constexpr std::array<Index, 2> steps{1, 2};
-constexpr double same_map = 0.3;  // of the norm of the difference of unrelated maps
+constexpr int rounds = 3;            // by distances; they settle in two or three
+constexpr double most_change = 0.1;  // of a distance, in longest ones, that counts
+constexpr double most_kept = 0.6;    // orientation beyond which no round reverses it
+constexpr double same_map = 0.3;     // of the norm of the difference of unrelated maps
 constexpr double least_reversal = 0.3;
 constexpr double least_move = 0.03;  // in longest distances; the identity moves nothing
 
@@ -52,9 +55,17 @@ std::string signs_of(const std::vector<Index>& functions, std::uint32_t odd) {
   return signs;
 }
 
+FunctionalMap signed_map(const std::string& signs) {
+  Eigen::VectorXd diagonal(static_cast<Index>(signs.size()));
+  for (std::size_t k = 0; k < signs.size(); ++k)
+    diagonal[static_cast<Index>(k)] = signs[k] == '0' ? 0 : signs[k] == '+' ? 1 : -1;
+  return diagonal.asDiagonal();
+}
+
 // Of all signs but the identity's, in Gray's order, so that one sign changes at a time; the best
 // first.
 std::vector<Start> promising_starts(const SurfaceBasis& basis, const SampledPoints& samples,
+                                    const Orientation& orientation,
                                     const std::vector<Index>& functions, const Context& context) {
   std::vector<Eigen::MatrixXd> odd_less_even;
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(samples.weights.size(), samples.weights.size());
@@ -81,8 +92,29 @@ std::vector<Start> promising_starts(const SurfaceBasis& basis, const SampledPoin
   }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.distance < b.distance; });
-  if (starts.size() > most_starts) starts.resize(most_starts);
-  return starts;
+  std::vector<Start> reversing;
+  for (Start& start : starts) {
+    if (reversing.size() == most_starts) break;
+    if (orientation.of(signed_map(start.signs), start.images) < 0)
+      reversing.push_back(std::move(start));
+  }
+  return reversing;
+}
+
+// Of each sample the one whose distances to all images are most like its own to all: an isometry
+// keeps them. That sets limbs right which functions that a pose has mixed lead astray.
+std::vector<Index> images_by_distances(const SampledPoints& samples,
+                                       const std::vector<Index>& images) {
+  // A column a sample; the distances are symmetric.
+  const Eigen::MatrixXd to_images = samples.distances(images, Eigen::indexing::all);
+  std::vector<Index> nearest(images.size());
+  for (Index i = 0; i < samples.distances.cols(); ++i) {
+    const Eigen::RowVectorXd change =
+        samples.weights.transpose() *
+        (to_images.colwise() - samples.distances.col(i)).cwiseAbs().cwiseMin(most_change);
+    change.minCoeff(&nearest[i]);
+  }
+  return nearest;
 }
 
 IntrinsicMap judged(FunctionalMap map, const SampledFunctions& sampled,
@@ -103,8 +135,12 @@ IntrinsicMap judged(FunctionalMap map, const SampledFunctions& sampled,
 bool is_better(const IntrinsicMap& one, const IntrinsicMap& other) {
   const auto cost = [](const IntrinsicMap& map) {
     const double reversal = std::min(1.0, -map.orientation);
-    // A front mirrored to a back changes little, as it moves little.
-    return reversal < least_reversal ? INFINITY : map.distortion / (map.moved * reversal);
+    // A front mirrored to a back changes little, as it moves little. Bent limbs change distances
+    // more than limbs that are mapped onto themselves; the orientation tells these: its cube
+    // counts.
+    return reversal < least_reversal
+               ? INFINITY
+               : map.distortion / (map.moved * reversal * reversal * reversal);
   };
   return cost(one) < cost(other);
 }
@@ -115,22 +151,22 @@ IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& bas
                         const SampledPoints& samples, const Context& context) {
   IntrinsicMap best;
   if (static_cast<Index>(functions_alone(basis.values, alone).size()) < fewest_signs) return best;
+  const Orientation orientation(surface, basis, samples);
   std::vector<Start> starts;
   for (const double share : shares_alone) {
     const std::vector<Index> functions = functions_alone(basis.values, share);
     if (static_cast<Index>(functions.size()) < fewest_signs) continue;
-    for (Start& start : promising_starts(basis, samples, functions, context)) {
+    for (Start& start : promising_starts(basis, samples, orientation, functions, context)) {
       const bool is_new = std::none_of(starts.begin(), starts.end(), [&](const Start& other) {
         return other.signs == start.signs;
       });
       if (is_new) starts.push_back(std::move(start));
     }
   }
-  const Orientation orientation(surface, basis, samples);
   const SampledFunctions sampled(basis, samples.vertices, samples.weights);
   const Index last = std::min(refined_to, basis.count());
   std::vector<FunctionalMap> seen;
-  best.signs = starts.front().signs;  // there are some, though no map may come of them
+  best.signs = starts.empty() ? "0" : starts.front().signs;  // no map may come of them
   for (std::size_t k = 0; k < starts.size(); ++k) {
     context.report(static_cast<double>(k) / static_cast<double>(starts.size()));
     for (const Index step : steps) {
@@ -142,10 +178,15 @@ IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& bas
       });
       if (!is_new) continue;
       seen.push_back(map);
-      IntrinsicMap found = judged(std::move(map), sampled, samples, orientation);
-      found.signs = starts[k].signs;
-      if (found.moved >= least_move && (best.map.size() == 0 || is_better(found, best)))
-        best = std::move(found);
+      for (int round = 0;; ++round) {
+        IntrinsicMap found = judged(map, sampled, samples, orientation);
+        found.signs = starts[k].signs;
+        const bool is_hopeless = found.orientation > most_kept;
+        if (found.moved >= least_move && (best.map.size() == 0 || is_better(found, best)))
+          best = std::move(found);
+        if (round == rounds || is_hopeless) break;
+        map = sampled.fitted(images_by_distances(samples, sampled.images(map)), last);
+      }
     }
   }
   return best;

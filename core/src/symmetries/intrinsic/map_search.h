@@ -19,8 +19,9 @@ struct IntrinsicMap {
 
 /// The best of the maps that the signs of the first eigenfunctions give (Nagar and Raman 2018: for
 /// a symmetry and eigenvalues that differ, the functional map is diagonal, of 1 and -1). All signs
-/// of a few functions are tried at samples, and the most promising ones refined with ZoomOut. Empty
-/// signs: too few eigenvalues stand alone.
+/// of a few functions are tried at samples, and the most promising ones that reverse the
+/// orientation refined with ZoomOut and by distances along the surface. Empty signs: too few
+/// eigenvalues stand alone.
 IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& basis,
                         const SampledPoints& samples, const Context& context);
 
