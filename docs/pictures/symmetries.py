@@ -14,7 +14,9 @@ import symsurf
 from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
-from accuracy.limbed import BODIES, posed
+from accuracy.limbed import BODIES
+from accuracy.posing import posed
+from accuracy.repeated import facade
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "python"))
 from shapes import head, vertebra
@@ -43,6 +45,11 @@ def cube(cells=6):
     return grid[np.abs(grid).max(axis=1) == 1]
 
 
+def upright_facade():
+    points, faces, _ = facade(4, 6, np.random.default_rng(0), cells=4)
+    return symsurf.recurring_parts(points[:, [0, 2, 1]] * (1, -1, 1), faces=faces)
+
+
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
     image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
@@ -58,6 +65,7 @@ def main(folder):
         folder / "partial_symmetries.png",
         (0, -0.3, 1),
     )
+    write(upright_facade(), folder / "recurring_parts.png", (0.3, -1, 0.2))
     write(symsurf.symmetry_embedding(cube()), folder / "symmetry_embedding.png", above)
     body = BODIES["animal"]
     points = posed(body, np.random.default_rng(1), 0.9)

@@ -100,12 +100,15 @@ def _draw_object(
 def _draw_labels(
     plotter: pyvista.Plotter, object_: pyvista.PolyData, labels: NDArray[np.int64], name: str
 ) -> None:
-    """A colour a label, grey where it is negative; of a face that of its first corner."""
+    """A colour a label, grey where it is negative; of a face that of its first corner, where none
+    of its corners is grey."""
     from matplotlib.colors import ListedColormap
 
     colours = np.where(labels < 0, len(LABELS), labels % len(LABELS))
     if object_.n_cells != object_.n_verts:
-        object_.cell_data[name] = colours[object_.regular_faces[:, 0]]
+        faces = object_.regular_faces
+        is_grey = (labels[faces] < 0).any(axis=1)
+        object_.cell_data[name] = np.where(is_grey, len(LABELS), colours[faces[:, 0]])
     else:
         object_.point_data[name] = colours
     plotter.add_mesh(

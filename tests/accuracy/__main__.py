@@ -21,6 +21,7 @@ from . import (
     operations,
     partial,
     planes,
+    recurring,
     scores,
     symmetries,
     without_mirror,
@@ -30,7 +31,8 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           intrinsic, operations, partial, scores, symmetries, without_mirror)  # fmt: skip
+           intrinsic, operations, partial, recurring, scores, symmetries,
+           without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

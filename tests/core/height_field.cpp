@@ -157,5 +157,30 @@ TEST(HeightField, OfOneNodeIsFlat) {
   EXPECT_EQ(field.foot(Vector3(1, 1, 7)), Vector3(1, 1, 1));
 }
 
+TEST(HeightField, NormalIsThatOfItsHeights) {
+  RandomCloud random(3);
+  Points nodes = random.box(300);
+  for (Index i = 0; i < nodes.rows(); ++i)
+    nodes(i, 2) = 0.3 * std::sin(3 * nodes(i, 0)) * std::cos(2 * nodes(i, 1));
+  const Matrix3 rotation = random.rotation();
+  const HeightField field(rotation.col(2), nodes * rotation.transpose());
+  for (int k = 0; k < 200; ++k) {
+    const Vector3 x = 1.5 * random.in_box();
+    const Vector3 at = rotation * x, normal = field.normal(at);
+    constexpr double h = 1e-6;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector3 aside = h * rotation.col(axis);
+      const Vector3 along = (field.foot(at + aside) - field.foot(at - aside)) / (2 * h);
+      EXPECT_NEAR(along.dot(normal), 0, 1e-6) << k;
+    }
+    EXPECT_NEAR(normal.norm(), 1, 1e-14);
+    EXPECT_GT(normal.dot(rotation.col(2)), 0);
+  }
+  EXPECT_LE((field.normal(rotation * nodes.row(5).transpose()) -
+             field.normal(rotation * (nodes.row(5).transpose() + Vector3(1e-9, 0, 0))))
+                .norm(),
+            1e-6);
+}
+
 }  // namespace
 }  // namespace symsurf

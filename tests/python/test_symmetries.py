@@ -97,6 +97,15 @@ def test_the_unit_the_threads_and_the_pose_do_not_matter():
         assert in_degrees(one.direction, other.direction) < 1e-4
 
 
+def test_json_has_what_every_analysis_gives():
+    found = symsurf.symmetries(posed(PARTS["box"])[0])
+    told = json.loads(json.dumps(found.to_json()))
+    assert told["analysis"] == "symmetries"
+    assert told["group"] == told["statistics"]["group"] == "D2h"
+    assert told["parameters"] == found.parameters
+    assert [each["matrix"] for each in told["transformations"]] == told["elements"]
+
+
 def test_a_mesh_is_its_surface():
     part = PARTS["box"]
     corners, faces = np.unique(part.triangles.reshape(-1, 3), axis=0, return_inverse=True)

@@ -16,8 +16,8 @@ namespace {
 
 const std::vector<AnalysisImplementation>& analysis_implementations() {
   static const std::vector<AnalysisImplementation> all{
-      symmetries_analysis(), partial_symmetries_analysis(), symmetry_embedding_analysis(),
-      intrinsic_symmetry_analysis()};
+      symmetries_analysis(), partial_symmetries_analysis(), recurring_parts_analysis(),
+      symmetry_embedding_analysis(), intrinsic_symmetry_analysis()};
   return all;
 }
 

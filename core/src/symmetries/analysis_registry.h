@@ -21,5 +21,6 @@ AnalysisImplementation symmetries_analysis();
 AnalysisImplementation symmetry_embedding_analysis();
 AnalysisImplementation intrinsic_symmetry_analysis();
 AnalysisImplementation partial_symmetries_analysis();
+AnalysisImplementation recurring_parts_analysis();
 
 }  // namespace symsurf

@@ -118,13 +118,14 @@ def _text(record: Record) -> str:
         f"  axis      {_order(axis['order'])}, direction {shown(axis['direction'])}"
         for axis in record["axes"]
     ]
-    lines += [_transformation_text(each) for each in record.get("transformations", [])]
-    if record.get("inversion"):
-        lines.append("  inversion")
-    lines += [
-        f"  {name.replace('_', ' '):<9} {shown(value)}"
-        for name, value in record.get("statistics", {}).items()
-    ]
+    if "group" in record:
+        lines += ["  inversion"] * record["inversion"]
+    else:
+        lines += [_transformation_text(each) for each in record["transformations"]]
+        lines += [
+            f"  {name.replace('_', ' '):<9} {shown(value)}"
+            for name, value in record["statistics"].items()
+        ]
     lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
     return "\n".join(lines)
 

@@ -11,6 +11,7 @@ from .results import (
     AnalysisResult,
     IntrinsicSymmetry,
     PartialSymmetries,
+    RecurringParts,
     Symmetries,
     SymmetryEmbedding,
 )
@@ -20,6 +21,7 @@ __all__ = [
     "Axis",
     "IntrinsicSymmetry",
     "PartialSymmetries",
+    "RecurringParts",
     "Symmetries",
     "SymmetryEmbedding",
     "Transformation",

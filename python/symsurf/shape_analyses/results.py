@@ -84,7 +84,17 @@ class AnalysisResult(Summarised):
         axis has the order "continuous" in place of 0, a transformation "from" and "onto"."""
         return {
             "analysis": self.analysis,
-            **_elements_record(self),
+            "planes": [
+                {"normal": plane.normal.tolist(), "offset": plane.offset} for plane in self.planes
+            ],
+            "axes": [
+                {
+                    "point": axis.point.tolist(),
+                    "direction": axis.direction.tolist(),
+                    "order": axis.order or "continuous",
+                }
+                for axis in self.axes
+            ],
             "transformations": [
                 {
                     "kind": each.kind,
@@ -197,17 +207,16 @@ class Symmetries(AnalysisResult):
         )
 
     def to_json(self) -> dict[str, Any]:
-        """The group and its elements by name, in what ``json.dumps`` takes; an axis has the order
-        "continuous" in place of 0."""
+        """What every analysis gives, with the group, its centre, ``inversion``, ``elements`` as lists
+        of rows, ``score`` and ``missing`` by name, in what ``json.dumps`` takes."""
         return {
+            **super().to_json(),
             "group": self.group,
             "centre": self.centre.tolist(),
-            **_elements_record(self),
             "inversion": self.inversion,
             "elements": self.elements.tolist(),
             "score": self.score,
             "missing": self.missing,
-            "seconds": self.seconds,
         }
 
     def to_bop(self) -> dict[str, Any]:
@@ -304,23 +313,40 @@ class PartialSymmetries(AnalysisResult):
     analysis = "partial_symmetries"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class RecurringParts(AnalysisResult):
+    """The parts of a mesh that recur.
+
+    ``transformations`` has the maps from the first instance of a part to each of its instances, the
+    identity first, part after part: those that make up most of the feature lines come first.
+    ``arrays["part"]`` and ``arrays["instance"]`` have for each point the numbers of its part and of its
+    instance of that part, -1 for none.
+    """
+
+    analysis = "recurring_parts"
+
+    @property
+    def parts(self) -> list[list[Transformation]]:
+        """The maps to the instances of each part, the identity first."""
+        found: list[list[Transformation]] = []
+        for each in self.transformations:
+            if each.kind == "identity":
+                found.append([])
+            found[-1].append(each)
+        return found
+
+    def __repr__(self) -> str:
+        counts = ", ".join(str(len(part)) for part in self.parts)
+        return f"RecurringParts({self.shape!r}, instances of each part: {counts or 'none'})"
+
+
 RESULTS: dict[str, type[AnalysisResult]] = {
     kind.analysis: kind
-    for kind in (Symmetries, PartialSymmetries, SymmetryEmbedding, IntrinsicSymmetry)
+    for kind in (
+        Symmetries,
+        PartialSymmetries,
+        RecurringParts,
+        SymmetryEmbedding,
+        IntrinsicSymmetry,
+    )
 }
-
-
-def _elements_record(result: AnalysisResult) -> dict[str, Any]:
-    return {
-        "planes": [
-            {"normal": plane.normal.tolist(), "offset": plane.offset} for plane in result.planes
-        ],
-        "axes": [
-            {
-                "point": axis.point.tolist(),
-                "direction": axis.direction.tolist(),
-                "order": axis.order or "continuous",
-            }
-            for axis in result.axes
-        ],
-    }

@@ -97,24 +97,24 @@ struct Leaders {
     for (Index a = 0; a < all.size(); ++a)
       least[a] = (points[all.point[a]] - symmetries.centre).norm();
     nearest.assign(all.size(), 0);
-    std::vector<Eigen::VectorXd> columns;
     const Index most = std::min(most_leaders, all.size());
+    dissimilarity.resize(all.size(), most);
     while (static_cast<Index>(nodes.size()) < most) {
       context.report(static_cast<double>(nodes.size()) / static_cast<double>(most));
       Index farthest;
       const double away = least.maxCoeff(&farthest);
       if (!nodes.empty() && away <= resolution) break;
-      columns.push_back(dissimilarities(points, all, farthest, symmetries, Context({}, 1)));
+      const auto leader = static_cast<Index>(nodes.size());
+      dissimilarity.col(leader) =
+          dissimilarities(points, all, farthest, symmetries, Context({}, 1));
       for (Index a = 0; a < all.size(); ++a)
-        if (nodes.empty() || columns.back()[a] < least[a]) {
-          least[a] = columns.back()[a];
-          nearest[a] = static_cast<Index>(nodes.size());
+        if (nodes.empty() || dissimilarity(a, leader) < least[a]) {
+          least[a] = dissimilarity(a, leader);
+          nearest[a] = leader;
         }
       nodes.push_back(farthest);
     }
-    dissimilarity.resize(all.size(), static_cast<Index>(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      dissimilarity.col(static_cast<Index>(k)) = columns[k];
+    dissimilarity.conservativeResize(Eigen::NoChange, static_cast<Index>(nodes.size()));
   }
 };
 
@@ -127,8 +127,8 @@ FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
   std::vector<Index> numbers(points.size());
   std::iota(numbers.begin(), numbers.end(), Index{0});
   const Nodes nodes(symmetries.exact ? exact_orbits(points, tree, symmetries) : numbers);
-  const Leaders leaders(points, nodes, symmetries, approximate ? options.resolution : 0,
-                        context.stage(0, 0.8));
+  Leaders leaders(points, nodes, symmetries, approximate ? options.resolution : 0,
+                  context.stage(0, 0.8));
 
   FactoredEmbedding embedding;
   embedding.orbits = nodes.of_point;
@@ -145,8 +145,9 @@ FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
                          0);
   for (const Index orbit : embedding.orbits) ++embedding.sizes[orbit];
 
-  const Eigen::MatrixXd correspondence =
-      (-(leaders.dissimilarity / options.localization).array().square()).exp();
+  // In place: of a million points it takes 2.4 GB.
+  Eigen::MatrixXd& correspondence = leaders.dissimilarity;
+  correspondence = (-(correspondence.array() / options.localization).square()).exp();
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Index>(leaders.nodes.size()));
   for (Index a = 0; a < nodes.size(); ++a) mass[leaders.nearest[a]] += nodes.mass[a];
   const Eigen::VectorXd root = mass.cwiseSqrt();
@@ -158,9 +159,10 @@ FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
   context.check();
   const Index kept = (values.array() > least_eigenvalue * values[values.size() - 1]).count();
   embedding.eigenvalues = values.tail(kept).reverse();
+  const Index given = std::min(kept, options.coordinates);
   const Eigen::MatrixXd carried =
-      correspondence * (root.asDiagonal() * vectors.rightCols(kept).rowwise().reverse());
-  const Eigen::VectorXd weights = embedding.eigenvalues.array().pow(options.power - 1);
+      correspondence * (root.asDiagonal() * vectors.rightCols(given).rowwise().reverse());
+  const Eigen::VectorXd weights = embedding.eigenvalues.head(given).array().pow(options.power - 1);
   embedding.coordinates = (carried * weights.asDiagonal())(nodes.of_point, Eigen::indexing::all);
   return embedding;
 }

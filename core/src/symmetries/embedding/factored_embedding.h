@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 #include <symsurf/points_view.h>
 
+#include <limits>
 #include <vector>
 
 #include "symmetries/embedding/near_symmetries.h"
@@ -15,13 +16,15 @@ struct FactoredEmbedding {
   std::vector<Index> orbits;    ///< of each point the number of its orbit, by first points
   std::vector<Index> sizes;     ///< points of each orbit
   Eigen::VectorXd eigenvalues;  ///< of the symmetry correspondence matrix, descending
-  Eigen::MatrixXd coordinates;  ///< a row a point: eigenvalue^power times the eigenvectors there
+  /// A row a point: eigenvalue^power times the eigenvectors there, of as many as were asked for.
+  Eigen::MatrixXd coordinates;
 };
 
 struct EmbeddingOptions {
   double localization = 0.02;  ///< sigma of the correspondence, in diameters
   double power = 1;            ///< t of the embedding
   double resolution = 0.02;  ///< how near points of one orbit are without exact partners, diameters
+  Index coordinates = std::numeric_limits<Index>::max();  ///< at most, of the largest eigenvalues
 };
 
 /// The correspondence of x and y is exp(-(S / localization)^2), where S, in diameters, is the least

@@ -66,7 +66,7 @@ void run_symmetry_embedding(const Cloud& cloud, const ParameterValues& values,
   const PointsView points = cloud.points;
   const PointTree tree(points, context.stage(0, 0.1));
   const EmbeddingOptions options{values.real("localization"), values.real("power"),
-                                 values.real("resolution")};
+                                 values.real("resolution"), shown_coordinates};
   const NearSymmetries symmetries =
       near_symmetries(points, tree, values.real("tolerance"), context.stage(0.1, 0.4));
   const FactoredEmbedding embedding =
@@ -79,8 +79,7 @@ void run_symmetry_embedding(const Cloud& cloud, const ParameterValues& values,
     size(i) = static_cast<double>(embedding.sizes[embedding.orbits[i]]);
   }
   Eigen::MatrixXd coordinates = Eigen::MatrixXd::Zero(points.size(), shown_coordinates);
-  const Index given = std::min<Index>(shown_coordinates, embedding.coordinates.cols());
-  coordinates.leftCols(given) = embedding.coordinates.leftCols(given);
+  coordinates.leftCols(embedding.coordinates.cols()) = embedding.coordinates;
   result.arrays = {{"orbit", orbit},
                    {"orbit_size", size},
                    {"embedding", coordinates},

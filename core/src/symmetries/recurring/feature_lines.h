@@ -1,0 +1,40 @@
+#pragma once
+
+#include <symsurf/context.h>
+#include <symsurf/points_view.h>
+#include <symsurf/triangles_view.h>
+
+#include <array>
+#include <vector>
+
+namespace symsurf {
+
+/// A stretch of sharp edges of a mesh from one corner to the next, or around to its beginning.
+struct FeatureLine {
+  static constexpr int steps = 8;
+
+  Index start = -1, end = -1;  ///< corners; -1 both: closed, and smooth all around
+  double length = 0;
+  std::array<Vector3, steps> samples;  ///< at equal steps along it, beginning with the start
+  /// Unit vectors across the line into the faces at its middle: they say how the surface bends.
+  std::vector<Vector3> wings;
+  std::vector<Index> points;  ///< of the mesh
+
+  bool has_ends() const { return start >= 0; }
+  const Vector3& middle() const { return samples[steps / 2]; }
+};
+
+/// The feature lines of a mesh with the graph that they are the edges of.
+struct FeatureLines {
+  std::vector<FeatureLine> lines;
+  std::vector<Vector3> corners;
+  std::vector<std::vector<Index>> at;  ///< the lines at each corner, ascending; both ends may be
+};
+
+/// The lines along which faces meet at more than `angle` radians, or end (Bokeloh et al. 2009).
+/// They meet in corners, where one bends by more than that, or where another number of edges than
+/// two come together. Points at the same place are one.
+FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
+                           const Context& context);
+
+}  // namespace symsurf

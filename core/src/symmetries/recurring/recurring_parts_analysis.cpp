@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <numbers>
+
+#include "symmetries/analysis_registry.h"
+#include "symmetries/recurring/part_points.h"
+#include "symmetries/recurring/part_search.h"
+#include "symmetries/transformation_kind.h"
+
+namespace symsurf {
+
+namespace {
+
+// Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
+// after.
+constexpr double named_angle = 0.02, named_share = 0.1;
+
+Matrix4 in_units_of(const Cloud& cloud, const Eigen::Isometry3d& map) {
+  Matrix4 input = Matrix4::Identity();
+  input.topLeftCorner<3, 3>() = map.linear();
+  input.topRightCorner<3, 1>() = cloud.frame.centroid + cloud.diagonal * map.translation() -
+                                 map.linear() * cloud.frame.centroid;
+  return input;
+}
+
+void run_recurring_parts(const Cloud& cloud, const ParameterValues& values, const Context& context,
+                         AnalysisResult& result) {
+  // In diagonals, from the centroid.
+  Points scaled = cloud.points.matrix();
+  scaled.rowwise() -= cloud.frame.centroid.transpose();
+  scaled /= cloud.diagonal;
+  Cloud unit = cloud;
+  unit.points = scaled;
+  const double tolerance = values.real("tolerance"),
+               angle = values.real("feature_angle") * std::numbers::pi / 180;
+  const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  std::vector<RecurringPart> parts =
+      part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                             [&](const RecurringPart& part) {
+                               return static_cast<Index>(part.instances.size()) <
+                                      values.integer("minimum_instances");
+                             }),
+              parts.end());
+  const PartPoints points = part_points(unit, graph, parts, tolerance, context.stage(0.8, 1));
+
+  const Index count = cloud.points.size();
+  Eigen::VectorXd part(count), instance(count);
+  for (Index i = 0; i < count; ++i) {
+    part[i] = static_cast<double>(points.part[i]);
+    instance[i] = static_cast<double>(points.instance[i]);
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Vector3 middle =
+        cloud.points.matrix()(points.members[p][0], Eigen::indexing::all).colwise().mean();
+    for (std::size_t k = 0; k < parts[p].instances.size(); ++k) {
+      Transformation transformation;
+      transformation.matrix = in_units_of(cloud, parts[p].instances[k].map);
+      const Vector3 moved = (transformation.matrix * middle.homogeneous()).head<3>() - middle;
+      // But the first none is the identity, however little it moves.
+      transformation.kind =
+          k == 0 ? "identity"
+                 : kind_of(transformation.matrix, middle, named_angle,
+                           std::min(tolerance * cloud.diagonal, named_share * moved.norm()));
+      transformation.score = points.scores[p][k];
+      transformation.from = points.members[p][0];
+      transformation.onto = points.members[p][k];
+      result.transformations.push_back(std::move(transformation));
+    }
+  }
+  result.arrays = {{"part", part}, {"instance", instance}};
+  result.statistics["parts"] = static_cast<Index>(parts.size());
+  result.statistics["instances"] = static_cast<Index>(result.transformations.size());
+  result.statistics["feature_lines"] = static_cast<Index>(graph.lines.size());
+}
+
+}  // namespace
+
+AnalysisImplementation recurring_parts_analysis() {
+  AnalysisImplementation analysis;
+  analysis.name = "recurring_parts";
+  analysis.title = "Recurring parts";
+  analysis.summary =
+      "Finds the parts of a mesh that recur, such as windows or teeth, by its feature lines "
+      "(Bokeloh et al. 2009).";
+  analysis.parameters = {
+      Parameter::real("feature_angle", 30, 1, 179, "degrees",
+                      "Faces that meet at more than this angle have a feature line between them."),
+      Parameter::real("tolerance", 0.002, 1e-6, 0.1, "diagonal",
+                      "How far an instance may differ from another."),
+      Parameter::integer("minimum_instances", 2, 2, 1000000, "", "How often a part must occur."),
+      Parameter::integer("count", 20, 1, 1000, "", "The most parts that are found."),
+  };
+  analysis.arrays = {
+      {"part", ParameterType::Integer, 1, "The part that the point belongs to, -1: none."},
+      {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
+  };
+  analysis.shown = "instance";
+  analysis.needs_faces = true;
+  analysis.finds_transforms = true;
+  analysis.run = run_recurring_parts;
+  return analysis;
+}
+
+}  // namespace symsurf

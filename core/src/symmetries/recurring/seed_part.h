@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "symmetries/recurring/line_match.h"
+
+namespace symsurf {
+
+/// Lines that recur, and the maps to their instances.
+struct RecurringPart {
+  std::vector<Index> lines;  ///< of the first instance
+  struct Instance {
+    Eigen::Isometry3d map = Eigen::Isometry3d::Identity();  ///< from the first
+    std::vector<Index> lines;                               ///< the images, in the order of lines
+  };
+  std::vector<Instance> instances;  ///< the first by the identity
+  double length = 0;                ///< of the lines of one
+  bool is_whole = false;            ///< no other line goes on from it
+
+  /// What a description by one instance and maps to the others saves.
+  double saved() const { return length * static_cast<double>(instances.size() - 1); }
+};
+
+/// Of those that save nearly as much as any a whole before a piece, then that with the most
+/// instances; the end for none.
+std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts);
+
+/// The best part with this line; without instances where there is none. `alike`: the
+/// lines that it may be taken to, itself among them. No line is in two instances.
+RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
+                        const LineMatching& matching, const Context& context);
+
+}  // namespace symsurf
