@@ -133,6 +133,22 @@ TEST(Context, IsAskedByFixedDirectionAllTheTime) {
   EXPECT_LE(static_cast<double>(longest), 0.06 * static_cast<double>(std::clock() - start));
 }
 
+// The mirror is laid out over all points before one is carried along.
+TEST(Context, IsAskedByBendWhileItLaysTheMirrorOut) {
+  const Points points = RandomCloud(0).sphere(400'000);
+  int asked = 0;
+  double last = 0;
+  EXPECT_THROW(bend(points, Sphere({0, 0, -3}, 3), Bend::Straighten,
+                    Context(
+                        [&](double fraction) {
+                          last = fraction;
+                          return ++asked < 2;
+                        },
+                        1)),
+               Cancelled);
+  EXPECT_EQ(last, 0);
+}
+
 TEST(Context, HandsOnWhatTheCallbackThrows) {
   for (const LongCall& call : long_calls())
     EXPECT_THROW(

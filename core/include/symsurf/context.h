@@ -26,7 +26,8 @@ class Context {
   void report(double fraction) const;
 
   /// The same where there is no news: long loops call it, so that nobody waits for the next report.
-  /// On any thread; those that the calling thread has started stop with it.
+  /// On any thread; those that the calling thread has started stop with it. The calling thread is
+  /// known by its first report.
   void check() const;
 
   /// The same context for a point set that processes share out; null, or one process: all of it is
