@@ -174,18 +174,24 @@ class Search {
   void find_roots(int k) {
     for (std::size_t i = 0; i + 1 < curve_.size(); ++i) {
       if (is_sign_change(curve_[i], curve_[i + 1], k)) root(curve_[i], curve_[i + 1], k);
-      if (i > 0) find_pair(curve_[i - 1], curve_[i], curve_[i + 1], k);
+      if (i > 0 && is_dip(curve_[i - 1], curve_[i], curve_[i + 1], k))
+        find_pair(curve_[i - 1], curve_[i], curve_[i + 1], k);
     }
+  }
+
+  // Whether the middle one of three samples is the nearest to a root, all of one sign.
+  static bool is_dip(const Sample& a, const Sample& b, const Sample& c, int k) {
+    if (!a.is_real || !b.is_real || !c.is_real) return false;
+    const double sign = b.branch[k].law < 0 ? -1 : 1, y = sign * b.branch[k].law;
+    return sign * a.branch[k].law > y && sign * c.branch[k].law > y;
   }
 
   // Two roots between three samples of one sign, by the parabolas through them.
   void find_pair(Sample a, Sample b, Sample c, int k) {
-    if (!a.is_real || !b.is_real || !c.is_real) return;
     constexpr int most_steps = 6;
     for (int step = 0; step < most_steps; ++step) {
       const double y = b.branch[k].law, sign = y < 0 ? -1 : 1;
       const double left = sign * (a.branch[k].law - y), right = sign * (c.branch[k].law - y);
-      if (!(left > 0 && right > 0) || a.branch[k].law * y < 0 || c.branch[k].law * y < 0) return;
       const double h = a.angle - b.angle, l = c.angle - b.angle;
       // y + slope d + bend d^2, d from b.
       const double bend = (left / h - right / l) / (h - l), slope = left / h - bend * h;
@@ -205,6 +211,7 @@ class Search {
       else
         (is_lower ? a : c) = is_lower ? b : next;
       if (is_lower) b = next;
+      if (!is_dip(a, b, c, k)) return;
     }
   }
 
