@@ -60,6 +60,19 @@ symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
   return theirs;
 }
 
+void together(const ControllerCommunicator& processes, const std::function<void()>& part) {
+  if (processes.size() == 1) return part();
+  std::string problem;
+  try {
+    part();
+  } catch (const symsurf::InvalidInput& error) {
+    problem = error.what();
+  }
+  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(problem))))
+    if (!theirs.empty())
+      throw symsurf::InvalidInput(std::string(chars(theirs.data()), theirs.size()));
+}
+
 bool are_elsewhere(const ControllerCommunicator& processes, symsurf::Index own,
                    const std::string& what) {
   if (processes.size() == 1) return false;

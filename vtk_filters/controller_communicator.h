@@ -4,6 +4,7 @@
 #include <symsurf/communicator.h>
 #include <symsurf/types.h>
 
+#include <functional>
 #include <string>
 
 #include "vtkMultiProcessController.h"
@@ -22,6 +23,10 @@ class ControllerCommunicator : public symsurf::Communicator {
  private:
   vtkMultiProcessController* controller_;
 };
+
+/// Runs what each process does for itself, in all of them: what one throws as InvalidInput all
+/// throw, in the same words. One that threw alone would keep the others waiting.
+void together(const ControllerCommunicator& processes, const std::function<void()>& part);
 
 /// Whether another process has the points, all of them. Throws InvalidInput where several have
 /// some, in all processes together: one that threw alone would keep the others waiting. `what`:

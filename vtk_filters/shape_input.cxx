@@ -2,7 +2,6 @@
 
 #include <symsurf/errors.h>
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -99,17 +98,7 @@ vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationV
 
 vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationVector** inputs,
                                       const ControllerCommunicator& processes) {
-  if (processes.size() == 1) return shape_of(filter, inputs);
   Shape shape;
-  std::string problem;
-  try {
-    shape = shape_of(filter, inputs);
-  } catch (const symsurf::InvalidInput& error) {
-    problem = error.what();
-  }
-  for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(problem))))
-    if (!theirs.empty())
-      throw symsurf::InvalidInput(
-          std::string(reinterpret_cast<const char*>(theirs.data()), theirs.size()));
+  together(processes, [&] { shape = shape_of(filter, inputs); });
   return shape;
 }

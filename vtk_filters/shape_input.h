@@ -12,8 +12,7 @@ class vtkShapeAlgorithm;
 /// Throws InvalidInput.
 vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationVector** inputs);
 
-/// The same of a shape that processes share out: where one cannot have its part all throw, in the
-/// same words. One that threw alone would keep the others waiting.
+/// The same of a shape that processes share out: where one cannot have its part all throw.
 vtkSmartPointer<vtkPolyData> shape_of(vtkShapeAlgorithm* filter, vtkInformationVector** inputs,
                                       const ControllerCommunicator& processes);
 

@@ -54,12 +54,8 @@ symsurf::Index points_before(const ControllerCommunicator& processes, symsurf::I
   return before;
 }
 
-// Of all processes together: one that threw alone would keep the others waiting.
-void require_normals(const ControllerCommunicator& processes, bool missing) {
-  if (processes.size() > 1)
-    for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(&missing, 1))))
-      missing = missing || theirs.front() != std::byte{0};
-  if (missing)
+void require_normals(const PointArray& normals, const PointArray& points) {
+  if (normals.view().size() < points.view().size())
     throw symsurf::InvalidInput(
         "UseNormals is on, but the input has no point normals; compute them first, or do without");
 }
@@ -169,7 +165,7 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     const auto input = shape_of(this, inputs, processes);
     const PointArray points = points_of(input);
     const PointArray normals(this->UseNormals ? input->GetPointData()->GetNormals() : nullptr);
-    if (this->UseNormals) require_normals(processes, normals.view().size() < points.view().size());
+    if (this->UseNormals) together(processes, [&] { require_normals(normals, points); });
     const symsurf::Index before = points_before(processes, points.view().size());
 
     // Several processes use their points only: polygons that one cannot use would stop it alone.
