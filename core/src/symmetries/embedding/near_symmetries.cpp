@@ -1,10 +1,10 @@
 #include "symmetries/embedding/near_symmetries.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
 
 namespace symsurf {
 
@@ -185,10 +185,7 @@ class Search {
       }
       const auto count = static_cast<double>(points.size());
       products -= onto * from.transpose() / count;
-      const Eigen::JacobiSVD<Matrix3> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      const double turned = svd.matrixU().determinant() * svd.matrixV().determinant() * parity;
-      const Matrix3 linear =
-          svd.matrixU() * Vector3(1, 1, turned).asDiagonal() * svd.matrixV().transpose();
+      const Matrix3 linear = nearest_orthogonal(products, parity);
       map = about_centre(linear);
       map.pretranslate((onto - linear * from) / count);
     }

@@ -1,10 +1,11 @@
 #include "symmetries/recurring/line_match.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
+
+#include "base/nearest_orthogonal.h"
 
 namespace symsurf {
 
@@ -138,13 +139,9 @@ Eigen::Isometry3d LineMatching::fitted(const LineMatch& match) const {
   onto /= static_cast<double>(pairs.size());
   Matrix3 products = Matrix3::Zero();
   for (const auto& [x, y] : pairs) products += (y - onto) * (x - from).transpose();
-  // The rotation, or reflection, of least squares (Umeyama 1991).
-  const Eigen::JacobiSVD<Matrix3> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handedness = match.map.linear().determinant() > 0 ? 1 : -1;
-  Matrix3 signs = Matrix3::Identity();
-  signs(2, 2) = handedness * (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1;
+  const double parity = match.map.linear().determinant() > 0 ? 1 : -1;
   Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-  map.linear() = svd.matrixU() * signs * svd.matrixV().transpose();
+  map.linear() = nearest_orthogonal(products, parity);
   map.translation() = onto - map.linear() * from;
   return map;
 }
