@@ -78,59 +78,65 @@ std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& 
   return points;
 }
 
-}  // namespace
+// How well each instance of a part fits the surface: see PartPoints.
+std::vector<double> scores_of(const RecurringPart& part, const FeatureLines& graph,
+                              const ClosestPointOnMesh& closest, double tolerance) {
+  const std::vector<Vector3> surface = about(part.lines, graph, closest, tolerance);
+  const double limit = 4 * tolerance * tolerance;
+  std::vector<double> scores;
+  for (const RecurringPart::Instance& instance : part.instances) {
+    double sum = 0;
+    for (const Vector3& x : surface) {
+      const ClosestPoint nearest = closest(instance.map * x, limit);
+      if (nearest.face >= 0) sum += biweight(std::sqrt(nearest.squared_distance / limit));
+    }
+    scores.push_back(sum / static_cast<double>(surface.size()));
+  }
+  return scores;
+}
 
-PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
-                       const std::vector<RecurringPart>& parts, double tolerance,
-                       const Context& context) {
+// Calls visit(part, instance, line) for the lines of all instances, in their order.
+template <typename Visit>
+void for_each_line(const std::vector<RecurringPart>& parts, const FeatureLines& graph,
+                   const Visit& visit) {
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t i = 0; i < parts[p].instances.size(); ++i)
+      for (const Index line : parts[p].instances[i].lines)
+        visit(static_cast<Index>(p), static_cast<Index>(i), graph.lines[line]);
+}
+
+// The points on the lines of instances belong to them, a shared corner to the first.
+void assign_lines(const std::vector<RecurringPart>& parts, const FeatureLines& graph,
+                  PartPoints& found) {
+  for_each_line(parts, graph, [&](Index part, Index instance, const FeatureLine& line) {
+    for (const Index point : line.points) {
+      if (found.part[point] >= 0) continue;
+      found.part[point] = part;
+      found.instance[point] = instance;
+    }
+  });
+}
+
+// Any other point belongs to the instance with the nearest line, within the box of that one.
+void assign_surface(const Cloud& cloud, const std::vector<RecurringPart>& parts,
+                    const FeatureLines& graph, double margin, PartPoints& found,
+                    const Context& context) {
   struct Owner {
     Index part, instance;
   };
-  std::vector<Vector3> on_lines;
+  std::vector<Vector3> samples;
   std::vector<Owner> owners;
+  for_each_line(parts, graph, [&](Index part, Index instance, const FeatureLine& line) {
+    samples.insert(samples.end(), line.samples.begin(), line.samples.end());
+    owners.resize(samples.size(), {part, instance});
+  });
   std::vector<PartBox> boxes;
-  PartPoints found;
-  const Index count = cloud.points.size();
-  found.part.assign(count, -1);
-  found.instance.assign(count, -1);
-  std::vector<char> is_on_line(count, 0);
-  const ClosestPointOnMesh closest(cloud.points, cloud.faces, context.stage(0, 0.4));
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    boxes.emplace_back(parts[p].lines, graph, tolerance);
-    const std::vector<Vector3> surface = about(parts[p].lines, graph, closest, tolerance);
-    std::vector<double> scores;
-    for (std::size_t i = 0; i < parts[p].instances.size(); ++i) {
-      const RecurringPart::Instance& instance = parts[p].instances[i];
-      double sum = 0;
-      for (const Vector3& x : surface) {
-        const double limit = 4 * tolerance * tolerance;
-        const ClosestPoint nearest = closest(instance.map * x, limit);
-        if (nearest.face >= 0) sum += biweight(std::sqrt(nearest.squared_distance / limit));
-      }
-      scores.push_back(sum / static_cast<double>(surface.size()));
-      for (const Index line : instance.lines) {
-        const FeatureLine& own = graph.lines[line];
-        for (const Index point : own.points) {
-          if (!is_on_line[point]) {
-            found.part[point] = static_cast<Index>(p);
-            found.instance[point] = static_cast<Index>(i);
-            is_on_line[point] = 1;
-          }
-        }
-        for (const Vector3& x : own.samples) {
-          on_lines.push_back(x);
-          owners.push_back({static_cast<Index>(p), static_cast<Index>(i)});
-        }
-      }
-    }
-    found.scores.push_back(std::move(scores));
-  }
-  if (parts.empty()) return found;
-  const PointTree tree(rows_of(on_lines), context.stage(0.4, 0.5));
+  for (const RecurringPart& part : parts) boxes.emplace_back(part.lines, graph, margin);
+  const PointTree tree(rows_of(samples), context.stage(0, 0.2));
   constexpr Index grain = 1024;
-  parallel_for(context.stage(0.5, 1), count, grain, [&](Index begin, Index end) {
+  parallel_for(context.stage(0.2, 1), cloud.points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      if (is_on_line[i]) continue;
+      if (found.part[i] >= 0) continue;
       const Owner owner = owners[tree.nearest(cloud.points[i]).index];
       const Eigen::Isometry3d& map = parts[owner.part].instances[owner.instance].map;
       if (!boxes[owner.part].holds(map.inverse() * cloud.points[i])) continue;
@@ -138,22 +144,41 @@ PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
       found.instance[i] = owner.instance;
     }
   });
-  for (const RecurringPart& part : parts) {
-    found.members.emplace_back();
-    for (const RecurringPart::Instance& instance : part.instances) {
-      std::vector<Index>& members = found.members.back().emplace_back();
-      for (const Index line : instance.lines)
-        members.insert(members.end(), graph.lines[line].points.begin(),
-                       graph.lines[line].points.end());
-    }
-  }
-  for (Index i = 0; i < count; ++i)
-    if (found.part[i] >= 0) found.members[found.part[i]][found.instance[i]].push_back(i);
+}
+
+// The points of each instance, ascending, with all that are on its lines.
+void collect_members(const std::vector<RecurringPart>& parts, const FeatureLines& graph,
+                     PartPoints& found) {
+  for (const RecurringPart& part : parts) found.members.emplace_back(part.instances.size());
+  for_each_line(parts, graph, [&](Index part, Index instance, const FeatureLine& line) {
+    std::vector<Index>& members = found.members[part][instance];
+    members.insert(members.end(), line.points.begin(), line.points.end());
+  });
+  for (std::size_t i = 0; i < found.part.size(); ++i)
+    if (found.part[i] >= 0)
+      found.members[found.part[i]][found.instance[i]].push_back(static_cast<Index>(i));
   for (std::vector<std::vector<Index>>& part : found.members)
     for (std::vector<Index>& members : part) {
       std::sort(members.begin(), members.end());
       members.erase(std::unique(members.begin(), members.end()), members.end());
     }
+}
+
+}  // namespace
+
+PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
+                       const std::vector<RecurringPart>& parts, double tolerance,
+                       const Context& context) {
+  PartPoints found;
+  found.part.assign(cloud.points.size(), -1);
+  found.instance.assign(cloud.points.size(), -1);
+  if (parts.empty()) return found;
+  const ClosestPointOnMesh closest(cloud.points, cloud.faces, context.stage(0, 0.4));
+  for (const RecurringPart& part : parts)
+    found.scores.push_back(scores_of(part, graph, closest, tolerance));
+  assign_lines(parts, graph, found);
+  assign_surface(cloud, parts, graph, tolerance, found, context.stage(0.4, 1));
+  collect_members(parts, graph, found);
   return found;
 }
 

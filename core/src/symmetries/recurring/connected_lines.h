@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "symmetries/recurring/line_match.h"
+
+namespace symsurf {
+
+/// Feature lines by local numbers: see ConnectedLines.
+using LocalLines = std::vector<std::int32_t>;
+
+/// A map with where it takes the lines that are connected with the seed.
+struct LocalMatch {
+  Eigen::Isometry3d map;
+  std::vector<std::int32_t> images;  ///< the line that each local one is taken to; -1: none
+  double length = 0;                 ///< of the lines that have an image
+};
+
+/// The feature lines that are connected with a seed. They have local numbers: 0 is the seed, then
+/// come the others in the order in which they are reached.
+class ConnectedLines {
+ public:
+  /// `own`: the match of the seed with itself.
+  ConnectedLines(const FeatureLines& graph, const LineMatch& own);
+
+  std::size_t size() const { return lines_.size(); }
+  /// The number in the graph of a local line.
+  Index number(std::size_t local) const { return lines_[local]; }
+  const FeatureLine& line(std::size_t local) const { return graph_.lines[lines_[local]]; }
+  Vector3 middle(std::size_t local) const { return line(local).middle(); }
+  const FeatureLines& graph() const { return graph_; }
+
+  LocalMatch local(const LineMatch& match) const;
+
+  /// First one map, then the other.
+  LocalMatch after(const LocalMatch& second, const LocalMatch& first) const;
+
+  /// The lines connected with the seed by lines that have an image by all of these maps.
+  LocalLines common(const std::vector<const LocalMatch*>& matches) const;
+
+  /// Lines connected with `start`, first those nearer to a point, whose images by these maps are
+  /// all there and no line twice.
+  LocalLines disjoint(const std::vector<const LocalMatch*>& matches, std::int32_t start,
+                      const Vector3& point) const;
+
+ private:
+  template <typename Visit>
+  void for_each_next(std::int32_t line, const Visit& visit) const;
+
+  const FeatureLines& graph_;
+  std::vector<Index> lines_;         // of each local number
+  std::vector<std::int32_t> local_;  // of each line; -1: not connected with the seed
+};
+
+}  // namespace symsurf
