@@ -5,13 +5,14 @@
 
 #include "base/math.h"
 #include "base/nearest_orthogonal.h"
+#include "cloud/farthest_points.h"
 
 namespace symsurf {
 
 namespace {
 
 constexpr double rounding = 1e-6;  // diameters between an image and its partner: single precision
-constexpr double least_radius = 0.3;     // of the largest, of points that a map is told by
+constexpr double least_radius = 0.3;     // of the largest, of points that define a map
 constexpr double least_sine = 0.3;       // of the angle between two of them
 constexpr Index most_bases = 4'000'000;  // pairs that are tried for the base
 constexpr std::size_t most_exact = 512, most_near = 32;  // maps
@@ -27,7 +28,7 @@ using Maps = std::vector<NearSymmetry>;
 class Search {
  public:
   Search(PointsView points, const PointTree& tree, const Context& context)
-      : tree_(tree), context_(context) {
+      : points_(points), tree_(tree), context_(context) {
     found_.centre = points.matrix().colwise().mean().transpose();
     rows_ = (points.matrix().rowwise() - found_.centre.transpose()).transpose();
     radii_ = rows_.colwise().norm();
@@ -36,8 +37,7 @@ class Search {
   }
 
   NearSymmetries run(double tolerance) {
-    add_exact();  // which of a flat cloud adds the reflection that leaves all points in their
-                  // places
+    add_exact();  // of a planar cloud also the reflection in its plane
     if (!found_.exact) add_near(tolerance);
     return std::move(found_);
   }
@@ -147,20 +147,6 @@ class Search {
         {map, std::sqrt(squares / static_cast<double>(rows_.cols())) / found_.diameter});
   }
 
-  // Points far from each other: the first from the centroid.
-  std::vector<Index> spread() const {
-    std::vector<Index> chosen;
-    Eigen::VectorXd distances = radii_;
-    while (static_cast<Index>(chosen.size()) < std::min(landmarks, radii_.size())) {
-      Index farthest;
-      distances.maxCoeff(&farthest);
-      const Eigen::VectorXd from = (rows_.colwise() - rows_.col(farthest)).colwise().norm();
-      distances = chosen.empty() ? from : Eigen::VectorXd(distances.cwiseMin(from));
-      chosen.push_back(farthest);
-    }
-    return chosen;
-  }
-
   double deviation(const Eigen::Isometry3d& map, const std::vector<Index>& points) const {
     const Eigen::Isometry3d back = map.inverse();
     double squares = 0;
@@ -193,7 +179,7 @@ class Search {
   }
 
   void add_near(double tolerance) {
-    const std::vector<Index> few = spread();
+    const std::vector<Index> few = farthest_points(points_, landmarks, context_);
     std::vector<Index> many;
     for (Index i = 0; i < radii_.size(); i += std::max<Index>(1, radii_.size() / compared))
       many.push_back(i);
@@ -254,6 +240,7 @@ class Search {
     return nearest;
   }
 
+  PointsView points_;
   const PointTree& tree_;
   const Context& context_;
   Columns rows_;  // the points from their centroid

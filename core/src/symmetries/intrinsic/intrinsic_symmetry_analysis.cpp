@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/math.h"
+#include "cloud/farthest_points.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/intrinsic/map_search.h"
 
@@ -42,7 +43,7 @@ void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
   std::vector<Index> images(size, -1);
   Eigen::VectorXd confidence = Eigen::VectorXd::Zero(size);
   if (found.map.size() > 0) {
-    const std::vector<Index> dense = farthest_rows(surface.points, samples_refined, context);
+    const std::vector<Index> dense = farthest_points(surface.points, samples_refined, context);
     const SampledFunctions sampled(basis, dense, surface.laplacian.areas(dense));
     const Index from = std::min(functions_refined, basis.count());
     found.map =

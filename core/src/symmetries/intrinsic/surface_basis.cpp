@@ -16,23 +16,6 @@ SurfaceBasis surface_basis(const ConnectedSurface& surface, Index count, const C
   return {values.tail(found), vectors.rightCols(found)};
 }
 
-std::vector<Index> farthest_rows(const Eigen::MatrixXd& rows, Index count, const Context& context) {
-  const Eigen::MatrixXd columns = rows.transpose();  // each row together in memory
-  Eigen::VectorXd distances =
-      (columns.colwise() - columns.rowwise().mean()).colwise().squaredNorm();
-  std::vector<Index> chosen;
-  while (static_cast<Index>(chosen.size()) < std::min(count, rows.rows())) {
-    context.check();
-    Index farthest;
-    distances.maxCoeff(&farthest);
-    const Eigen::VectorXd from =
-        (columns.colwise() - columns.col(farthest)).colwise().squaredNorm();
-    distances = chosen.empty() ? from : Eigen::VectorXd(distances.cwiseMin(from));
-    chosen.push_back(farthest);
-  }
-  return chosen;
-}
-
 SampledPoints surface_samples(const ConnectedSurface& surface, Index count,
                               const Context& context) {
   SampledPoints samples;

@@ -26,7 +26,4 @@ struct SampledPoints {
 
 SampledPoints surface_samples(const ConnectedSurface& surface, Index count, const Context& context);
 
-/// Rows each of which lies farthest from those before, the first of them from their mean.
-std::vector<Index> farthest_rows(const Eigen::MatrixXd& rows, Index count, const Context& context);
-
 }  // namespace symsurf
