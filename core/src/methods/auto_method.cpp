@@ -7,7 +7,6 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
-#include "methods/nearest_simple.h"
 #include "methods/registry.h"
 #include "preprocess/volumetric.h"
 
@@ -27,7 +26,7 @@ constexpr double well_explained = 0.6;  // by a free form
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
 constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
-constexpr Index few = 1000;             // points whose score tells little
+constexpr Index few = 1000;             // points: the score of fewer is unreliable
 
 // Only where every point has an exact partner: else a freer mirror may improve on it.
 bool is_exact(const Result& result) { return result.score >= 1; }
@@ -91,9 +90,7 @@ using Kinds = std::vector<const MethodImplementation*>;
 Kinds simple_kinds(Index points) {
   Kinds kinds;
   for (const MethodImplementation& kind : implementations())
-    if (kind.automatic && kind.name != "plane" && kind.name != "perpendicular" &&
-        points >= kind.minimum_points)
-      kinds.push_back(&kind);
+    if (kind.distance_from && points >= kind.minimum_points) kinds.push_back(&kind);
   return kinds;
 }
 
@@ -102,8 +99,7 @@ Kinds near_kinds(const Kinds& kinds, const Mirror& mirror, double diagonal) {
   const auto& free_form = dynamic_cast<const FreeForm&>(mirror);
   std::vector<std::pair<double, const MethodImplementation*>> near;
   for (const MethodImplementation* kind : kinds) {
-    const double distance = kind->name == "sphere" ? distance_from_sphere(free_form)
-                                                   : distance_from_cylinder(free_form);
+    const double distance = kind->distance_from(free_form);
     if (distance <= another_shape * diagonal) near.push_back({distance, kind});
   }
   std::stable_sort(near.begin(), near.end(),
@@ -179,16 +175,15 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   contest.scores["score_plane"] = contest.best.score;
   contest.tried = "plane " + text(explained(contest.best));
   const bool content = contest.best.score >= enough;
-  const std::string contented = "plane scores " + text(contest.best.score) + ": at least " +
-                                text(enough) + ", which leaves freer mirrors nothing to explain";
-  std::string reason = contented;
+  std::string reason =
+      "a plane that scores " + text(enough) + " or more leaves freer mirrors nothing to explain";
   if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
   } else if (!content || may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {
     try_freer_kinds(cloud, content, contest, context.stage(0.2, 1));
     if (!content || contest.winner != &plane)
-      reason =
-          contest.winner->name + " is the simplest of those that explain most: " + contest.tried;
+      reason = contest.winner->name +
+               " is the simplest of those that explain most of the shape: " + contest.tried;
   }
   contest.scores["reason"] = reason;
   contest.best.statistics.merge(contest.scores);

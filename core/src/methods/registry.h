@@ -1,5 +1,6 @@
 #pragma once
 
+#include <symsurf/free_form.h>
 #include <symsurf/method.h>
 #include <symsurf/result.h>
 
@@ -15,6 +16,9 @@ namespace symsurf {
 /// A method as the pipeline runs it: its description, its pre-processing and its function.
 struct MethodImplementation : Method {
   Preprocessing preprocessing;
+  /// Of a kind that "auto" tries beside the plane and the free form: how far a free form is from
+  /// the nearest mirror of this kind.
+  double (*distance_from)(const FreeForm&) = nullptr;
   bool reports_unpaired_points = false;  ///< the pipeline adds "unpaired_points" to the statistics
   bool reports_mean_residual = false;    ///< and "mean_residual"
   /// Gets a validated cloud after pre-processing.

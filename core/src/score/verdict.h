@@ -8,16 +8,18 @@ namespace symsurf {
 /// and volumes without one the best scores 0.4 (`make accuracy OPTIONS="--cases none"`).
 inline constexpr double usual_minimum_score = 0.5;
 
-/// Sets "verdict", and "reason" where the method has not given its own.
+/// Sets "verdict" and "reason". A reason that the method gave says why it chose this mirror: where
+/// there is none, the score that is missing comes before it.
 inline void judge(Result& result, bool has_mirror, double minimum_score) {
   const bool found = has_mirror && result.score >= minimum_score;
   result.statistics["verdict"] = std::string(found ? "found" : "none");
-  const std::string reason = has_mirror
-                                 ? result.method + " scores " + to_string(Value(result.score)) +
-                                       (found ? ", at least " : ", below ") +
-                                       "the minimum_score of " + to_string(Value(minimum_score))
-                                 : result.method + " finds no mirror";
-  result.statistics.try_emplace("reason", reason);
+  const std::string score = has_mirror
+                                ? result.method + " scores " + to_string(Value(result.score)) +
+                                      (found ? ", at least " : ", below ") +
+                                      "the minimum_score of " + to_string(Value(minimum_score))
+                                : result.method + " finds no mirror";
+  const auto [reason, is_new] = result.statistics.try_emplace("reason", score);
+  if (!is_new && !found) reason->second = score + "; " + std::get<std::string>(reason->second);
 }
 
 }  // namespace symsurf

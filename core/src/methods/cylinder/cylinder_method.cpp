@@ -7,6 +7,7 @@
 
 #include "base/symmetric_eigen.h"
 #include "methods/common_parameters.h"
+#include "methods/nearest_simple.h"
 #include "methods/parametric/pair_hypotheses.h"
 #include "methods/parametric/refinement.h"
 #include "methods/parametric/surface_slide.h"
@@ -22,7 +23,7 @@ namespace {
 using CylinderCandidate = Candidate<UnitCylinder>;
 
 constexpr Index pairs_tried = 30000, pairs_kept = 4000;
-constexpr int axes = 6;  // directions over the half circle, the first as the normals tell
+constexpr int axes = 6;  // directions over the half circle, the first from the normals
 
 // To both sides of the pair. In units of the inverse diagonal.
 constexpr std::array curvatures{0.3, 0.6, 1.0, 1.5, 2.2, 3.2, 4.6, 6.5, 9.0};
@@ -72,7 +73,7 @@ constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
 constexpr double chance_explains = 0.35;  // what cylinders explain of random solids before that
 constexpr double least_support = 0.6;     // of the best; others are not fitted
 constexpr double alike_cylinders = 0.04;  // cylinders closer than this are one
-constexpr double widest = 6;  // radius, in diagonals: wider ones are hardly told from planes
+constexpr double widest = 6;  // radius, in diagonals: wider ones hardly differ from planes
 
 Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
   return {frame.from_frame(cylinder.point), frame.axes * cylinder.axis,
@@ -170,6 +171,7 @@ MethodImplementation cylinder_method() {
   };
   method.minimum_points = 12;
   method.automatic = true;
+  method.distance_from = distance_from_cylinder;
   method.run = run_cylinder;
   return method;
 }

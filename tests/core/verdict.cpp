@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+#include <symsurf/detect.h>
+
+#include <string>
+
+#include "random_cloud.h"
+
+namespace symsurf {
+namespace {
+
+TEST(Verdict, NamesTheScoreThatIsMissing) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const char* method : {"auto", "plane", "sphere"}) {
+      const Result result = detect(RandomCloud(seed).box(150), {.method = method});
+      ASSERT_EQ(result.verdict(), "none") << method << ' ' << seed;
+      const std::string below = result.method + " scores " + to_string(Value(result.score)) +
+                                ", below the minimum_score of 0.5";
+      EXPECT_EQ(result.reason().substr(0, below.size()), below) << method << ' ' << seed;
+    }
+}
+
+TEST(Verdict, SaysWhatAutoTriedWhereNothingFits) {
+  const Result result = detect(RandomCloud(0).box(150));
+  EXPECT_NE(result.reason().find("; " + result.method + " is the simplest of those"),
+            std::string::npos)
+      << result.reason();
+}
+
+// A plane is all that a well mirrored shape needs; asked for more, auto names what is missing.
+TEST(Verdict, OfAMirrorBelowAHighMinimum) {
+  RandomCloud random(1);
+  Points points = random.sphere(800);
+  points.leftCols(1) *= 3;
+  points.rightCols(1) *= 0.4;
+  Options options;
+  const Result found = detect(points, options);
+  ASSERT_EQ(found.verdict(), "found");
+  EXPECT_EQ(found.reason().find("minimum_score"), std::string::npos) << found.reason();
+  options.parameters["minimum_score"] = 1.0;
+  const Result none = detect(points, options);
+  ASSERT_EQ(none.verdict(), "none");
+  EXPECT_NE(none.reason().find("below the minimum_score of 1; "), std::string::npos)
+      << none.reason();
+}
+
+}  // namespace
+}  // namespace symsurf
