@@ -79,16 +79,16 @@ inline double distance_past(const Vector3& gap, const Facet& partner, double spa
   return std::min(std::sqrt(flat * surface + round * volume), 3 * length);
 }
 
-/// A robust kernel with a negative lobe: 1 where an image meets the cloud's surface, minus the
-/// penalty where it just misses it, 0 far from it. A true mirror of a shape with a piece missing
+/// A robust kernel with a negative lobe: 1 where an image lies on the cloud's surface, minus the
+/// penalty where it is just off it, 0 far from it. A true mirror of a shape with a piece missing
 /// sends images into the void, a wrong one sends them past the surface everywhere.
 struct NearMissKernel {
-  double meets, misses;  ///< distances from the surface, over the cloud's size
-  double penalty;        ///< what a miss counts
+  double inlier, near_miss;  ///< distances from the surface, over the cloud's size
+  double penalty;            ///< what a near miss counts
 
   /// `normal_consistency`, 0..1: do the normals mirror each other?
   double operator()(double residual, double normal_consistency) const {
-    const double near = residual / meets, past = residual / misses;
+    const double near = residual / inlier, past = residual / near_miss;
     return normal_consistency / (1 + near * near) -
            penalty * past * past * std::exp(1 - past * past);
   }

@@ -11,7 +11,7 @@ namespace symsurf {
 
 using PlaneCandidate = Candidate<UnitPlane>;
 
-/// How much a surfel's image beside the cloud speaks against a plane: for support_share().
+/// How much a surfel's image beside the cloud counts against a plane: for support_share().
 inline constexpr double contradiction = 0.9;
 
 /// How much to try, on a thousand surfels or more. Of fewer, which lie further from their partners,

@@ -31,8 +31,8 @@ constexpr Index measured = 150;        // surfels that the measure is taken over
 
 struct Effort {
   Search search;
-  Index started;          // candidates that are settled on the surfels, roughly
-  Index settled_well;     // of these, are settled closely
+  Index started;          // candidates that are refined on the surfels, roughly
+  Index refined_well;     // of these, are refined closely
   Index quickly_fitted;   // of these, are fitted to the full cloud
   Index finalists;        // of these, are fitted carefully
   double far_below_best;  // below the best by this share of it: not worth fitting
@@ -40,7 +40,7 @@ struct Effort {
 
 constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.4};
 // For clouds that a usual search explains no better than this: where most of one side is missing,
-// few pairs tell of the mirror, and patches tell it badly from others.
+// few pairs define the mirror, and patches distinguish it badly from others.
 constexpr double unexplained = 0.15;
 constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
 
@@ -75,7 +75,7 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
   context.report(0.5);
   maximise_measure(surfels, map, candidates.front());
   drop_far_below_best(candidates, effort.far_below_best);
-  suppress_non_maxima(candidates, alike_planes, effort.settled_well);
+  suppress_non_maxima(candidates, alike_planes, effort.refined_well);
   for (PlaneCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3, contradiction);
   suppress_non_maxima(candidates, alike_planes, effort.quickly_fitted);
@@ -92,7 +92,7 @@ void improve(std::vector<PlaneCandidate>& candidates, const Context& context, co
   }
 }
 
-// Moved a little, and told apart, on samples of the full cloud.
+// Moved a little, and compared, on samples of the full cloud.
 void fit(const Refinement& refinement, const Effort& effort,
          std::vector<PlaneCandidate>& candidates, const Context& context) {
   improve(candidates, context.stage(0, 0.5),

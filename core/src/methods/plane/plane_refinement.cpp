@@ -17,10 +17,10 @@ namespace {
 constexpr Index few_samples = 250, many_samples = 1000, ranking_samples = 1300;
 constexpr double reach = 0.06;  // how far a partner may be
 constexpr double score_tolerance = 0.015;
-// Stricter than the score: where much is missing, it is how close the rest comes that tells a false
+// Stricter than the score: where much is missing, how close the rest comes distinguishes a false
 // plane from the true. As close as the noise lets it.
 constexpr double closest = 0.0003, close = 0.001;
-constexpr double misses = 0.016, penalty = 0.4;
+constexpr double near_miss = 0.016, penalty = 0.4;
 
 // Along the Z-order curve of the principal frame, not of the input's: pose must not show.
 std::uint32_t place_on_curve(const Vector3& x) {
@@ -49,8 +49,8 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
   std::stable_sort(samples_.begin(), samples_.end(),
                    [](const Sample& a, const Sample& b) { return a.position < b.position; });
   noise_ = measured_noise();
-  kernel_ = {.meets = std::clamp(noise_.deviation(), closest, close),
-             .misses = misses,
+  kernel_ = {.inlier = std::clamp(noise_.deviation(), closest, close),
+             .near_miss = near_miss,
              .penalty = penalty};
   for (Sample& s : samples_) s.smoothed = noise_.smoothed(s.point, *s.surfel);
 }
@@ -140,12 +140,12 @@ PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
 // nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
-// plane has moved by a part of the spacing, or has settled between them.
+// plane has moved by a part of the spacing, or has converged between them.
 UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps,
                              std::vector<Match> found) const {
   constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
   constexpr double along_surface = 0.01;  // partners hold the plane hardly where they may slide
-  const double stale = 0.1 * spacing_, settled = 0.02 * spacing_;
+  const double stale = 0.1 * spacing_, converged = 0.02 * spacing_;
   double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
@@ -176,7 +176,7 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
     tolerance =
         std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
     if (change < still) {
-      if (moved < settled) return plane;
+      if (moved < converged) return plane;
       moved = std::numeric_limits<double>::infinity();
     }
   }

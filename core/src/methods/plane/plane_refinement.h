@@ -19,7 +19,7 @@ class Refinement {
   Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
              const Surfels& fine);
 
-  /// The plane after a few steps on a few samples, with what then speaks for it.
+  /// The plane after a few steps on a few samples, with its support.
   PlaneCandidate quick(const PlaneCandidate& start) const;
 
   /// The same on enough samples to rank planes.

@@ -11,13 +11,13 @@ namespace symsurf {
 // Spheres so large that they may be planes. Each meets the plane that touches it where it is
 // nearest to the cloud's middle, fitted in the same way.
 
-/// Takes out of the candidates those that a plane explains as well, as far as surfels tell, and
+/// Takes out of the candidates those that a plane explains as well, measured on surfels, and
 /// returns the best few of them.
 std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
                                          std::vector<SphereCandidate>& candidates);
 
-/// Drops those without partners that a plane explains as well, as far as points tell; all but where
-/// there is nothing else. Those that nobody tells from a plane go in any case.
+/// Drops those without partners that a plane explains as well, measured on points; all but where
+/// there is nothing else. Those that differ from a plane by rounding only go in any case.
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates);
 
 /// The same by the score, with partners or without.

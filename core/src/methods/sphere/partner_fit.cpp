@@ -13,8 +13,8 @@ namespace symsurf {
 namespace {
 
 // Lengths are in spacings of the points.
-constexpr double agree = 0.1;  // two chords on one sphere, in radii or diagonals
-constexpr double met = 0.2;    // an image and a point
+constexpr double agree = 0.1;   // two chords on one sphere, in radii or diagonals
+constexpr double paired = 0.2;  // an image and a point
 constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
@@ -48,9 +48,9 @@ SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
     if (off > agree * spacing_ * std::max(std::abs(curvature), 1.0)) return;
     const UnitSphere sphere{a.middle, a.along, curvature};
     const double least = std::max(least_excess, best.partnered);
-    if (beyond_chance(share_met(sphere, glance)) < least) return;
+    if (beyond_chance(paired_share(sphere, glance)) < least) return;
     const UnitSphere fitted = refined(sphere, look);
-    const double excess = beyond_chance(share_met(fitted, look));
+    const double excess = beyond_chance(paired_share(fitted, look));
     if (excess < least) return;
     best.shape = fitted;
     best.partnered = excess;
@@ -85,8 +85,9 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
   return found;
 }
 
-std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, Index wanted,
-                                                      double reach, Index* asked) const {
+std::vector<PartnerFit::Correspondence> PartnerFit::correspondences(const UnitSphere& sphere,
+                                                                    Index wanted, double reach,
+                                                                    Index* asked) const {
   // In runs along the tree's order, whose images are close as well.
   constexpr Index run = 8;  // points
   const Index n = tree_.size(), runs = (std::min(n, wanted) + run - 1) / run;
@@ -106,7 +107,7 @@ std::vector<PartnerFit::Meeting> PartnerFit::meetings(const UnitSphere& sphere, 
   }
   if (asked) *asked = moved_points;
   const std::vector<Vector3> nearest = points_.nearest(queries, reach * cloud_.frame.size);
-  std::vector<Meeting> found;
+  std::vector<Correspondence> found;
   for (std::size_t k = 0; k < nearest.size(); ++k)
     if (nearest[k].allFinite())
       found.push_back({positions[k], images[k] - cloud_.frame.to_frame(nearest[k])});
@@ -118,13 +119,14 @@ Index PartnerFit::at_least_a_quarter(Index asked, Index wanted) const {
   return std::max({asked, std::min(wanted, tree_.size()) / 4, Index{1}});
 }
 
-double PartnerFit::share_met(const UnitSphere& sphere, Index wanted) const {
+double PartnerFit::paired_share(const UnitSphere& sphere, Index wanted) const {
   Index asked;
-  const double hits = static_cast<double>(meetings(sphere, wanted, met * spacing_, &asked).size());
+  const double hits =
+      static_cast<double>(correspondences(sphere, wanted, paired * spacing_, &asked).size());
   return hits / static_cast<double>(at_least_a_quarter(asked, wanted));
 }
 
-Points PartnerFit::unmet(const UnitSphere& sphere) const {
+Points PartnerFit::unpaired_points(const UnitSphere& sphere) const {
   const double reach = near * spacing_ * cloud_.frame.size;
   Points rest(cloud_.points.size(), 3);
   Index count = 0;
@@ -144,8 +146,8 @@ double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
   Index asked;
   double sum = 0;
   const double reach = near * spacing_;
-  for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked))
-    sum += biweight(meeting.gap.norm() / reach);
+  for (const Correspondence& pair : correspondences(sphere, wanted, reach, &asked))
+    sum += biweight(pair.gap.norm() / reach);
   return sum / static_cast<double>(at_least_a_quarter(asked, wanted));
 }
 
@@ -154,8 +156,8 @@ double PartnerFit::closeness(const UnitSphere& sphere) const {
   Index asked;
   double roughly = 0, exactly = 0;
   const double reach = near * spacing_, exact_reach = 10 * exact * spacing_;
-  for (const Meeting& meeting : meetings(sphere, wanted, reach, &asked)) {
-    const double gap = meeting.gap.norm();
+  for (const Correspondence& pair : correspondences(sphere, wanted, reach, &asked)) {
+    const double gap = pair.gap.norm();
     roughly += biweight(gap / reach);
     exactly += biweight(gap / exact_reach);
   }
@@ -203,10 +205,10 @@ UnitSphere PartnerFit::refined(UnitSphere sphere, Index most, int steps) const {
   for (int step = 0; step < steps; ++step) {
     SphereStep sum(sphere);
     std::vector<double> gaps;
-    for (const Meeting& meeting : meetings(sphere, most, reach)) {
-      const double gap = meeting.gap.norm();
+    for (const Correspondence& pair : correspondences(sphere, most, reach)) {
+      const double gap = pair.gap.norm();
       gaps.push_back(gap);
-      sum.add(meeting.position, meeting.gap, Matrix3::Identity(), biweight(gap / reach));
+      sum.add(pair.position, pair.gap, Matrix3::Identity(), biweight(gap / reach));
     }
     if (gaps.size() < 10) break;
     double moved;

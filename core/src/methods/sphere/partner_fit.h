@@ -10,7 +10,7 @@ namespace symsurf {
 
 /// Fits spheres where the same points stand on both sides. A surface that slides along itself holds
 /// a sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point
-/// and its partner, its normal u there along their line, so that two of them tell the curvature k
+/// and its partner, its normal u there along their line, so that two of them give the curvature k
 /// and whether they agree, u1 - u2 = k (m1 - m2). Partners are sought among the points near the
 /// images.
 class PartnerFit {
@@ -19,7 +19,7 @@ class PartnerFit {
   PartnerFit(const Cloud& cloud, const NearestPoints& points, const PointTree& tree, double spacing,
              const Context& context);
 
-  /// The candidate on its partners, `partnered` the share that have met them beyond chance; as it
+  /// The candidate on its partners, `partnered` the share that have some beyond chance; as it
   /// was where points have no partners.
   SphereCandidate operator()(const SphereCandidate& start) const;
 
@@ -36,11 +36,11 @@ class PartnerFit {
   /// exact partners.
   double closeness(const UnitSphere& sphere) const;
 
-  /// The points, in input units, whose images meet no other.
-  Points unmet(const UnitSphere& sphere) const;
+  /// The points, in input units, whose images have no point near them.
+  Points unpaired_points(const UnitSphere& sphere) const;
 
  private:
-  struct Meeting {
+  struct Correspondence {
     Vector3 position, gap;  // gap: from the nearest point to the image
   };
   /// A point and one that may be its partner.
@@ -49,13 +49,13 @@ class PartnerFit {
   };
 
   std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
-  std::vector<Meeting> meetings(const UnitSphere& sphere, Index wanted, double reach,
-                                Index* asked = nullptr) const;
+  std::vector<Correspondence> correspondences(const UnitSphere& sphere, Index wanted, double reach,
+                                              Index* asked = nullptr) const;
   /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
   /// moves.
   double nearness(const UnitSphere& sphere, Index wanted) const;
   Index at_least_a_quarter(Index asked, Index wanted) const;
-  double share_met(const UnitSphere& sphere, Index wanted) const;
+  double paired_share(const UnitSphere& sphere, Index wanted) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;

@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "methods/common_parameters.h"
+#include "methods/nearest_simple.h"
 #include "methods/parametric/refinement.h"
 #include "methods/parametric/surface_slide.h"
 #include "methods/registry.h"
 #include "methods/sphere/large_spheres.h"
 #include "methods/sphere/partner_fit.h"
-#include "methods/sphere/settled_sphere.h"
 #include "methods/sphere/sphere_candidates.h"
+#include "methods/sphere/support_maximum.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 
@@ -28,12 +29,20 @@ constexpr double partnered_exactly = 0.8;     // partners that need no surfaces
 constexpr Index patches_again = 3;  // times as many, where no sphere found has partners of its own
 constexpr int most_slides = 3;      // of one sphere, at the most
 
+// Points of the full cloud that a fit looks at, and its steps: more for fewer spheres.
+struct Effort {
+  Index samples;
+  int steps;
+};
+constexpr Effort of_each{400, 4}, of_finalist{800, 3}, of_polished{3000, 3};
+constexpr Index compared_on = 1200;  // points, of the spheres that are ranked
+
 bool any_partnered(const std::vector<SphereCandidate>& candidates) {
   return std::any_of(candidates.begin(), candidates.end(),
                      [](const SphereCandidate& c) { return c.partnered > 0; });
 }
 
-// Through noise some points meet others by chance: that outweighs no surface.
+// Through noise some images come near points by chance: that outweighs no surface.
 void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
   double most = 0;
   for (const SphereCandidate& c : candidates) most = std::max(most, c.support);
@@ -47,7 +56,7 @@ SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement& refi
   for (int k = 0; k < most_slides; ++k) {
     SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
     if (next.partnered <= candidate.partnered) break;
-    next.support = refinement.support(next.shape, 800);
+    next.support = refinement.support(next.shape, of_finalist.samples);
     if (next.support < on_surfaces * candidate.support) break;
     candidate = next;
   }
@@ -64,69 +73,74 @@ SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
   return slid(slid_along_surfaces(fitted, refinement), refinement, partner_fit);
 }
 
+SphereCandidate fitted(const SphereCandidate& candidate, Effort effort,
+                       const ParametricRefinement& refinement) {
+  return refinement.fitted(candidate, effort.samples, effort.steps);
+}
+
+void fit_each(std::vector<SphereCandidate>& candidates, const ParametricRefinement& refinement,
+              const PartnerFit& partner_fit) {
+  for (SphereCandidate& candidate : candidates)
+    candidate = partner_fit(fitted(candidate, of_each, refinement));
+}
+
 // Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
 // own.
 std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCandidate& best,
                                              const PartnerFit& whole, Index sample_size,
                                              const Context& context) {
   if (best.partnered == 0) return {};
-  const Points unmet = whole.unmet(best.shape);
+  const Points unpaired = whole.unpaired_points(best.shape);
   const auto least = least_rest * static_cast<double>(cloud.points.size());
-  if (static_cast<double>(unmet.rows()) < least) return {};
+  if (static_cast<double>(unpaired.rows()) < least) return {};
   Cloud rest = cloud;
-  rest.points = unmet;
-  rest.partition = Partition(unmet.rows());
+  rest.points = unpaired;
+  rest.partition = Partition(unpaired.rows());
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
   const NearestPoints points(rest.points, tree, context);
   const ParametricRefinement refinement(rest, points, tree, surfels, context.stage(0.8, 1));
   const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
-  std::vector<SphereCandidate> found;
-  for (const SphereCandidate& candidate : promising_spheres(
-           surfels, SurfelMap(surfels), cloud.seed, 2 * finalists, context.stage(0.2, 0.8))) {
-    const SphereCandidate fitted = partner_fit(refinement.fitted(candidate, 400, 4));
-    if (fitted.partnered > 0) found.push_back(fitted);
-  }
+  std::vector<SphereCandidate> found = promising_spheres(surfels, SurfelMap(surfels), cloud.seed,
+                                                         2 * finalists, context.stage(0.2, 0.8));
+  fit_each(found, refinement, partner_fit);
+  std::erase_if(found, [](const SphereCandidate& c) { return c.partnered == 0; });
   return found;
 }
 
-Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  Result best;
-  best.method = "sphere";
-  const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
-  const SurfelMap map(surfels);
-  std::vector<SphereCandidate> candidates =
-      promising_spheres(surfels, map, cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
-
-  PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const NearestPoints points(cloud.points, tree, context);
-  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.6, 0.7));
-  const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
-  const auto fit = [&](std::vector<SphereCandidate>& some) {
-    for (SphereCandidate& candidate : some)
-      candidate = partner_fit(refinement.fitted(candidate, 400, 4));
-  };
-  fit(candidates);
+// The fitted spheres of the cloud, the best first; none where planes explain as much.
+std::vector<SphereCandidate> searched_spheres(const Cloud& cloud, const Surfels& surfels,
+                                              std::vector<SphereCandidate> candidates,
+                                              Index sample_size,
+                                              const ParametricRefinement& refinement,
+                                              const PartnerFit& partner_fit,
+                                              const Context& context) {
+  fit_each(candidates, refinement, partner_fit);
   if (!any_partnered(candidates)) {
-    const Surfels finer(cloud, patches_again * values.integer("sample_size"),
-                        context.stage(0.7, 0.7));
-    std::vector<SphereCandidate> more = promising_spheres(finer, SurfelMap(finer), cloud.seed,
-                                                          2 * finalists, context.stage(0.7, 0.7));
-    fit(more);
+    const Context unreported = context.stage(0, 0);
+    const Surfels finer(cloud, patches_again * sample_size, unreported);
+    std::vector<SphereCandidate> more =
+        promising_spheres(finer, SurfelMap(finer), cloud.seed, 2 * finalists, unreported);
+    fit_each(more, refinement, partner_fit);
     candidates.insert(candidates.end(), more.begin(), more.end());
   }
   drop_planes(refinement, candidates);
-  if (candidates.empty()) return best;
+  if (candidates.empty()) return candidates;
   sort_best_first(candidates);
-  for (const SphereCandidate& candidate :
-       spheres_of_rest(cloud, candidates.front(), partner_fit, values.integer("sample_size"),
-                       context.stage(0.5, 0.6)))
-    candidates.push_back(candidate);
+  const std::vector<SphereCandidate> more =
+      spheres_of_rest(cloud, candidates.front(), partner_fit, sample_size, context);
+  candidates.insert(candidates.end(), more.begin(), more.end());
   suppress_non_maxima(surfels, candidates, alike_spheres, finalists);
+  return candidates;
+}
+
+// On ever more points, those without partners along the surfaces as well.
+void refine(std::vector<SphereCandidate>& candidates, const Surfels& surfels,
+            const ParametricRefinement& refinement, const PartnerFit& partner_fit) {
   for (SphereCandidate& candidate : candidates)
     if (candidate.partnered == 0) {
-      candidate = refinement.fitted(candidate, 800, 3);
+      candidate = fitted(candidate, of_finalist, refinement);
       if (candidate.merit() >= promising * candidates.front().merit())
         candidate =
             through_noise(candidate, &candidate == &candidates.front(), refinement, partner_fit);
@@ -136,12 +150,31 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate = refinement.fitted_to_exact_pairs(refinement.fitted(candidate, 3000, 3));
+      candidate = refinement.fitted_to_exact_pairs(fitted(candidate, of_polished, refinement));
     else
-      candidate.shape = partner_fit.refined(candidate.shape, 3000);
+      candidate.shape = partner_fit.refined(candidate.shape, of_polished.samples);
   }
   for (SphereCandidate& candidate : candidates)
-    if (candidate.partnered > 0) candidate.support = refinement.support(candidate.shape, 1200);
+    if (candidate.partnered > 0)
+      candidate.support = refinement.support(candidate.shape, compared_on);
+}
+
+Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  Result best;
+  best.method = "sphere";
+  const Index sample_size = values.integer("sample_size");
+  const Surfels surfels(cloud, sample_size, context.stage(0, 0.1));
+  const std::vector<SphereCandidate> rough = promising_spheres(
+      surfels, SurfelMap(surfels), cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
+
+  PointTree tree(cloud.points, context.stage(0.4, 0.5));
+  const NearestPoints points(cloud.points, tree, context);
+  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.6));
+  const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
+  std::vector<SphereCandidate> candidates = searched_spheres(
+      cloud, surfels, rough, sample_size, refinement, partner_fit, context.stage(0.6, 0.7));
+  if (candidates.empty()) return best;
+  refine(candidates, surfels, refinement, partner_fit);
   const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
   if (candidates.empty()) return best;
@@ -149,7 +182,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
 
   SphereCandidate& first = candidates.front();
   if (first.partnered == 0 || partner_fit.closeness(first.shape) < partnered_exactly)
-    first.shape = settled_on_surfaces(first, refinement).shape;
+    first.shape = at_support_maximum(first, refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
@@ -175,6 +208,7 @@ MethodImplementation sphere_method() {
   };
   method.minimum_points = 5;
   method.automatic = true;
+  method.distance_from = distance_from_sphere;
   method.reports_unpaired_points = true;
   method.run = run_sphere;
   return method;

@@ -1,4 +1,4 @@
-#include "methods/sphere/settled_sphere.h"
+#include "methods/sphere/support_maximum.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array rounds{1.0, 0.6};                               // their steps, in spacings
 constexpr int few = 2;                                               // steps to either side
-constexpr Index settling = 1200, refitted = 800, look_again = 3000;  // samples
+constexpr Index compared = 1200, refitted = 800, look_again = 3000;  // samples
 
 // Where in the square from -1 to 1 a quadratic is highest that fits values there by least squares;
 // along an axis where it has no maximum, on the side that it rises to.
@@ -36,24 +36,24 @@ Eigen::Vector2d highest(const Eigen::Matrix2Xd& positions, const Eigen::VectorXd
 
 }  // namespace
 
-SphereCandidate settled_on_surfaces(const SphereCandidate& candidate,
-                                    const ParametricRefinement& refinement) {
+SphereCandidate at_support_maximum(const SphereCandidate& candidate,
+                                   const ParametricRefinement& refinement) {
   constexpr int side = 2 * few + 1;
   Eigen::Matrix2Xd positions(2, side * side);
   for (int k = 0; k < side * side; ++k)
     positions.col(k) = Eigen::Vector2d(k / side - few, k % side - few) / few;
-  SphereCandidate settled = candidate;
+  SphereCandidate best = candidate;
   for (const double step : rounds) {
     const Eigen::Matrix<double, 4, 2> around =
-        few * step * refinement.spacing() * refinement.loosest(settled.shape);
+        few * step * refinement.spacing() * refinement.loosest(best.shape);
     Eigen::VectorXd values(positions.cols());
     for (Index k = 0; k < positions.cols(); ++k)
-      values[k] = refinement.support(settled.shape.changed(around * positions.col(k)), settling);
-    settled.shape = settled.shape.changed(around * highest(positions, values));
-    settled = refinement.fitted(settled, refitted, 3);
+      values[k] = refinement.support(best.shape.changed(around * positions.col(k)), compared);
+    best.shape = best.shape.changed(around * highest(positions, values));
+    best = refinement.fitted(best, refitted, 3);
   }
-  settled.support = refinement.support(settled.shape, look_again);
-  return settled.support > refinement.support(candidate.shape, look_again) ? settled : candidate;
+  best.support = refinement.support(best.shape, look_again);
+  return best.support > refinement.support(candidate.shape, look_again) ? best : candidate;
 }
 
 }  // namespace symsurf
