@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "meeting.h"
+#include "mpi_barrier.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::all_gather(
     std::span<const std::byte> mine) const {
   const auto length = static_cast<vtkIdType>(mine.size());
   std::vector<vtkIdType> lengths(size()), offsets(size());
-  meet_all(controller_);
+  barrier(controller_);
   controller_->AllGather(&length, lengths.data(), 1);
   std::exclusive_scan(lengths.begin(), lengths.end(), offsets.begin(), vtkIdType{0});
   Bytes all(offsets.back() + lengths.back());
@@ -34,7 +34,7 @@ std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::all_gather(
   return parts;
 }
 
-// The lower rank speaks first: neither waits for the other to listen.
+// The lower rank sends first: else both would wait for the other to receive.
 symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
     int other, std::span<const std::byte> mine) const {
   const auto send = [&] {
@@ -49,7 +49,7 @@ symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
     theirs.resize(length);
     if (length > 0) controller_->Receive(chars(theirs.data()), length, other, message_tag);
   };
-  meet(controller_, other, other);
+  signal_and_wait(controller_, other, other);
   if (rank() < other) {
     send();
     receive();

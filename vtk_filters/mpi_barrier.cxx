@@ -1,4 +1,4 @@
-#include "meeting.h"
+#include "mpi_barrier.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -12,11 +12,10 @@
 
 namespace {
 
-constexpr int meeting_tag = 7121;
+constexpr int signal_tag = 7121;
 
-// Awake at first: where each process has a core of its own, many waits are shorter than falling
-// asleep. Then each sleep is a small part of the time waited so far, and oversleeping costs no
-// more.
+// Polls all the time at first: many waits are shorter than the shortest sleep. Then it sleeps
+// between two polls for a small part of the time waited so far, which is the most that it can lose.
 void wait(vtkMPICommunicator::Request& request) {
   using std::chrono::steady_clock, std::chrono::microseconds;
   constexpr steady_clock::duration patience = microseconds(20), longest = microseconds(1000);
@@ -30,26 +29,26 @@ void wait(vtkMPICommunicator::Request& request) {
 
 }  // namespace
 
-void meet(vtkMultiProcessController* controller, int to, int from) {
+void signal_and_wait(vtkMultiProcessController* controller, int to, int from) {
   const auto mpi = vtkMPIController::SafeDownCast(controller);
   if (!mpi) return;
   const char here = 1;
   char there = 0;
-  vtkMPICommunicator::Request heard;
-  mpi->NoBlockReceive(&there, 1, from, meeting_tag, heard);
-  mpi->Send(&here, 1, to, meeting_tag);
-  wait(heard);
+  vtkMPICommunicator::Request received;
+  mpi->NoBlockReceive(&there, 1, from, signal_tag, received);
+  mpi->Send(&here, 1, to, signal_tag);
+  wait(received);
 }
 
 #else
 
-void meet(vtkMultiProcessController*, int, int) {}
+void signal_and_wait(vtkMultiProcessController*, int, int) {}
 
 #endif
 
 // The dissemination barrier of Hensgen, Finkel and Manber (1988).
-void meet_all(vtkMultiProcessController* controller) {
+void barrier(vtkMultiProcessController* controller) {
   const int rank = controller->GetLocalProcessId(), size = controller->GetNumberOfProcesses();
   for (int step = 1; step < size; step *= 2)
-    meet(controller, (rank + step) % size, (rank + size - step) % size);
+    signal_and_wait(controller, (rank + step) % size, (rank + size - step) % size);
 }
