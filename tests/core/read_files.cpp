@@ -4,12 +4,15 @@
 
 #include <cstdlib>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "temporary_file.h"
 
 namespace symsurf {
 namespace {
+
+using namespace std::string_literals;
 
 struct Sample {
   const char* name;
@@ -26,8 +29,8 @@ std::vector<Sample> samples() {
           {"b.ply",
            "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty char x\n"
            "property char y\nproperty char z\nelement face 1\n"
-           "property list uchar uchar vertex_index\nend_header\n" +
-               std::string("\0\0\0\1\0\0\0\1\0\3\0\1\2", 13),
+           "property list uchar uchar vertex_index\nend_header\n"s +
+               "\0\0\0\1\0\0\0\1\0\3\0\1\2"s,
            true},
           {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", true},
           {"a.stl",
