@@ -312,6 +312,30 @@ TEST(Straighten, LaysTheMirrorFlatAndBendsBack) {
   EXPECT_LE(figure(left, "maximum_of_diagonal"), 1e-9);
 }
 
+// Points twice the radius from the centre or farther have no image, nor have places next to them.
+TEST(Operations, KeepTheirNumbersWhereImagesEnd) {
+  Points cloud(54, 3);
+  for (Index i = 0; i < 27; ++i) {
+    const double y = static_cast<double>(i / 3 % 3);
+    cloud.row(i) << static_cast<double>(i % 3), y, static_cast<double>(i / 9);
+    cloud.row(27 + i) << cloud(i, 0), 0.2 - y, cloud(i, 2);
+  }
+  const Points twice = Points(cloud.replicate(2, 1));
+  const Sphere mirror({0.9, 0.9, 0.9}, 0.9);
+  for (const char* name : {"asymmetry", "correspondences", "complete", "symmetrize"}) {
+    const OperationResult result = operate(name, {twice, Triangles(0, 3)}, mirror);
+    const auto unplaced = result.statistics.find("unplaced_points");
+    EXPECT_EQ((!result.points.rowwise().sum().array().isFinite()).count(),
+              unplaced == result.statistics.end() ? 0 : std::get<Index>(unplaced->second))
+        << name;
+    const auto matched = result.arrays.find("matched");
+    const auto distance = result.arrays.find("distance");
+    if (matched == result.arrays.end() || distance == result.arrays.end()) continue;
+    for (Index i = 0; i < twice.rows(); ++i)
+      EXPECT_EQ(matched->second(i, 0) != 0, std::isfinite(distance->second(i, 0))) << name;
+  }
+}
+
 TEST(Operations, RefuseAMirrorOfAnotherUnit) {
   RandomCloud random(0);
   Points points = random.box(200);

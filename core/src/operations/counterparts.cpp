@@ -164,6 +164,10 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
       const Vector3 along = gap - gap.dot(normal) * normal;
       c.place = y + along;
       c.on_surface = mirror.reflect(c.place);
+      if (!c.on_surface.allFinite()) {  // past the points that have images
+        c = {};
+        continue;
+      }
       c.gap = std::abs(gap.dot(normal));
       c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
