@@ -78,9 +78,8 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
   MeshModel& layer = current_layer(document);
   const MeshModel& mirror = chosen_mirror_layer(parameters, document);
   const std::shared_ptr<const Mirror> over = mirror_in(mirror);
-  context.report(0);
   const Points points = in_coordinates_of(mirror, layer, read_cloud(layer, false, false).points);
-  const Points images = over->reflect(points);
+  const Points images = over->reflect(points, context);
   std::vector<char> doomed(images.rows());
   Index left = 0;
   for (Index i = 0; i < images.rows(); ++i) {
@@ -88,7 +87,6 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
     left += !doomed[i];
   }
   if (left == 0) throw InvalidInput("no vertex of the layer has an image over this mirror");
-  context.report(1);
 
   // The copy has no deleted vertices, so that its rows are those of the packed points.
   MeshModel& image = *document.addNewMesh(layer.cm, "Reflection");

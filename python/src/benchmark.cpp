@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "context.h"
 #include "values.h"
 
 namespace symsurf::python {
@@ -30,7 +31,8 @@ void bind_benchmark(py::module_& module) {
       [](const std::string& name, const py::object& count, const py::object& seed) {
         constexpr std::uint64_t most = 1'000'000'000;
         const auto points = static_cast<Index>(whole_number(count, "count", most));
-        BenchmarkSample sample = benchmark_sample(name, points, seed_from(seed));
+        const std::uint64_t drawn = seed_from(seed);
+        BenchmarkSample sample = without_gil([&] { return benchmark_sample(name, points, drawn); });
         return py::make_tuple(owned_array(std::move(sample.points)),
                               owned_array(std::move(sample.images)), py::cast(sample.partners),
                               sample.diagonal, sample.kind, to_python(sample.mirror));

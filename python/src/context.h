@@ -20,4 +20,12 @@ auto without_gil(const Work& work) {
   return work();
 }
 
+/// What work(context) returns, made with the GIL released, on all threads of the machine; Ctrl-C
+/// ends it.
+template <typename Work>
+auto interruptible(const Work& work) {
+  const Context context = context_from(py::none(), py::int_(0));
+  return without_gil([&] { return work(context); });
+}
+
 }  // namespace symsurf::python

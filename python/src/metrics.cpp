@@ -4,6 +4,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "context.h"
 
 namespace symsurf::python {
 
@@ -24,24 +25,24 @@ py::dict to_dict(const SurfaceErrors& errors) {
 
 void bind_metrics(py::module_& module) {
   module.def("surface_errors", [](const PointsArgument& surface_points, const std::string& name) {
-    return to_dict(surface_errors(surface_points, surface(name)));
+    return to_dict(without_gil([&] { return surface_errors(surface_points, surface(name)); }));
   });
   module.def("surface_errors",
              [](const PointsArgument& surface_points, const SurfaceMirror& surface) {
-               return to_dict(surface_errors(surface_points, surface));
+               return to_dict(without_gil([&] { return surface_errors(surface_points, surface); }));
              });
-  module.def("sphere_errors",
-             [](const Sphere& found, const Sphere& truth, const PointsArgument& points) {
-               const SphereErrors errors = sphere_errors(found, truth, points);
-               return py::make_tuple(errors.e_c, errors.e_r);
-             });
+  module.def("sphere_errors", [](const Sphere& found, const Sphere& truth,
+                                 const PointsArgument& points) {
+    const SphereErrors errors = without_gil([&] { return sphere_errors(found, truth, points); });
+    return py::make_tuple(errors.e_c, errors.e_r);
+  });
   module.def("surface_distance", [](const PointsArgument& surface_points, const Mirror& truth,
                                     const PointsArgument& points) {
-    return surface_distance(surface_points, truth, points);
+    return without_gil([&] { return surface_distance(surface_points, truth, points); });
   });
   module.def("coverage", [](const PointsArgument& surface_points, const Mirror& truth,
                             const PointsArgument& points, double tolerance) {
-    return coverage(surface_points, truth, points, tolerance);
+    return without_gil([&] { return coverage(surface_points, truth, points, tolerance); });
   });
 }
 

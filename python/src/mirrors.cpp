@@ -16,6 +16,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "context.h"
 #include "values.h"
 
 namespace symsurf::python {
@@ -34,7 +35,9 @@ std::string repr(py::handle self) {
 }
 
 py::tuple mesh(const Mirror& mirror, const std::optional<PointsArgument>& points, int resolution) {
-  Mesh found = points ? mirror.mesh(PointsView(*points), resolution) : mirror.mesh(resolution);
+  Mesh found = interruptible([&](const Context& context) {
+    return mirror.mesh(points ? PointsView(*points) : mirror.footprint(), resolution, context);
+  });
   return py::make_tuple(owned_array(std::move(found.vertices)),
                         owned_array(std::move(found.triangles)));
 }
@@ -46,7 +49,8 @@ py::object footprint(const Mirror& mirror) {
 
 std::shared_ptr<Mirror> made(const std::string& kind, const py::dict& numbers,
                              const std::optional<PointsArgument>& footprint) {
-  const std::shared_ptr<Mirror> mirror = make_mirror(kind, values_from(numbers, {}));
+  const Values values = values_from(numbers, {});
+  const std::shared_ptr<Mirror> mirror = without_gil([&] { return make_mirror(kind, values); });
   if (footprint) mirror->set_footprint(std::make_shared<Points>(PointsView(*footprint).matrix()));
   return mirror;
 }
@@ -80,7 +84,8 @@ void bind_mirror(py::module_& module) {
       .def(
           "reflect",
           [](const Mirror& m, const BarePointsArgument& points) {
-            return owned_array(m.reflect(PointsView(points)));
+            return owned_array(interruptible(
+                [&](const Context& context) { return m.reflect(PointsView(points), context); }));
           },
           py::arg("points"), "The images of points (n, 3); NaN where a point has none.")
       .def(
@@ -96,13 +101,16 @@ void bind_mirror(py::module_& module) {
       .def(
           "project",
           [](const Mirror& m, const PointsArgument& points) {
-            return owned_array(m.project(PointsView(points)));
+            return owned_array(interruptible(
+                [&](const Context& context) { return m.project(PointsView(points), context); }));
           },
           py::arg("points"), "The feet of points (n, 3) on the mirror; NaN where there is none.")
       .def(
           "signed_distance",
           [](const Mirror& m, const PointsArgument& points) {
-            return owned_array(m.signed_distance(PointsView(points)));
+            return owned_array(interruptible([&](const Context& context) {
+              return m.signed_distance(PointsView(points), context);
+            }));
           },
           py::arg("points"),
           "Distances (n,) of points (n, 3) from their feet, signed by side; NaN without a foot.")
@@ -190,8 +198,10 @@ void bind_mirrors(py::module_& module) {
       "it. The surface passes through its nodes and goes on smoothly between and beyond them.",
       {{"direction", "Unit vector (3,)."}, {"nodes", "(m, 3), in input units."}})
       .def(py::init([](const VectorArgument& direction, const PointsArgument& nodes) {
-             return std::make_shared<HeightField>(direction.vector,
-                                                  Points(PointsView(nodes).matrix()));
+             return interruptible([&](const Context& context) {
+               return std::make_shared<HeightField>(direction.vector,
+                                                    Points(PointsView(nodes).matrix()), context);
+             });
            }),
            py::arg("direction"), py::arg("nodes"));
 
@@ -237,8 +247,9 @@ void bind_mirrors(py::module_& module) {
   module.def(
       "bend",
       [](const PointsArgument& points, const Mirror& mirror, bool back) {
-        return owned_array(
-            bend(PointsView(points), mirror, back ? Bend::Restore : Bend::Straighten));
+        return owned_array(interruptible([&](const Context& context) {
+          return bend(PointsView(points), mirror, back ? Bend::Restore : Bend::Straighten, context);
+        }));
       },
       py::arg("points"), py::arg("mirror"), py::arg("back") = false,
       "Points (n, 3) carried along while a curved mirror flattens into its plane, or, with\n"
@@ -251,8 +262,8 @@ void bind_mirrors(py::module_& module) {
   module.def(
       "straight_mirror",
       [](const Mirror& mirror, const std::optional<PointsArgument>& points) {
-        return std::make_shared<Plane>(
-            straight_mirror(mirror, points ? PointsView(*points) : PointsView()));
+        return std::make_shared<Plane>(without_gil(
+            [&] { return straight_mirror(mirror, points ? PointsView(*points) : PointsView()); }));
       },
       py::arg("mirror"), py::arg("points") = py::none(),
       "The Plane that ``bend`` flattens the mirror into.\n\n"

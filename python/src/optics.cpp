@@ -5,6 +5,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "context.h"
 
 namespace symsurf::python {
 
@@ -24,8 +25,11 @@ std::shared_ptr<ReflectionPoints> reflected(const Mirror& mirror, const py::obje
   const py::object rows = has_points(source)
                               ? points_of(source)
                               : py::module_::import("numpy").attr("atleast_2d")(source);
-  return std::make_shared<ReflectionPoints>(
-      reflection_points(mirror, rows_from(rows, "sources"), eye.vector));
+  const auto sources = rows_from(rows, "sources");
+  return interruptible([&](const Context& context) {
+    return std::make_shared<ReflectionPoints>(
+        reflection_points(mirror, sources, eye.vector, context));
+  });
 }
 
 }  // namespace

@@ -86,21 +86,26 @@ void bind_generators(py::module_& module) {
       [](const std::string& name, const py::dict& parameters,
          const std::optional<PointsArgument>& points) {
         const Values values = values_from(parameters, generator(name).parameters);
-        return to_tuple(generate(name, values, points ? PointsView(*points) : PointsView()));
+        return to_tuple(without_gil(
+            [&] { return generate(name, values, points ? PointsView(*points) : PointsView()); }));
       },
       py::arg("name"), py::arg("parameters"), py::arg("points"));
   module.def("mirror_fixed", [](const PointsArgument& points, const std::string& name, double shift,
                                 const VectorArgument& direction) {
-    return to_tuple(mirror_fixed(points, surface(name), shift, direction.vector));
+    return to_tuple(
+        without_gil([&] { return mirror_fixed(points, surface(name), shift, direction.vector); }));
   });
   module.def("mirror_perpendicular", [](const std::string& name, double extent, Index resolution,
                                         double min_distance, double max_distance, Index waves) {
-    return to_tuple(
-        mirror_perpendicular(surface(name), extent, resolution, min_distance, max_distance, waves));
+    return to_tuple(without_gil([&] {
+      return mirror_perpendicular(surface(name), extent, resolution, min_distance, max_distance,
+                                  waves);
+    }));
   });
   module.def("mirror_spherical",
              [](const PointsArgument& points, const VectorArgument& centre, double radius) {
-               return to_tuple(mirror_spherical(points, Sphere(centre.vector, radius)));
+               return to_tuple(without_gil(
+                   [&] { return mirror_spherical(points, Sphere(centre.vector, radius)); }));
              });
   module.def("sphere_between",
              [](const VectorArgument& first, const VectorArgument& second, double radius) {
@@ -117,7 +122,8 @@ void bind_damages(py::module_& module) {
       [](const std::string& name, const PointsArgument& points, const py::dict& parameters,
          const py::object& seed) {
         const Values values = values_from(parameters, kind_of_damage(name).parameters);
-        Damaged damaged = damage(name, points, values, seed_from(seed));
+        const std::uint64_t drawn = seed_from(seed);
+        Damaged damaged = without_gil([&] { return damage(name, points, values, drawn); });
         return py::make_tuple(owned_array(std::move(damaged.points)), damaged.kept);
       },
       py::arg("name"), py::arg("points"), py::arg("parameters"), py::arg("seed"));
@@ -150,7 +156,8 @@ void bind_synthesis(py::module_& module) {
   module.def("surface_height", &height);
   module.def("surface_gradient", &gradient);
   module.def("sampled_surface", [](const std::string& name, double extent, Index resolution) {
-    return owned_array(sampled_surface(surface(name), extent, resolution));
+    return owned_array(
+        without_gil([&] { return sampled_surface(surface(name), extent, resolution); }));
   });
   bind_generators(module);
   bind_damages(module);

@@ -5,6 +5,7 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -44,7 +45,9 @@ std::optional<Value> value_from(py::handle object) {
     int overflow = 0;
     const long long number = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
     if (overflow == 0) return static_cast<Index>(number);
-    return PyLong_AsDouble(whole.ptr());
+    if (const double real = PyLong_AsDouble(whole.ptr()); !PyErr_Occurred()) return real;
+    PyErr_Clear();
+    return std::copysign(std::numeric_limits<double>::infinity(), overflow);
   }
   if (PyFloat_Check(object.ptr())) return PyFloat_AsDouble(object.ptr());
   if (py::isinstance<py::str>(object)) return object.cast<std::string>();

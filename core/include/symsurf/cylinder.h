@@ -29,7 +29,7 @@ class Cylinder final : public Mirror {
  private:
   bool has_image(const Vector3& x) const override;
   /// The shell over the angles and heights of the points that have an image.
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
   Vector3 from_axis(const Vector3& x) const {
     const Vector3 d = x - point_;
     return d - d.dot(axis_) * axis_;

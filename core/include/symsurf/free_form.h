@@ -46,7 +46,7 @@ class FreeForm final : public Mirror {
  private:
   struct Blend;
 
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
 
   std::shared_ptr<const Blend> blend_;
 };

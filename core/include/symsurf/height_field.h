@@ -39,7 +39,7 @@ class HeightField final : public Mirror {
   using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
 
   Vector3 direction_;
   std::shared_ptr<const Points> nodes_;

@@ -51,10 +51,12 @@ class Mirror {
   /// Triangles over the footprint of the object: the part of the mirror that lies between the
   /// object's points and their images. `resolution` is the number of cells along the longer side.
   /// Throws InvalidInput without points, or where they or their feet extend over more than 1e50 or
-  /// the mesh would not be finite, InvalidParameter for a resolution out of 1 to 4096.
-  Mesh mesh(PointsView object, int resolution = 32) const;
+  /// the mesh would not be finite, InvalidParameter for a resolution out of 1 to 4096; Cancelled.
+  Mesh mesh(PointsView object, int resolution = 32, const Context& context = {}) const;
   /// The same over the object in which the mirror was found.
-  Mesh mesh(int resolution = 32) const { return mesh(footprint(), resolution); }
+  Mesh mesh(int resolution = 32, const Context& context = {}) const {
+    return mesh(footprint(), resolution, context);
+  }
 
   /// The numbers that define the mirror, by their public names ("normal", "offset").
   virtual Values numbers() const = 0;
@@ -79,7 +81,7 @@ class Mirror {
 
   /// False for points that are mirrored nowhere, although they have a foot.
   virtual bool has_image(const Vector3&) const { return true; }
-  virtual Mesh mesh_over(PointsView object, int resolution) const = 0;
+  virtual Mesh mesh_over(PointsView object, int resolution, const Context& context) const = 0;
 
   static Vector3 no_point();
 

@@ -32,7 +32,7 @@ class Plane final : public Mirror {
   using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
 
   Vector3 normal_;
   double offset_;

@@ -38,7 +38,7 @@ class Quadric final : public Mirror {
   using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
 
   // Far from the coordinates' own origin the terms cancel.
   Vector3 origin_ = Vector3::Zero();

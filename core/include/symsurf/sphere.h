@@ -26,7 +26,7 @@ class Sphere final : public Mirror {
  private:
   bool has_image(const Vector3& x) const override;
   /// The cap about the mean direction of the points that have an image.
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
 
   Vector3 centre_;
   double radius_;

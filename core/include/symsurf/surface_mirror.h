@@ -44,7 +44,7 @@ class SurfaceMirror final : public Mirror {
   using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution) const override;
+  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
   Vector3 foot_in_frame(const Vector3& x) const;
   Vector3 closest_in_frame(const Vector3& x) const;
   Vector3 position(const Vector3& x) const { return scale_ * (rotation_ * x) + translation_; }

@@ -50,7 +50,7 @@ std::unique_ptr<Mirror> Cylinder::transformed(double scale, const Matrix3& rotat
                                     scale * radius_);
 }
 
-Mesh Cylinder::mesh_over(PointsView object, int resolution) const {
+Mesh Cylinder::mesh_over(PointsView object, int resolution, const Context& context) const {
   constexpr double pi = std::numbers::pi;
   std::vector<Vector3> feet;
   Vector3 sum = Vector3::Zero();
@@ -75,11 +75,12 @@ Mesh Cylinder::mesh_over(PointsView object, int resolution) const {
     high = std::max(high, y.dot(axis_));
   }
   const double arc = radius_ * (last - first), height = high - low;
-  return grid_mesh(grid_cells(arc, height, resolution), [&](double s, double t) -> Vector3 {
-    const double angle = first + s * (last - first);
-    return point_ + (low + t * height) * axis_ +
-           radius_ * (std::cos(angle) * e1 + std::sin(angle) * e2);
-  });
+  return grid_mesh(grid_cells(arc, height, resolution), context,
+                   [&](double s, double t) -> Vector3 {
+                     const double angle = first + s * (last - first);
+                     return point_ + (low + t * height) * axis_ +
+                            radius_ * (std::cos(angle) * e1 + std::sin(angle) * e2);
+                   });
 }
 
 }  // namespace symsurf

@@ -265,12 +265,12 @@ std::unique_ptr<Mirror> FreeForm::transformed(double scale, const Matrix3& rotat
 }
 
 // Surface nets over a grid along the patches' principal axes, so that it turns with the mirror.
-Mesh FreeForm::mesh_over(PointsView object, int resolution) const {
-  const Points feet = finite_rows(project(object));
+Mesh FreeForm::mesh_over(PointsView object, int resolution, const Context& context) const {
+  const Points feet = finite_rows(project(object, context.stage(0, 0.3)));
   if (feet.rows() == 0) return {};
   return surface_net(
       feet, resolution, [this](const Vector3& x) { return blend_->value(x); },
-      [this](const Vector3& x) { return foot(x); });
+      [this](const Vector3& x) { return foot(x); }, context);
 }
 
 }  // namespace symsurf

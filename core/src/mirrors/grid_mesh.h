@@ -24,15 +24,17 @@ inline GridCells grid_cells(double width, double height, int resolution) {
 
 /// Triangulates surface(s, t) over the unit square.
 template <typename Surface>
-Mesh grid_mesh(const GridCells& cells, const Surface& surface) {
+Mesh grid_mesh(const GridCells& cells, const Context& context, const Surface& surface) {
   const auto [columns, rows] = cells;
   Mesh mesh;
   mesh.vertices.resize(static_cast<Index>(columns + 1) * (rows + 1), 3);
   mesh.triangles.resize(static_cast<Index>(columns) * rows * 2, 3);
-  for (int r = 0; r <= rows; ++r)
+  for (int r = 0; r <= rows; ++r) {
+    context.check();
     for (int c = 0; c <= columns; ++c)
       mesh.vertices.row(r * (columns + 1) + c) =
           surface(static_cast<double>(c) / columns, static_cast<double>(r) / rows).transpose();
+  }
   Index t = 0;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {

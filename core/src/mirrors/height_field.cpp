@@ -234,7 +234,7 @@ std::unique_ptr<Mirror> HeightField::transformed(double scale, const Matrix3& ro
 
 // A grid along the footprint's principal axes, without the cells that no point of the object comes
 // near.
-Mesh HeightField::mesh_over(PointsView object, int resolution) const {
+Mesh HeightField::mesh_over(PointsView object, int resolution, const Context& context) const {
   Eigen::Matrix<double, Eigen::Dynamic, 2> flat =
       (object.matrix().rowwise() - origin_.transpose()) * across_;
   const Eigen::RowVector2d centre = flat.colwise().mean();
@@ -272,7 +272,8 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
     }
     return index;
   };
-  for (int r = 0; r < rows; ++r)
+  for (int r = 0; r < rows; ++r) {
+    context.check();
     for (int c = 0; c < columns; ++c) {
       if (!kept[static_cast<std::size_t>(r) * columns + c]) continue;
       const Index a = corner(c, r), b = corner(c + 1, r);
@@ -280,6 +281,7 @@ Mesh HeightField::mesh_over(PointsView object, int resolution) const {
       triangles.push_back({a, b, e});
       triangles.push_back({a, e, d});
     }
+  }
   return {rows_of(vertices), rows_of(triangles)};
 }
 

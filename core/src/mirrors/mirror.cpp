@@ -69,7 +69,7 @@ bool Mirror::operator==(const Mirror& other) const {
                     });
 }
 
-Mesh Mirror::mesh(PointsView object, int resolution) const {
+Mesh Mirror::mesh(PointsView object, int resolution, const Context& context) const {
   if (object.empty())
     throw InvalidInput(
         "there are no points to lay the mesh over: a mirror made by hand has no "
@@ -79,7 +79,8 @@ Mesh Mirror::mesh(PointsView object, int resolution) const {
   if (resolution < 1 || resolution > finest)
     throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is 1 to " +
                            std::to_string(finest));
-  Mesh mesh = mesh_over(object, resolution);
+  context.report(0);
+  Mesh mesh = mesh_over(object, resolution, context);
   require_finite(mesh.vertices, "vertex of the mirror's mesh");
   return mesh;
 }

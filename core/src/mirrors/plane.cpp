@@ -42,7 +42,7 @@ std::unique_ptr<Mirror> Plane::transformed(double scale, const Matrix3& rotation
 }
 
 // The rectangle along the footprint's principal axes, so that it turns with the object.
-Mesh Plane::mesh_over(PointsView object, int resolution) const {
+Mesh Plane::mesh_over(PointsView object, int resolution, const Context& context) const {
   const Points feet = project(object);
   const Eigen::RowVector3d centre = feet.colwise().mean();
   const Points centred = feet.rowwise() - centre;
@@ -51,9 +51,10 @@ Mesh Plane::mesh_over(PointsView object, int resolution) const {
   const Eigen::VectorXd along_u = centred * u, along_v = centred * v;
   const double u0 = along_u.minCoeff(), v0 = along_v.minCoeff();
   const double width = along_u.maxCoeff() - u0, height = along_v.maxCoeff() - v0;
-  return grid_mesh(grid_cells(width, height, resolution), [&](double s, double t) -> Vector3 {
-    return centre.transpose() + (u0 + s * width) * u + (v0 + t * height) * v;
-  });
+  return grid_mesh(grid_cells(width, height, resolution), context,
+                   [&](double s, double t) -> Vector3 {
+                     return centre.transpose() + (u0 + s * width) * u + (v0 + t * height) * v;
+                   });
 }
 
 }  // namespace symsurf

@@ -90,14 +90,14 @@ std::unique_ptr<Mirror> Quadric::transformed(double scale, const Matrix3& rotati
                                    scale * (rotation * linear_), scale * scale * constant_);
 }
 
-Mesh Quadric::mesh_over(PointsView object, int resolution) const {
-  const Points feet = finite_rows(project(object));
+Mesh Quadric::mesh_over(PointsView object, int resolution, const Context& context) const {
+  const Points feet = finite_rows(project(object, context.stage(0, 0.3)));
   if (feet.rows() == 0)
     throw InvalidInput("none of the " + std::to_string(object.size()) +
                        " points of the object has a foot on this quadric");
   return surface_net(
       feet, resolution, [this](const Vector3& x) { return value(x); },
-      [this](const Vector3& x) { return foot(x); });
+      [this](const Vector3& x) { return foot(x); }, context);
 }
 
 }  // namespace symsurf

@@ -66,7 +66,7 @@ std::unique_ptr<Mirror> Sphere::transformed(double scale, const Matrix3& rotatio
   return std::make_unique<Sphere>(scale * rotation * centre_ + translation, scale * radius_);
 }
 
-Mesh Sphere::mesh_over(PointsView object, int resolution) const {
+Mesh Sphere::mesh_over(PointsView object, int resolution, const Context& context) const {
   constexpr double pi = std::numbers::pi;
   std::vector<Vector3> directions;
   Vector3 sum = Vector3::Zero();
@@ -87,7 +87,7 @@ Mesh Sphere::mesh_over(PointsView object, int resolution) const {
   if (opening > 0.9 * pi) opening = pi;
 
   const Vector3 e1 = pole.unitOrthogonal(), e2 = pole.cross(e1);
-  Mesh mesh = grid_mesh({resolution, resolution}, [&](double s, double t) -> Vector3 {
+  Mesh mesh = grid_mesh({resolution, resolution}, context, [&](double s, double t) -> Vector3 {
     const auto [rho, angle] = disc_from_square(s, t);
     const double polar = opening * rho;
     return centre_ + radius_ * (std::cos(polar) * pole +

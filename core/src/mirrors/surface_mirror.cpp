@@ -185,7 +185,7 @@ std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& 
                                          scale * (rotation * translation_) + translation);
 }
 
-Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
+Mesh SurfaceMirror::mesh_over(PointsView object, int resolution, const Context& context) const {
   Eigen::Array2d low = Eigen::Array2d::Constant(infinity), high = -low;
   for (Index i = 0; i < object.size(); ++i) {
     const Vector3 foot = foot_in_frame(to_frame(object[i]));
@@ -198,7 +198,7 @@ Mesh SurfaceMirror::mesh_over(PointsView object, int resolution) const {
                        std::to_string(object.size()) + " points");
   const Eigen::Array2d size = high - low;
   const GridCells cells = grid_cells(size.x(), size.y(), resolution);
-  const Mesh grid = grid_mesh(cells, [&](double s, double t) -> Vector3 {
+  const Mesh grid = grid_mesh(cells, context, [&](double s, double t) -> Vector3 {
     const double x = low.x() + s * size.x(), y = low.y() + t * size.y();
     return position({x, y, surface_(x, y)});
   });

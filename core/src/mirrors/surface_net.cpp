@@ -64,7 +64,7 @@ Cell moved(Cell c, int axis, int by) {
 
 Mesh surface_net(const Points& on_surface, int resolution,
                  const std::function<double(const Vector3&)>& value,
-                 const std::function<Vector3(const Vector3&)>& foot) {
+                 const std::function<Vector3(const Vector3&)>& foot, const Context& context) {
   require_extent(on_surface, "feet on the mirror");
   const Grid grid = grid_along(on_surface, resolution);
   std::map<Cell, Index> vertex_of;  // cells of the net; -1 until they get a vertex
@@ -77,6 +77,7 @@ Mesh surface_net(const Points& on_surface, int resolution,
 
   std::map<Cell, double> values;
   const auto at = [&](const Cell& c) {
+    context.check();
     const auto [entry, fresh] = values.try_emplace(c, std::nan(""));
     if (fresh) entry->second = value(grid.corner(c));
     return entry->second;

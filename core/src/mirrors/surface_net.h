@@ -14,6 +14,6 @@ namespace symsurf {
 /// squared distances no longer bound the net.
 Mesh surface_net(const Points& on_surface, int resolution,
                  const std::function<double(const Vector3& x)>& value,
-                 const std::function<Vector3(const Vector3& x)>& foot);
+                 const std::function<Vector3(const Vector3& x)>& foot, const Context& context);
 
 }  // namespace symsurf
