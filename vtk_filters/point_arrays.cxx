@@ -55,8 +55,6 @@ TriangleArray::TriangleArray(vtkPolyData* data)
     : corners_(vtkSmartPointer<vtkTypeInt64Array>::New()),
       cells_(vtkSmartPointer<vtkIdTypeArray>::New()) {
   if (!data || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) return;
-  require_points(data->GetPolys(), data->GetNumberOfPoints());
-  require_points(data->GetStrips(), data->GetNumberOfPoints());
   vtkNew<vtkPolyData> polygons;
   polygons->SetPoints(data->GetPoints());
   polygons->SetPolys(data->GetPolys());

@@ -8,6 +8,7 @@
 #include "controller_communicator.h"
 #include "point_arrays.h"
 #include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkGeometryFilter.h"
@@ -79,7 +80,12 @@ Shape joined_blocks(vtkShapeAlgorithm* filter, vtkCompositeDataSet* composite) {
 
 Shape shape_of(vtkShapeAlgorithm* filter, vtkDataObject* data) {
   if (!data) return nullptr;
-  if (auto* polygons = vtkPolyData::SafeDownCast(data)) return polygons;
+  if (auto* polygons = vtkPolyData::SafeDownCast(data)) {
+    for (vtkCellArray* cells :
+         {polygons->GetVerts(), polygons->GetLines(), polygons->GetPolys(), polygons->GetStrips()})
+      require_points(cells, polygons->GetNumberOfPoints());
+    return polygons;
+  }
   if (auto* points = vtkPointSet::SafeDownCast(data)) return surface_of(points);
   if (data->IsA("vtkImageData") || data->IsA("vtkRectilinearGrid"))
     return points_above(filter, vtkDataSet::SafeDownCast(data));

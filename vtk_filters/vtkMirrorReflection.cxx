@@ -36,7 +36,8 @@ int vtkMirrorReflection::RequestData(vtkInformation*, vtkInformationVector** inp
   vtkPolyData* mirror = vtkPolyData::GetData(inputs[1]);
   return core_call(this, [&] {
     const auto input = shape_of(this, inputs);
-    const symsurf::Points images = mirror_of(mirror)->reflect(points_of(input).view());
+    const symsurf::Points images =
+        mirror_of(mirror)->reflect(points_of(input).view(), context_of(this));
     const std::vector<symsurf::Index> kept = rows_without_nan(images);
     vtkNew<vtkPolyData> reflected;
     set_subset(reflected, input, images(kept, Eigen::indexing::all), kept);

@@ -26,10 +26,10 @@
 namespace {
 
 // Runs and tells what the error said; without an error the outputs are there.
-std::string error_of(vtkMirrorDetection* filter) {
+std::string error_of(vtkPolyDataAlgorithm* filter) {
   ErrorListener listener(filter);
   filter->Update();
-  for (int port = 0; port < 3; ++port)
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
     EXPECT_EQ((filter->GetOutput(port)->GetNumberOfPoints() == 0), !listener.message().empty());
   return listener.message();
 }
@@ -122,23 +122,30 @@ TEST(FilterErrors, AMirrorOfSinglePrecisionKeepsItsFractions) {
   EXPECT_EQ(reflection->GetOutput()->GetPoint(0)[0], 1);
 }
 
-TEST(FilterErrors, PolygonsThatNameNoPoint) {
-  vtkNew<vtkMirrorDetection> filter;
-  filter->SetMethod("plane");
+TEST(FilterErrors, CellsThatNameNoPoint) {
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetMethod("plane");
+  detection->UseFacesOff();  // the output has the cells nonetheless
+  vtkNew<vtkMirrorReflection> reflection;
+  reflection->SetInputData(
+      1, mirror_data("plane", {{"normal", symsurf::Vector3(1, 0, 0)}, {"offset", 0.0}}));
+  vtkNew<vtkPointDamage> damage;
+  damage->SetDamage("removal");
   const symsurf::Points points = mirrored_shape(truth, 50);
+  const std::vector<vtkPolyDataAlgorithm*> filters{detection, reflection, damage};
   using Ids = std::initializer_list<vtkIdType>;
   for (const Ids& ids :
        {Ids{0, 1, 100}, {0, 1, 2, 100}, {-1, 1, 2}, {-1, 1, 2, 3}, {0, 1, 2, 3, 4000000000}})
-    for (const bool is_strip : {false, true}) {
+    for (const auto set_cells : {&vtkPolyData::SetVerts, &vtkPolyData::SetLines,
+                                 &vtkPolyData::SetPolys, &vtkPolyData::SetStrips}) {
       const vtkNew<vtkPolyData> shape = polydata_of(points);
       vtkNew<vtkCellArray> cells;
       cells->InsertNextCell(ids);
-      is_strip ? shape->SetStrips(cells) : shape->SetPolys(cells);
-      filter->SetInputData(shape);
-      filter->UseFacesOn();
-      EXPECT_NE(error_of(filter).find("a cell names point "), std::string::npos);
-      filter->UseFacesOff();
-      EXPECT_TRUE(error_of(filter).empty());
+      (shape->*set_cells)(cells);
+      for (vtkPolyDataAlgorithm* filter : filters) {
+        filter->SetInputData(shape);
+        EXPECT_NE(error_of(filter).find("a cell names point "), std::string::npos);
+      }
     }
 }
 
