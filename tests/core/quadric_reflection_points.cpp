@@ -50,7 +50,7 @@ void expect_complete(const ReflectionPoints& found, const Implicit& surface, con
     const Vector3 start = 2 * random.in_box();
     SurfacePoint at;
     if (!surface(start, at) || at.position.norm() > 10) continue;
-    if (!settled(path, surface, at.position, 0.2, at) || at.position.norm() > 100) continue;
+    if (!converges(path, surface, at.position, 0.2, at) || at.position.norm() > 100) continue;
     EXPECT_TRUE(has(found, at.position, 1e-5 * path.length(at.position)))
         << what << " " << at.position.transpose();
   }

@@ -42,7 +42,7 @@ class Context {
   struct Report;
 
   bool is_due() const;
-  void tell(double fraction) const;
+  void notify(double fraction) const;
 
   Progress progress_;
   int threads_ = 1;

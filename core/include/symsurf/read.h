@@ -13,8 +13,8 @@ struct Shape {
   Points normals;   ///< no rows where a finite point has none, or one that is 0 or not finite
 };
 
-/// Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, told apart by suffix. Coordinates keep every digit a
-/// double holds.
+/// Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, distinguished by suffix. Coordinates keep every digit
+/// a double holds.
 ///
 /// XYZ, CSV and TXT hold rows of numbers, separated by blanks and tabs, by commas or by semicolons;
 /// comments start with # or //. A first row of names says which columns are x, y, z and, if it

@@ -42,13 +42,13 @@ Context::Context(Progress progress, int threads)
 
 void Context::report(double fraction) const {
   const bool ends = fraction <= 0 || fraction >= 1;
-  if (progress_ && (ends || is_due())) tell(from_ + fraction * (to_ - from_));
+  if (progress_ && (ends || is_due())) notify(from_ + fraction * (to_ - from_));
 }
 
 void Context::check() const {
   if (!progress_) return;
   if (last_->caller.load(std::memory_order_relaxed) == std::this_thread::get_id()) {
-    if (is_due()) tell(last_->fraction);
+    if (is_due()) notify(last_->fraction);
   } else if (last_->cancelled.load(std::memory_order_relaxed)) {
     throw Cancelled();
   }
@@ -56,7 +56,7 @@ void Context::check() const {
 
 bool Context::is_due() const { return Clock::now() - last_->time >= report_interval; }
 
-void Context::tell(double fraction) const {
+void Context::notify(double fraction) const {
   last_->caller = std::this_thread::get_id();
   last_->time = Clock::now();
   last_->fraction = fraction;

@@ -44,7 +44,7 @@ class Grids {
     return false;
   }
 
-  // Below the rounding error of the coordinates, cells tell points apart that are equal.
+  // Below the rounding error of the coordinates, cells separate points that are equal.
   bool is_finest(Index k) const { return extent_ * (static_cast<double>(k) / l_avg_) > finest; }
 
   // The first k of 1, 2, 3, ... with `count` occupied cells.

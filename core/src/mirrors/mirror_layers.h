@@ -8,7 +8,7 @@ namespace symsurf {
 
 /// The layers of a cloud over the positions of a mirror. A mirror that may have any height over
 /// each position can lie in the middle of what is there: a solid with one pair of points over each
-/// position has such a mirror whatever its shape. Only more pairs over the same position speak for
+/// position has such a mirror whatever its shape. Only more pairs over the same position support
 /// it.
 class MirrorLayers {
  public:

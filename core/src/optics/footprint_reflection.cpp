@@ -114,7 +114,7 @@ std::vector<SurfacePoint> FootprintReflection::operator()(const Vector3& source)
     const Vector3 start = parts[0] * a + parts[1] * b + parts[2] * c;
     const double side = std::max((b - a).norm(), (c - a).norm());
     SurfacePoint point;
-    if (settled(path, surface, start, side, point) && (point.position - start).norm() <= 2 * side)
+    if (converges(path, surface, start, side, point) && (point.position - start).norm() <= 2 * side)
       found.push_back(point);
   }
   return found;

@@ -43,8 +43,8 @@ inline constexpr double stationary = 1e-10;
 /// Newton's steps, none longer than `trust`, from near a point at which light is reflected to that
 /// point. `surface(x, at)` gives the surface's point next to x, false where it has none.
 template <typename Surface>
-bool settled(const LightPath& path, const Surface& surface, Vector3 x, double trust,
-             SurfacePoint& at) {
+bool converges(const LightPath& path, const Surface& surface, Vector3 x, double trust,
+               SurfacePoint& at) {
   constexpr int most_steps = 20;
   constexpr double rounding = 1e-14;
   double least = stationary;

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr int pieces = 2;  // samples between two nodes at the least
 constexpr int most_halves = 40;
-constexpr double settled_from = 1e-3;  // sizes: how near a root Newton is let go
+constexpr double newton_from = 1e-3;   // sizes: how near a root Newton is let go
 constexpr double no_root_above = 0.3;  // of a sample: a parabola that ends above it has no roots
 constexpr int halves_at_end = 12;
 constexpr int most_splits = 2000;  // of one search: where rounding is all that moves, it ends
@@ -223,9 +223,9 @@ class Search {
       const double apart = (a.branch[k].point - b.branch[k].point).norm();
       const bool is_same_side = a.branch[k].is_same_side || b.branch[k].is_same_side;
       // The law's sign changes, too, where its angles add up to half a turn.
-      if (!is_same_side && apart < settled_from * frame_.size) return;
+      if (!is_same_side && apart < newton_from * frame_.size) return;
       const double share = at_a / (at_a - at_b);
-      if (is_same_side && (step > 1 || apart < settled_from * frame_.size)) {
+      if (is_same_side && (step > 1 || apart < newton_from * frame_.size)) {
         const Vector3 guess = a.branch[k].point + share * (b.branch[k].point - a.branch[k].point);
         if (settle(guess, apart)) return;
       }
@@ -253,7 +253,7 @@ class Search {
       return frame_(y, at) && (at.position - guess).norm() <= reach;
     };
     SurfacePoint at;
-    if (!settled(path_, near, guess, apart, at)) return false;
+    if (!converges(path_, near, guess, apart, at)) return false;
     found_.push_back(at);
     return true;
   }
@@ -286,7 +286,7 @@ void search_planes(const Frame& f, const Vector3& ends, std::vector<SurfacePoint
   };
   // Where the line touches the quadric, the curve turns back. With its direction q and its moment
   // r = p x q the discriminant is -r . cof(A) r + A q . (b x r) + (b . q)^2 / 4 - c q . A q, of the
-  // fourth degree in the cosine and the sine: five values tell all.
+  // fourth degree in the cosine and the sine: five values determine it.
   const Vector3 &a = f.curves, &b = f.linear;
   const Vector3 cofactors(a.y() * a.z(), a.z() * a.x(), a.x() * a.y());
   TurnPolynomial discriminant{0, 0, 0, 0, 0};  // of twice the angle

@@ -25,7 +25,7 @@ constexpr Index points_in_ball = 30;  // in the median, where the cloud is that 
 constexpr double near = 0.004, far = 0.018, penalty = 1.2;
 // Shares of a ball's points: fewer on one side are a rim, as many are there by chance.
 constexpr double strip = 0.5, whole = 0.7;
-constexpr double unsure = 0.006;   // standard error of a mean: it tells half as much
+constexpr double unsure = 0.006;   // standard error of a mean, at which it counts half
 constexpr double sparse = 0.2;     // of the median count of points: fewer are no surface
 constexpr double in_volume = 0.4;  // weight of a point inside a volume, on a surface 1
 constexpr double by_chance = 0.1;  // probability of a neighbour: likelier ones do not count
@@ -40,7 +40,7 @@ constexpr double held_out = 0.06;      // radius of the windows that sides are p
 
 // Of random solids the best plane, sphere and cylinder fit 0.4 at most, the best quadric 0.6, the
 // best free form 0.96 and the best height field, as any convex solid has one, 0.98: what is beyond
-// `by_chance` speaks for the last three. Of two mirrors that fit alike the simpler is meant:
+// `by_chance` favours the last three. Of two mirrors that fit alike the simpler is meant:
 // `cost`.
 struct Freedom {
   double by_chance = 0, cost = 0;
@@ -193,7 +193,7 @@ MirrorScore::Support MirrorScore::supported(const Sample& sample, const Ball& im
     const Vector3 left = along.cwiseAbs2() - 4 / effective * spread.variances;
     return spread.thinness.dot(left);
   };
-  // At a rim, where one ball holds but a strip, the other tells which way the surface goes.
+  // At a rim, where one ball holds but a strip, the other shows which way the surface goes.
   const double one = across(own, sample.ball.effective), two = across(other, image.effective);
   const auto [less, more] = std::minmax(sample.ball.count, image.count);
   const double of_whole = more == image.count ? two : one;
@@ -211,7 +211,7 @@ MirrorScore::Support MirrorScore::supported(const Sample& sample, const Ball& im
 }
 
 // Both sides' surfaces where the line to the image meets them: the means of the balls, as the noise
-// is less there. Where it hardly meets them the distance of surfaces says little.
+// is less there. Where it hardly meets them the distance of surfaces is unreliable.
 void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
                             MirrorSides& sides) const {
   constexpr double steepest = 0.5;  // cosine

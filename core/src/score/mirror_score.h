@@ -81,7 +81,7 @@ class MirrorScore {
   // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
   struct Ball {
     double count = 0;                // of points, sparse ones less
-    double effective = 0;            // how many points of equal weight tell as much
+    double effective = 0;            // points of equal weight with the same variance
     Vector3 mean = Vector3::Zero();  // from the centre
     Matrix3 covariance = Matrix3::Zero();
   };
@@ -98,7 +98,7 @@ class MirrorScore {
   struct Sample {
     Vector3 position;
     Ball ball;
-    double surface;  // 0..1: does the ball tell where the surface lies?
+    double surface;  // 0..1: how well the ball defines where the surface lies
     double density;  // 0..1: less where next to no others are, as among clutter
 
     double weight() const { return weighed(surface, 1, 1); }
@@ -109,7 +109,7 @@ class MirrorScore {
   struct Support {
     double on_surface;
     double missing, rim;  // 0..1: where the image's or the sample's ball has fewer points
-    double surface;       // the sample's, where the image tells more
+    double surface;       // the sample's, where the image defines it better
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;

@@ -11,7 +11,7 @@ namespace symsurf {
 /// sides that mirror each other is smoother by far.
 class MirrorSides {
  public:
-  /// What one point tells.
+  /// What one point contributes.
   struct Pair {
     Vector3 foot;    ///< on the mirror
     Vector3 normal;  ///< the mirror's, of either sign
@@ -24,7 +24,7 @@ class MirrorSides {
 
   void add(const Pair& pair) { pairs_.push_back(pair); }
 
-  /// How far the pairs speak for a mirror and against chance, in nats: with e^2 and E^2 the mean
+  /// The evidence of the pairs for a mirror, against chance, in nats: with e^2 and E^2 the mean
   /// square errors of the middle and of half the distance when they are held out, and n
   /// independent windows, n / 2 ln(r E^2 / e^2), and 0 at least. r is what chance reaches.
   double evidence() const;

@@ -82,7 +82,7 @@ NearestPoints::Two NearestPoints::two_nearest(const Vector3& query) const {
 
 std::vector<Vector3> NearestPoints::second_nearest(const std::vector<Vector3>& queries) const {
   std::vector<Two> best(queries.size(), {nothing, nothing});
-  // A query's own slab mostly holds both, and tells how far off others may have nearer ones.
+  // A query's own slab mostly holds both, and bounds how far off others may have nearer ones.
   for (const bool home : {true, false}) {
     std::vector<Two> own(queries.size(), {nothing, nothing});
     for (std::size_t q = 0; q < queries.size(); ++q) {

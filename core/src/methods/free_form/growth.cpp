@@ -176,10 +176,4 @@ double Growth::closeness() const {
   return accepted_.empty() ? 0 : sum / static_cast<double>(accepted_.size());
 }
 
-double Growth::mean_half_chord() const {
-  double sum = 0;
-  for (const std::int32_t i : accepted_) sum += std::abs(carried_[patch_of_[i]].distance);
-  return accepted_.empty() ? 0 : sum / static_cast<double>(accepted_.size());
-}
-
 }  // namespace symsurf::perpendicular

@@ -29,7 +29,6 @@ class Growth {
   double closeness() const;
   /// Whether the partners are the images themselves, as of the last refine().
   bool exact() const { return exact_; }
-  double mean_half_chord() const;
 
  private:
   bool carry(std::int32_t i, const Patch& guide, Carried& carried, std::int32_t& partner) const;

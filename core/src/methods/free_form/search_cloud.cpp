@@ -93,7 +93,7 @@ std::vector<Index> thinned(PointsView points, Index most, const Context& context
 }
 
 // To that share of the diagonal coordinates are rounded: far above the rounding of doubles, and far
-// below what tells an exact partner from others.
+// below what distinguishes an exact partner from others.
 constexpr double quantum = 0x1p-30;
 
 Points rounded(Points rows) { return (rows.array() / quantum).round() * quantum; }

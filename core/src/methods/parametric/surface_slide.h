@@ -13,7 +13,7 @@ std::vector<Shape> shapes_around(const Shape& shape,
                                  const Eigen::Matrix<double, Eigen::Dynamic, 2>& loosest,
                                  double spacing);
 
-/// Where noise or a dent hides which points are partners, surfaces alone tell mirrors apart that
+/// Where noise or a dent hides which points are partners, surfaces alone distinguish mirrors that
 /// slide along them, and a fit creeps: slides the mirror over the plane of its loosest changes, for
 /// as long as another position explains clearly more.
 template <typename Shape>

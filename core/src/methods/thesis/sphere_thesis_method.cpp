@@ -41,7 +41,7 @@ double phi(double squared, double support) {
 }
 
 // A grid over a few hundred points: each voxel lists those within reach of some position in it, so
-// that a look tells which may be the closest.
+// that one comparison finds which may be the closest.
 class NearbyPoints {
  public:
   NearbyPoints(PointsView points, double reach) {

@@ -18,7 +18,7 @@ constexpr Index most_signs = 8;    // functions all of whose signs are tried
 constexpr Index looked_at = 16;    // among the first so many
 constexpr Index fewest_signs = 3;  // with which a map is determined
 // Shares of an eigenvalue that it is away from others. A pose mixes functions whose eigenvalues are
-// near each other, yet such functions may be all that tells two limbs apart: each share is tried.
+// near each other, yet such functions may be all that distinguishes two limbs: each share is tried.
 constexpr double alone = 0.02;
 constexpr std::array<double, 3> shares_alone{alone, 0.002, 0.05};
 constexpr std::size_t most_starts = 24;  // a share
@@ -136,7 +136,7 @@ bool is_better(const IntrinsicMap& one, const IntrinsicMap& other) {
   const auto cost = [](const IntrinsicMap& map) {
     const double reversal = std::min(1.0, -map.orientation);
     // A front mirrored to a back changes little, as it moves little. Bent limbs change distances
-    // more than limbs that are mapped onto themselves; the orientation tells these: its cube
+    // more than limbs that are mapped onto themselves; the orientation excludes these: its cube
     // counts.
     return reversal < least_reversal
                ? INFINITY

@@ -6,7 +6,7 @@
 
 namespace symsurf {
 
-/// Tells whether a map of a surface onto itself turns it over, as reflections do, by the products
+/// Whether a map of a surface onto itself turns it over, as reflections do, by the products
 /// df ^ dg of eigenfunctions' differentials: isometries keep them up to this sign.
 class Orientation {
  public:

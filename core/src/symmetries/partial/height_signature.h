@@ -11,7 +11,7 @@ namespace symsurf {
 
 /// The surface about a point as a height over its tangent disc, in Zernike polynomials up to the
 /// fourth degree (Maximo et al. 2011): the second degree are the principal curvatures of Mitra et
-/// al. (2006), the others tell apart what these do not. Moduli do not change as the disc is turned
+/// al. (2006), the others distinguish what these do not. Moduli do not change as the disc is turned
 /// or reflected, phases give the turn.
 struct HeightSignature {
   static constexpr int length = 8, turning = 5;

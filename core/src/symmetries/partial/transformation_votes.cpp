@@ -13,7 +13,7 @@ namespace {
 
 using Invariants = KdTree<HeightSignature::length>;
 
-// The least share of what turns tell of a disc, against the waviest fifth of all.
+// The least variation of a disc under turns, as a share of that of the waviest fifth of all.
 constexpr double least_waviness = 0.25;
 
 struct Disc {

@@ -130,8 +130,8 @@ std::optional<PatchPair> PatchGrowth::grown(const Eigen::Affine3d& map,
     const Fit fit = fitted(pair.map, pair.from, tolerance, 2);
     pair.map = fit.map;
     pair.hold = fit.hold;
-    constexpr double settled = 1.02;
-    if (static_cast<double>(pair.from.size()) < settled * static_cast<double>(before)) break;
+    constexpr double grows = 1.02;
+    if (static_cast<double>(pair.from.size()) < grows * static_cast<double>(before)) break;
   }
   if (static_cast<Index>(pair.from.size()) < least) return {};
   for (const Index i : pair.from) {

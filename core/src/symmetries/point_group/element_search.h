@@ -18,7 +18,7 @@ struct FoundDirection {
 
 constexpr double same_direction = 0.05;  // radians, of directions fitted well: 3 degrees
 
-/// Some of the planes, the best first: a few tell of all others.
+/// Some of the planes, the best first: all others follow from a few.
 std::vector<FoundDirection> find_planes(const SymmetryTest& test);
 
 /// Nearest to all planes, and where these leave it free to the centroid.

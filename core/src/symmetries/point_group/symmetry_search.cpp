@@ -250,7 +250,7 @@ class SymmetrySearch {
       matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
       found.elements.push_back(matrix);
     }
-    found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; images may speak against it
+    found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
     found.missing = vote.missing;
     return found;
   }

@@ -16,10 +16,10 @@ constexpr std::size_t few_images = 6000, many_images = 24'000;  // that vote
 constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 // Shares of the images and of the points.
 constexpr double most_missing = 0.35;
-constexpr double most_outliers_of_elements = 0.3;  // of elements of which others may tell more
+constexpr double most_outliers_of_elements = 0.3;  // of elements; others may show more
 constexpr double most_outliers_of_group = 0.08, most_outliers_of_continuous = 0.042;
 
-// A few elements that tell the pose, of a group that may have a hundred.
+// A few elements that define the pose, of a group that may have a hundred.
 std::vector<Matrix3> spread(const std::vector<Matrix3>& elements) {
   constexpr std::size_t most = 12;
   std::vector<Matrix3> chosen;

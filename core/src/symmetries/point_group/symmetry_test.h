@@ -25,7 +25,8 @@ class SymmetryTest {
   SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context);
 
   /// The pose that fits them best, where they may be symmetries. With part of a shape missing two
-  /// elements cannot tell a hole from a feature: what spoils the symmetry is left to passes().
+  /// elements do not distinguish a hole from a feature: what spoils the symmetry is left to
+  /// passes().
   std::optional<Passed> tried(const GroupPose& start, const std::vector<Matrix3>& elements) const {
     return tried(start, elements, elements);
   }
