@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -53,6 +54,23 @@ std::vector<LongCall> long_calls() {
                        operate(operation.name, {points}, Plane({1, 0, 0}, 0), {}, context);
                      }});
   return calls;
+}
+
+// They have no progress to report, and can be stopped all the same.
+TEST(Context, IsAskedByCallsWithoutReports) {
+  const Points points = RandomCloud(1).sphere(5000);
+  // Another each time: one that was just asked is not asked again so soon.
+  const auto stop = [] { return Context([](double) { return false; }); };
+  EXPECT_THROW(stop().check(), Cancelled);
+  EXPECT_THROW(downsample(points, 100, stop()), Cancelled);
+  EXPECT_THROW(HeightField({0, 0, 1}, points, stop()), Cancelled);
+  for (const std::shared_ptr<Mirror>& mirror : std::vector<std::shared_ptr<Mirror>>{
+           std::make_shared<Plane>(Vector3(1, 0, 0), 0),
+           std::make_shared<Sphere>(Vector3(0, 0, -2), 2),
+           std::make_shared<Cylinder>(Vector3(0, 0, -2), Vector3(1, 0, 0), 2),
+           std::make_shared<HeightField>(Vector3(0, 0, 1), points),
+           std::make_shared<Quadric>(Matrix3::Identity(), Vector3(0, 0, 2), -1)})
+    EXPECT_THROW(mirror->mesh(points, 64, stop()), Cancelled) << mirror->kind();
 }
 
 TEST(Context, ReportsFromZeroToOneNeverBackwardsOnTheCallingThread) {

@@ -27,7 +27,7 @@ class Context {
 
   /// The same where there is no news: long loops call it, so that nobody waits for the next report.
   /// On any thread; those that the calling thread has started stop with it. The calling thread is
-  /// known by its first report.
+  /// the one that made the context, or that reports.
   void check() const;
 
   /// The same context for a point set that processes share out; null, or one process: all of it is

@@ -38,6 +38,7 @@ Context::Context(Progress progress, int threads)
   if (threads < 0)
     throw InvalidParameter("threads is " + std::to_string(threads) +
                            "; allowed are 0 (all the machine has) and above");
+  last_->caller = std::this_thread::get_id();
 }
 
 void Context::report(double fraction) const {

@@ -80,6 +80,7 @@ Points estimate_normals(PointsView points, const PointTree& tree, Index neighbou
     std::vector<Neighbour> found;
     Points patch(neighbours, 3);
     for (Index p = begin; p < end; ++p) {
+      context.check();  // of many neighbours a point takes long
       const std::int32_t i = tree.order()[p];
       tree.nearest(points[i], neighbours, found);
       for (Index n = 0; n < neighbours; ++n)

@@ -119,6 +119,7 @@ TriangleMesh::TriangleMesh(PointsView points, TrianglesView faces, const Context
     mesh.add_vertex({points[i].x(), points[i].y(), points[i].z()});
   std::set<Corners> nonmanifold;
   interruptible_for(context, faces.size(), [&](Index f) {
+    context.check();  // at a vertex with many faces one takes long
     const Corners face{faces[f][0], faces[f][1], faces[f][2]};
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
       ++refused_.degenerate;

@@ -288,7 +288,7 @@ Vector3 restored(const Vector3& x, const Chart& chart) {
 }  // namespace
 
 Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& context) {
-  context.report(0);  // from here on checks know which thread may ask
+  context.report(0);
   const Workplace position(mirror, points, context);
   Points out(points.size(), 3);
   parallel_for(context, points.size(), chunk, [&](Index begin, Index end) {

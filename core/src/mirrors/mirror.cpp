@@ -79,7 +79,6 @@ Mesh Mirror::mesh(PointsView object, int resolution, const Context& context) con
   if (resolution < 1 || resolution > finest)
     throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is 1 to " +
                            std::to_string(finest));
-  context.report(0);
   Mesh mesh = mesh_over(object, resolution, context);
   require_finite(mesh.vertices, "vertex of the mirror's mesh");
   return mesh;
