@@ -3,7 +3,9 @@
 #include <symsurf/errors.h>
 
 #include <cstring>
+#include <new>
 #include <numeric>
+#include <stdexcept>
 
 #include "mpi_barrier.h"
 
@@ -14,6 +16,11 @@ constexpr int message_tag = 7120;
 const char* chars(const std::byte* bytes) { return reinterpret_cast<const char*>(bytes); }
 char* chars(std::byte* bytes) { return reinterpret_cast<char*>(bytes); }
 
+// VTK's calls return 0 where they fail, as beyond 2 GB.
+void require_exchange(int succeeded) {
+  if (!succeeded) throw std::runtime_error("the processes cannot exchange their data");
+}
+
 }  // namespace
 
 std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::all_gather(
@@ -21,11 +28,11 @@ std::vector<symsurf::Communicator::Bytes> ControllerCommunicator::all_gather(
   const auto length = static_cast<vtkIdType>(mine.size());
   std::vector<vtkIdType> lengths(size()), offsets(size());
   barrier(controller_);
-  controller_->AllGather(&length, lengths.data(), 1);
+  require_exchange(controller_->AllGather(&length, lengths.data(), 1));
   std::exclusive_scan(lengths.begin(), lengths.end(), offsets.begin(), vtkIdType{0});
   Bytes all(offsets.back() + lengths.back());
-  controller_->AllGatherV(chars(mine.data()), chars(all.data()), length, lengths.data(),
-                          offsets.data());
+  require_exchange(controller_->AllGatherV(chars(mine.data()), chars(all.data()), length,
+                                           lengths.data(), offsets.data()));
   std::vector<Bytes> parts;
   for (int rank = 0; rank < size(); ++rank) {
     const auto begin = all.begin() + offsets[rank];
@@ -39,15 +46,17 @@ symsurf::Communicator::Bytes ControllerCommunicator::send_recv(
     int other, std::span<const std::byte> mine) const {
   const auto send = [&] {
     const auto length = static_cast<vtkIdType>(mine.size());
-    controller_->Send(&length, 1, other, message_tag);
-    if (length > 0) controller_->Send(chars(mine.data()), length, other, message_tag);
+    require_exchange(controller_->Send(&length, 1, other, message_tag));
+    if (length > 0)
+      require_exchange(controller_->Send(chars(mine.data()), length, other, message_tag));
   };
   Bytes theirs;
   const auto receive = [&] {
     vtkIdType length = 0;
-    controller_->Receive(&length, 1, other, message_tag);
+    require_exchange(controller_->Receive(&length, 1, other, message_tag));
     theirs.resize(length);
-    if (length > 0) controller_->Receive(chars(theirs.data()), length, other, message_tag);
+    if (length > 0)
+      require_exchange(controller_->Receive(chars(theirs.data()), length, other, message_tag));
   };
   signal_and_wait(controller_, other, other);
   if (rank() < other) {
@@ -67,6 +76,8 @@ void together(const ControllerCommunicator& processes, const std::function<void(
     part();
   } catch (const symsurf::InvalidInput& error) {
     problem = error.what();
+  } catch (const std::bad_alloc&) {
+    problem = "a process has too little memory for its points";
   }
   for (const auto& theirs : processes.all_gather(std::as_bytes(std::span(problem))))
     if (!theirs.empty())

@@ -4,11 +4,14 @@
 #include <symsurf/detect.h>
 #include <symsurf/errors.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "detection/run_on_root.h"
+#include "expect_error.h"
 #include "process_threads.h"
 #include "random_cloud.h"
 
@@ -124,6 +127,21 @@ TEST(EmptyProcesses, AreToldWhatIsWrongWithTheWhole) {
       for (const std::string& error : errors)
         EXPECT_EQ(error.find(each.message), 0u) << method << ", " << each.name << ": " << error;
     }
+}
+
+// The root asks for room before anything is sent: no process waits for one that has given up.
+TEST(RunOnRoot, EveryProcessThrowsWhereTheRootHasNoRoom) {
+  constexpr Index more_than_there_is = Index{1} << 60;
+  std::atomic<int> refused = 0;
+  ProcessThreads(3).run([&](const Communicator& processes) {
+    const double nothing = 0;
+    const PointsView own(&nothing, more_than_there_is);
+    expect_error<InvalidInput>("do not fit into the memory of the first", [&] {
+      run_on_root(own, {}, processes, [](PointsView, PointsView) { return Result(); });
+    });
+    ++refused;
+  });
+  EXPECT_EQ(refused, 3);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -69,11 +70,27 @@ std::vector<Index> begins_of(Index own, const Communicator& processes) {
   return begins;
 }
 
+// Room for the rows of all on the root. Throws in every process where there is none.
+Points room_on_root(Index count, const Communicator& processes) {
+  Points rows;
+  char fits = 1;
+  try {
+    if (processes.rank() == 0) rows.resize(count, 3);
+  } catch (const std::bad_alloc&) {
+    fits = 0;
+  }
+  if (!all_gather(processes, std::vector{fits}).front().front())
+    throw InvalidInput("the " + std::to_string(count) +
+                       " points of all processes do not fit into the memory of the first; this "
+                       "method needs all of them in one process");
+  return rows;
+}
+
 // The rows of all on the root, none on the others.
 Points rows_on_root(PointsView own, const std::vector<Index>& begins,
                     const Communicator& processes) {
   const bool is_root = processes.rank() == 0;
-  Points all(is_root ? begins.back() : 0, 3);
+  Points all = room_on_root(begins.back(), processes);
   all_to_all<Vector3>(
       processes, [&](int process) { return process == 0 ? own.size() : 0; },
       [&](int process) { return is_root ? begins[process + 1] - begins[process] : 0; },
