@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <limits>
+#include <string>
 
 #include "base/find_named.h"
 #include "cloud/footprint.h"
@@ -82,6 +83,9 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   require_corners(options.faces, points.size());
   if (analysis.needs_faces && options.faces.empty())
     throw InvalidInput("a bare cloud is given; " + analysis.name + " needs a mesh with faces");
+  if (analysis.maximum_points > 0 && points.size() > analysis.maximum_points)
+    throw InvalidInput(std::to_string(points.size()) + " points given; " + analysis.name +
+                       " takes at most " + std::to_string(analysis.maximum_points));
   Cloud cloud;
   cloud.points = points;
   cloud.faces = options.faces;

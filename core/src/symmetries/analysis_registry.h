@@ -11,6 +11,7 @@ namespace symsurf {
 
 /// An analysis and how it runs.
 struct AnalysisImplementation : Analysis {
+  Index maximum_points = 0;  ///< that memory is enough for; 0: any number
   /// Gets a validated cloud of finite points, with its faces; fills in all but parameters,
   /// footprint and seconds, with a row of the arrays for each point of the cloud.
   void (*run)(const Cloud& cloud, const ParameterValues& values, const Context& context,

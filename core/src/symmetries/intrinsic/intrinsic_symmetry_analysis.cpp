@@ -1,9 +1,12 @@
+#include <symsurf/errors.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/math.h"
 #include "cloud/farthest_points.h"
+#include "preprocess/volumetric.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/intrinsic/map_search.h"
 
@@ -30,8 +33,20 @@ std::string reason_against(const IntrinsicMap& map, double confidence) {
   return "";
 }
 
+// The neighbours of points inside a body are no surface; of many the decomposition of their
+// Laplacian fills the memory.
+void require_surface(const Cloud& cloud, const Context& context) {
+  constexpr Index most = 100'000;
+  if (cloud.faces.empty() && cloud.points.size() > most && is_volumetric(cloud, context))
+    throw InvalidInput(std::to_string(cloud.points.size()) +
+                       " points fill a body; intrinsic_symmetry takes those of its surface, or at "
+                       "most " +
+                       std::to_string(most));
+}
+
 void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
+  require_surface(cloud, context.stage(0, 0));
   const Index count = values.integer("functions");
   const ConnectedSurface surface =
       connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
@@ -96,6 +111,7 @@ AnalysisImplementation intrinsic_symmetry_analysis() {
        "0 to 1: halved where the image of the image lies 2 % of the diagonal away."},
   };
   analysis.shown = "confidence";
+  analysis.maximum_points = 2'000'000;  // 3 KB a point, and the decomposition
   analysis.run = run_intrinsic_symmetry;
   return analysis;
 }
