@@ -19,9 +19,13 @@ struct Sample {
   Index skipped = 0;  ///< points left out: f undefined there, or outside the sphere
 };
 
+/// Positions of a grid along x, and along y: their square is some gigabytes of samples.
+inline constexpr Index finest_grid = 4096;
+
 /// Points (x, y, f(x, y)) on a grid of resolution x resolution positions, x and y from -extent to
 /// extent; those where f is undefined are left out. Throws InvalidParameter for an extent that is
-/// not finite and above 0 or a resolution below 2, InvalidInput where no point is left.
+/// not finite and above 0 or a resolution out of 2 to finest_grid, InvalidInput where no point is
+/// left.
 Points sampled_surface(const Surface& surface, double extent, Index resolution);
 
 /// 5.1.1: P moved by `shift` along the direction, and its images along it over the graph of the

@@ -21,7 +21,7 @@ std::vector<Parameter> sampled_cloud(std::string_view default_surface) {
                         "given."),
       Parameter::real("extent", 2, 0, infinity, "",
                       "The graph is sampled for x and y from minus to plus this."),
-      Parameter::integer("resolution", 40, 2, 10000, "", "Samples along x, and along y."),
+      Parameter::integer("resolution", 40, 2, finest_grid, "", "Samples along x, and along y."),
   };
 }
 
@@ -72,7 +72,7 @@ Generator perpendicular() {
       mirror_surface(),
       Parameter::real("extent", 2, 0, infinity, "",
                       "The surface is sampled for x and y from minus to plus this."),
-      Parameter::integer("resolution", 40, 2, 10000, "", "Samples along x, and along y."),
+      Parameter::integer("resolution", 40, 2, finest_grid, "", "Samples along x, and along y."),
       Parameter::real("min_distance", 0.5, 0, infinity, "",
                       "Distance of the points from the surface, the least where there are waves."),
       Parameter::real("max_distance", 1, 0, infinity, "",

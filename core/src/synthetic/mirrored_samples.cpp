@@ -43,8 +43,9 @@ Sample joined(const std::vector<Vector3>& points, const std::vector<Vector3>& im
 Index over_grid(double extent, Index resolution, const std::function<bool(double, double)>& visit) {
   if (!(extent > 0) || !std::isfinite(extent))
     throw InvalidParameter("extent is " + to_string(Value(extent)) + "; allowed is (0, inf)");
-  if (resolution < 2)
-    throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is [2, inf)");
+  if (resolution < 2 || resolution > finest_grid)
+    throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is [2, " +
+                           std::to_string(finest_grid) + "]");
   Index refused = 0;
   const auto position = [&](Index i) {
     // Symmetric about 0 to the last bit.
