@@ -71,8 +71,8 @@ void colour_by_residual(MeshModel& layer, const Eigen::VectorXd& residuals) {
 void mark_residuals(MeshModel& layer, const LayerCloud& cloud, const Result& result,
                     const Eigen::VectorXd& distances) {
   CMeshO& mesh = layer.cm;
-  auto partner = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "partner");
-  auto side = Allocator::GetPerVertexAttribute<Scalarm>(mesh, "side");
+  auto partner = new_attribute<Scalarm>(mesh, "partner");
+  auto side = new_attribute<Scalarm>(mesh, "side");
   for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
     mesh.vert[i].Q() = -1;
     partner[i] = -1;
