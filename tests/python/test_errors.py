@@ -112,7 +112,7 @@ def out_of_range():
         for parameter in method.parameters:
             bad = [None, object(), [], [1.0, 2.0]]
             if parameter.type in ("integer", "real"):
-                bad += ["text", np.nan, (0, 0, 1)]
+                bad += ["text", np.nan, (0, 0, 1), 10**400, -(10**400)]
                 bad += [parameter.minimum - 1] if np.isfinite(parameter.minimum) else []
                 bad += [parameter.maximum + 1] if np.isfinite(parameter.maximum) else []
             if parameter.type == "integer":

@@ -114,3 +114,9 @@ def test_light_is_refused_where_it_is_no_point():
             sphere.reflection_points(source, eye)
     assert len(sphere.reflection_points(np.zeros((0, 3)), (1, 2, 3))) == 0
     assert len(sphere.reflection_points((0, 0, 0), (0, 0, 0))) == 0
+
+
+def test_numbers_beyond_a_double_are_infinite():
+    numbers = {"normal": np.array([0, 0, 1.0]), "offset": 10**400}
+    with pytest.raises(symsurf.InvalidInput, match="inf"):
+        symsurf._core.make_mirror("plane", numbers)

@@ -53,22 +53,49 @@ def test_exceptions_pass_through(error, points):
         symsurf.detect(points, progress=progress)
 
 
-def test_ctrl_c_is_heard_without_a_callback(points):
+@pytest.fixture
+def ctrl_c():
+    """Starts a clock that interrupts after so many seconds."""
+
     def interrupt(signum, frame):
         raise KeyboardInterrupt("Ctrl-C")
 
     before = signal.signal(signal.SIGALRM, interrupt)
-    try:
-        signal.setitimer(signal.ITIMER_REAL, 0.001)
-        with pytest.raises(KeyboardInterrupt, match="Ctrl-C"):
-            for _ in range(1000):
-                symsurf.detect_plane(points)
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+    yield lambda seconds: signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    signal.signal(signal.SIGALRM, before)
 
 
-def test_other_threads_run_meanwhile(points):
+def test_ctrl_c_is_heard_without_a_callback(points, ctrl_c):
+    ctrl_c(0.001)
+    with pytest.raises(KeyboardInterrupt, match="Ctrl-C"):
+        for _ in range(1000):
+            symsurf.detect_plane(points)
+
+
+def test_ctrl_c_is_heard_while_a_mesh_is_made(points, ctrl_c):
+    ellipsoid = symsurf.Quadric(np.diag([1.0, 2.0, 3.0]), (0, 0, 0), -1)
+    began = time.perf_counter()
+    ctrl_c(0.2)
+    with pytest.raises(KeyboardInterrupt, match="Ctrl-C"):
+        ellipsoid.mesh(points, 4096)  # minutes
+    assert time.perf_counter() - began < 15
+
+
+MIRROR = symsurf.Plane((1, 0, 0), 0)
+ELLIPSOID = symsurf.Quadric(np.diag([1.0, 2.0, 3.0]), (0, 0, 0), -1)
+CALLS = {
+    "match": lambda points: symsurf.match(points, MIRROR, threads=1),
+    "reflect": ELLIPSOID.reflect,
+    "project": ELLIPSOID.project,
+    "signed_distance": ELLIPSOID.signed_distance,
+    "mesh": lambda points: ELLIPSOID.mesh(points, 64),
+    "bend": lambda points: symsurf.bend(points, symsurf.Sphere((0, 0, -3), 3)),
+}
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
+def test_other_threads_run_meanwhile(call, points):
     ticks, inside = [], threading.Event()
 
     def tick():
@@ -82,7 +109,7 @@ def test_other_threads_run_meanwhile(points):
     try:
         for _ in range(5):
             began = time.perf_counter()
-            symsurf.match(points, symsurf.Plane((1, 0, 0), 0), threads=1)
+            call(points)
             started.append((began, time.perf_counter()))
     finally:
         inside.set()
