@@ -1,5 +1,5 @@
-"""The README's examples in Python and those of the pages of methods, operations and analyses run; the
-tables of methods and of operations are their own descriptions."""
+"""The README's examples in Python and those of every page run; the tables of methods and of operations
+are their own descriptions."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ README = (ROOT / "README.md").read_text()
 SECTIONS = README.split("\n## ")
 # Most sections after the opening need hosts of their own.
 OPENING = SECTIONS[0] + "".join(s for s in SECTIONS if s.startswith("What to do with a mirror"))
+
+START = (ROOT / "docs/start.md").read_text()
 
 
 def examples(language: str, page: str = OPENING) -> list[str]:
@@ -93,8 +95,35 @@ def test_pages_have_pictures_and_parameters(name):
         assert f"`{parameter.name}`" in page.split("**Parameters.**")[1]
 
 
+# Examples that import these run inside another program.
+HOSTS = r"^(?:import|from) (?:paraview|pymeshlab)\b"
+
+
+def script_of(page: Path) -> str:
+    """The examples of a page in one script, as later ones may use what earlier ones made."""
+    return "\n".join(
+        example
+        for example in examples("python", page.read_text())
+        if not re.search(HOSTS, example, re.MULTILINE)
+    )
+
+
+TESTED_ONE_BY_ONE = {*PAGES, *map(page_of, DESCRIBED), ROOT / "docs/command_line.md"}
+OTHER_PAGES = [
+    page
+    for page in sorted(ROOT.glob("docs/**/*.md"))
+    if page not in TESTED_ONE_BY_ONE and script_of(page)
+]
+
+
+@pytest.mark.parametrize("page", OTHER_PAGES, ids=lambda page: page.stem)
+def test_examples_of_the_other_pages(page, folder):
+    pytest.importorskip("pyvista")
+    output_of(script_of(page), folder)
+
+
 def command_lines() -> list[str]:
-    lines = "".join(examples("console")).splitlines()
+    lines = "".join(examples("console") + examples("console", START)).splitlines()
     return [line[2:] for line in lines if line.startswith("$ symsurf ")]
 
 
