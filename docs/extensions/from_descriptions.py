@@ -193,35 +193,74 @@ def _said(described: ElementTree.Element) -> str:
 
 
 def meshlab() -> str:
-    """Every filter with the parameters that pymeshlab prints."""
+    """Every filter with the parameters that pymeshlab prints; one that nothing describes is an error."""
     printed = (HOSTS / "meshlab.txt").read_text()
+    described = _meshlab_filters()
     texts = []
     for name, lines in re.findall(
         r"^(\w+) filter - list of parameter names:\n((?:\t.*\n?)*)", printed, re.MULTILINE
     ):
-        described = _described_by_filter(name)
+        summary, parameter_texts = described[name.split("_", 1)[1]]
         rows = (re.match(r"\t(\w+) : (\S+) = (.*)", line).groups() for line in lines.splitlines())
-        texts.append(f"## {name}\n\n" + (described.summary if described else "") + "\n\n" + table(
+        texts.append(f"## {name}\n\n{summary}\n\n" + table(
             ("parameter", "default", "what it is"),
-            ((f"`{parameter}`", f"`{default}`", _parameter_text(described, parameter))
+            ((f"`{parameter}`", f"`{default}`", parameter_texts[parameter])
              for parameter, _, default in rows),
         ))  # fmt: skip
     return "\n\n".join(texts)
 
 
-def _described_by_filter(name: str) -> symsurf.Method | symsurf.Operation | None:
-    word = name.split("_", 1)[1]
-    operations = {
-        each.title.lower().replace(" ", "_"): each for each in symsurf.operations().values()
+# Parameters that MeshLab's filters share, and the section of docs/meshlab.md that describes them.
+_SHARED = {
+    **dict.fromkeys(
+        ("only_selected", "use_normals", "use_faces", "show_candidates", "seed", "threads"),
+        "[as in every filter](/meshlab.md#the-filters)",
+    ),
+    **dict.fromkeys(
+        ("mirror_layer", "find_mirror", "weigh_by_quality"),
+        "[as in every operation](/meshlab.md#operations)",
+    ),
+}
+
+
+def _meshlab_filters() -> dict[str, tuple[str, dict[str, str]]]:
+    """Of each filter, by its name without the first word: its summary, and a text a parameter."""
+    described = {
+        **{f"mirror_{each.name}": each for each in symsurf.methods().values()},
+        **{each.title.lower().replace(" ", "_"): each for each in symsurf.operations().values()},
+        **symsurf.analyses(),
     }
-    return operations.get(word) or symsurf.methods().get(word.removeprefix("mirror_"))
+    return {
+        **{name: (each.summary, _SHARED | _texts(each)) for name, each in described.items()},
+        "mirror_reflection": (
+            "[Reflects the current layer over a mirror](/meshlab.md#reflect-over-a-mirror).",
+            {
+                "mirror_layer": "The layer of a mirror, or one with all vertices on a plane or sphere."
+            },
+        ),
+        "mirror_sample": (
+            "[Makes points whose mirror is known](/meshlab.md#mirror-sample).",
+            _texts_of_samples(),
+        ),
+    }
 
 
-def _parameter_text(described: symsurf.Method | symsurf.Operation | None, parameter: str) -> str:
-    own = described.parameters if described else []
-    texts = {each.name: f"{each.doc} Allowed: {each.allowed}." for each in own}
-    # Which parameters every filter has, docs/meshlab.md says.
-    return texts.get(parameter, "[as everywhere](/meshlab.md#the-filters)")
+def _texts(described: Any) -> dict[str, str]:
+    return {each.name: f"{each.doc} Allowed: {each.allowed}." for each in described.parameters}
+
+
+def _texts_of_samples() -> dict[str, str]:
+    generators = symsurf._core.generators()
+    texts = {
+        "generator": " ".join(f"`{each.name}`: {each.summary}" for each in generators.values()),
+        "use_current_layer": "Mirrors the current layer's vertices in place of a sampled surface.",
+    }
+    for generator in generators.values():
+        for name, text in _texts(generator).items():
+            # Where generators differ in a parameter of one name, the filter puts theirs in front.
+            texts.setdefault(name, text)
+            texts[f"{generator.name}_{name}"] = text
+    return texts
 
 
 def add_parameters(app: Sphinx, page: str, source: list[str]) -> None:

@@ -1,8 +1,9 @@
-"""The README's examples in Python and those of the pages of methods, operations and analyses run; the
-tables of methods and of operations are their own descriptions."""
+"""The README's examples in Python and those of every page run; the tables of methods and of operations
+are their own descriptions."""
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -16,12 +17,18 @@ import symsurf
 
 README = (ROOT / "README.md").read_text()
 SECTIONS = README.split("\n## ")
-# Most sections after the opening need hosts of their own.
+# What the README shows of the library itself.
 OPENING = SECTIONS[0] + "".join(s for s in SECTIONS if s.startswith("What to do with a mirror"))
+START = (ROOT / "docs/start.md").read_text()
+
+
+# Examples in Python that import these run inside another program.
+HOSTS = r"^(?:import|from) (?:paraview|pymeshlab)\b"
 
 
 def examples(language: str, page: str = OPENING) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    found = re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    return [example for example in found if not re.search(HOSTS, example, re.MULTILINE)]
 
 
 @pytest.fixture
@@ -31,7 +38,7 @@ def folder(tmp_path):
     rows = "\n".join(" ".join(map(repr, point)) for point in points.tolist())
     header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
     properties = "".join(f"property double {axis}\n" for axis in "xyz")
-    for name in ("scan.ply", "other.ply"):
+    for name in ("scan.ply", "other.ply", "part.ply"):
         (tmp_path / name).write_text(f"{header}{properties}end_header\n{rows}\n")
     return tmp_path
 
@@ -40,6 +47,7 @@ def output_of(example: str, folder: Path) -> str:
     done = subprocess.run(
         [sys.executable, "-c", f"import symsurf\n{example}"],
         cwd=folder,
+        env=os.environ | {"PYVISTA_OFF_SCREEN": "true"},
         capture_output=True,
         text=True,
         check=False,
@@ -48,7 +56,7 @@ def output_of(example: str, folder: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("example", examples("python"))
+@pytest.mark.parametrize("example", examples("python", README))
 def test_python_examples(example, folder):
     pytest.importorskip("pyvista")
     output_of(example, folder)
@@ -93,8 +101,27 @@ def test_pages_have_pictures_and_parameters(name):
         assert f"`{parameter.name}`" in page.split("**Parameters.**")[1]
 
 
+def script_of(page: Path) -> str:
+    """The examples of a page in one script, as later ones may use what earlier ones made."""
+    return "\n".join(examples("python", page.read_text()))
+
+
+TESTED_ONE_BY_ONE = {*PAGES, *map(page_of, DESCRIBED), ROOT / "docs/command_line.md"}
+OTHER_PAGES = [
+    page
+    for page in sorted(ROOT.glob("docs/**/*.md"))
+    if page not in TESTED_ONE_BY_ONE and script_of(page)
+]
+
+
+@pytest.mark.parametrize("page", OTHER_PAGES, ids=lambda page: page.stem)
+def test_examples_of_the_other_pages(page, folder):
+    pytest.importorskip("pyvista")
+    output_of(script_of(page), folder)
+
+
 def command_lines() -> list[str]:
-    lines = "".join(examples("console")).splitlines()
+    lines = "".join(examples("console", README) + examples("console", START)).splitlines()
     return [line[2:] for line in lines if line.startswith("$ symsurf ")]
 
 
@@ -126,7 +153,7 @@ def test_examples_of_many_files(line, folder):
 
 
 def test_there_are_examples():
-    assert examples("python") and command_lines()
+    assert examples("python", README) and command_lines()
 
 
 def test_table_of_methods():
