@@ -18,8 +18,9 @@ import pyvista
 from numpy.typing import NDArray
 
 from . import mirror_operations
-from ._core import InvalidInput
+from ._core import InvalidInput, operations
 from .detection import detect
+from .grids import drop_normals
 from .mirror_operations import OperationResult
 from .result import Result
 
@@ -56,7 +57,8 @@ class Symmetry:
     def asymmetry(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
         ``field_data``. Over the mirror last detected, or the one that is found first; options and
-        errors are those of the function. The other operations likewise."""
+        errors are those of the function. The other operations likewise; where they move points, the
+        copy has no normals."""
         return self._operated("asymmetry", options)
 
     def correspondences(self, **options: Any) -> pyvista.DataSet:
@@ -91,7 +93,9 @@ class Symmetry:
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         result = self._result(name, options)
         made = self._mesh.copy()
-        made.points = result.shape.points
+        if operations()[name].moves_points:
+            made.points = result.shape.points
+            drop_normals(made)
         return _with_arrays(made, result)
 
     def _result(self, name: str, options: dict[str, Any]) -> Any:

@@ -67,6 +67,20 @@ def test_operations_give_meshes_with_arrays(name: str) -> None:
     assert not set(expected.arrays) & set(mesh.array_names)
 
 
+@pytest.mark.parametrize("name", sorted(set(symsurf.operations()) - {"complete"}))
+def test_normals_stay_only_where_points_do(name: str) -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    mesh = mesh.compute_normals(cell_normals=True, point_normals=True)
+    mesh.point_data["other"] = mesh.points
+    mesh.symmetry.detect("plane")
+    made = getattr(mesh.symmetry, name)()
+    stay = not symsurf.operations()[name].moves_points
+    for data in (made.point_data, made.cell_data):
+        assert ("Normals" in data) == stay
+        assert (data.active_normals is not None) == stay
+    assert "other" in made.point_data and mesh.point_data.active_normals is not None
+
+
 def test_operations_find_the_mirror_first_and_refuse_grids() -> None:
     mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
     assert mesh.symmetry.asymmetry()["distance"].max() < 1e-5
