@@ -91,13 +91,6 @@ def refuses(nonfinite: str) -> bool:
     return nonfinite == "refuse"
 
 
-def finite_points(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Those of the points, with a warning where others are left out."""
-    finite = np.isfinite(points).all(axis=1)
-    warn({"nonfinite_points": len(points) - np.count_nonzero(finite)})
-    return points if finite.all() else points[finite]
-
-
 def warn(statistics: dict[str, Any]) -> None:
     """An InputWarning with the number of points that were left out, where there are some, and one
     with what the method warns of; they name the line that called the package."""
