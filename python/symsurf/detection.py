@@ -44,8 +44,10 @@ def detect(
             spread evenly over the surface find the mirror; score and candidates are those of the
             samples, pairs those of the points. The thesis's methods see the points only.
         use_faces: False: the points alone find the mirror, whatever faces there are.
-        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. None
-            are used but these.
+        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. Those
+            of a file, a shape or a mesh are not used unless they are given here. ``perpendicular``
+            and ``quadric``, ``auto`` where it tries ``perpendicular``, ``separation_normals`` and
+            ``normals_only`` use them in place of their own estimates; the other methods do not.
         nonfinite: "skip": points with a NaN or infinite coordinate are left out, with an
             ``InputWarning``, and have no partners; "refuse": they are an error.
         threshold: of a grid or a file with an image, the number that the scalars of the points to

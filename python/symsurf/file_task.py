@@ -54,6 +54,7 @@ class FileTask:
     nonfinite: str = "skip"
     use_faces: bool = True
     use_normals: bool = False
+    """Hand those of the file to the method; a file without any is an error."""
     downsample: float | None = None
     """Work on about one point in so many."""
     input_format: str | None = None
@@ -114,6 +115,8 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     shape = read(given, task.input_format, threshold=task.threshold)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
+    if task.use_normals and shape.normals is None:
+        raise InvalidInput("use_normals is given, but the file has no normals; do without")
     record["points"] = len(shape.points)
     if task.operation in analyses():
         _analyse(task, shape, record, progress)
