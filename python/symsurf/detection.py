@@ -7,6 +7,7 @@ from collections.abc import Callable
 from numpy.typing import ArrayLike
 
 from . import _core
+from .given_mirror import mirror_of
 from .inputs import as_input, refuses, warn
 from .lengths import as_fractions
 from .result import Result
@@ -88,7 +89,7 @@ def detect(
 
 def match(
     points: object,
-    mirror: _core.Mirror,
+    mirror: Result | _core.Mirror,
     pair_distance: float = 0.05,
     *,
     nonfinite: str = "skip",
@@ -103,7 +104,7 @@ def match(
 
     Args:
         points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
-        mirror: the known mirror.
+        mirror: the known mirror, or a result that has one.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threads, progress: as for ``detect``.
@@ -113,10 +114,11 @@ def match(
         in the order of the points.
 
     Raises:
-        InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.
+        InvalidInput: a result without a mirror, else as ``detect`` does.
+        InvalidParameter: neither a mirror nor a result, else as ``detect`` does.
+        Cancelled: as ``detect`` does.
     """
-    if not isinstance(mirror, _core.Mirror):
-        raise _core.InvalidInput(f"mirror is of type {type(mirror).__name__}; allowed is a Mirror")
+    mirror = mirror_of(mirror)
     refuse = refuses(nonfinite)
     shape = as_input(points)
     if absolute:
