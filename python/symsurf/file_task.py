@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ._core import InvalidInput, analyses
 from .detection import Progress, detect
+from .given_mirror import found_mirror
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
@@ -168,9 +169,8 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
 def _operate(
     task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
 ) -> None:
-    if found.verdict != "found":
-        raise InvalidInput(f"the shape has no mirror: {found.reason}")
-    result = operate(task.operation, shape, found, threads=task.threads, **task.parameters)
+    mirror = found_mirror(found)
+    result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     record.pop("candidates")
     for output in task.outputs:

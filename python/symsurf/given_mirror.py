@@ -26,9 +26,9 @@ def mirror_of(given: Result | Mirror, argument: str = "mirror") -> Mirror:
 def found_mirror(result: Result, advice: str = "") -> Mirror:
     """The mirror of a detection whose verdict is "found".
 
-    Raises InvalidInput, with the reason and the advice, for another verdict or without a mirror.
+    Raises InvalidInput: with the reason and the advice for another verdict; for a method that finds
+    surface points only.
     """
-    if result.mirror is None or result.verdict != "found":
-        reason = result.reason or f"{result.method} finds none"
-        raise InvalidInput(f"the shape has no mirror: {reason}{advice and f'; {advice}'}")
-    return result.mirror
+    if result.verdict != "found":
+        raise InvalidInput(f"the shape has no mirror: {result.reason}{advice and f'; {advice}'}")
+    return mirror_of(result)
