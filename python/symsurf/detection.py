@@ -35,11 +35,12 @@ def detect(
 
     Args:
         points: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
-            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces``
-            that it has. A C-ordered float64 array is read in place. Of a regular grid of PyVista
-            (``ImageData``, ``RectilinearGrid``, a ``StructuredGrid`` with such points) the points,
-            or the centres of the cells, that ``threshold`` chooses: ``Result.points`` are then
-            these, and pairs are indices into them.
+            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces`` or
+            ``triangles`` that it has: one of PyVista, trimesh or Open3D. A C-ordered float64 array
+            is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
+            ``StructuredGrid`` with such points) the points, or the centres of the cells, that
+            ``threshold`` chooses: ``Result.points`` are then these, and pairs are indices into
+            them.
         method: one of ``methods()``.
         faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
             spread evenly over the surface find the mirror; score and candidates are those of the

@@ -46,6 +46,8 @@ def as_input(
     if isinstance(given, (str, os.PathLike)):
         given = read(given, threshold=threshold, scalars=scalars)
         threshold = scalars = None
+    if hasattr(given, "to_legacy"):  # Open3D's tensor meshes and clouds
+        given = given.to_legacy()
     pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
     if is_data_set:
@@ -68,7 +70,7 @@ def as_input(
         return Input(given.points, grids.faces_of(given))
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
-    own = getattr(given, "faces", None)
+    own = _first_of(given, "faces", "triangles")
     return Input(_points(given), None if own is None or not len(own) else triangles(own))
 
 
@@ -114,8 +116,15 @@ def nonfinite_message(count: int) -> str:
 
 
 def _points(given: Any) -> Any:
-    if not hasattr(given, "__array__"):
-        for attribute in ("points", "vertices"):
-            if hasattr(given, attribute):
-                return getattr(given, attribute)
-    return given
+    if hasattr(given, "__array__"):
+        return given
+    points = _first_of(given, "points", "vertices")
+    return given if points is None else points
+
+
+def _first_of(given: Any, *attributes: str) -> Any:
+    """The first of the attributes that there is; of trimesh's the second is dear to ask for."""
+    for attribute in attributes:
+        if hasattr(given, attribute):
+            return getattr(given, attribute)
+    return None
