@@ -116,10 +116,17 @@ def nonfinite_message(count: int) -> str:
 
 
 def _points(given: Any) -> Any:
-    if hasattr(given, "__array__"):
+    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return given
     points = _first_of(given, "points", "vertices")
-    return given if points is None else points
+    if points is not None:
+        return points
+    if np.asarray(given, dtype=object).ndim == 0:
+        raise InvalidInput(
+            f"points are of type {type(given).__name__}; allowed are an array or a nested list (n, 3), "
+            "the name of a file, a Shape, or a mesh or data set with points or vertices"
+        )
+    return given
 
 
 def _first_of(given: Any, *attributes: str) -> Any:
