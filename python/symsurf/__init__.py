@@ -130,3 +130,6 @@ if not TYPE_CHECKING:
 
             return batch
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})
