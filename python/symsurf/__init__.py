@@ -27,12 +27,11 @@ from ._core import (
     SurfaceMirror,
     __version__,
     analyses,
-    bend,
     make_mirror,
     methods,
     operations,
-    straight_mirror,
 )
+from .bending import bend, straight_mirror
 from .detection import detect, match
 from .detectors import *  # detect_<method>, one for each in methods()
 from .inputs import InputWarning
@@ -131,3 +130,6 @@ if not TYPE_CHECKING:
 
             return batch
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})

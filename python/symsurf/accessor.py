@@ -6,6 +6,7 @@ PyVista finds it by itself where symsurf is installed.
 >>> mesh.symmetry.detect(method="plane").mirror
 >>> mesh.symmetry.plot()
 >>> mesh.symmetry.asymmetry().plot(scalars="signed", cmap="coolwarm")
+>>> mesh.symmetry.symmetries().field_data["group"]
 """
 
 from __future__ import annotations
@@ -16,24 +17,29 @@ from typing import Any
 import numpy as np
 import pyvista
 from numpy.typing import NDArray
+from vtkmodules.vtkCommonCore import vtkStringArray
 
-from . import mirror_operations
-from ._core import InvalidInput
+from . import mirror_operations, shape_analyses
+from ._core import InvalidInput, operations
 from .detection import detect
+from .grids import drop_normals, is_grid
 from .mirror_operations import OperationResult
 from .result import Result
+from .shape_analyses import AnalysisResult
 
 __all__ = ["Symmetry"]
 
 
 @pyvista.register_dataset_accessor("symmetry", pyvista.DataSet)
 class Symmetry:
-    """The mirror of a data set: of a mesh's surface, a cloud's points, or a mask."""
+    """The symmetry of a data set: of a mesh's surface, a cloud's points, or the mirror of a mask."""
 
     def __init__(self, mesh: pyvista.DataSet) -> None:
         self._mesh = mesh
         self.result: Result | None = None
         """What the last ``detect`` found."""
+        self.analysis: AnalysisResult | None = None
+        """What the last analysis found, such as ``symmetries``: planes, axes, transformations."""
 
     def detect(self, method: str = "auto", **options: Any) -> Result:
         """Finds the mirror; options, result and errors are those of ``symsurf.detect``.
@@ -56,7 +62,8 @@ class Symmetry:
     def asymmetry(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
         ``field_data``. Over the mirror last detected, or the one that is found first; options and
-        errors are those of the function. The other operations likewise."""
+        errors are those of the function. The other operations likewise; where they move points, the
+        copy has no normals."""
         return self._operated("asymmetry", options)
 
     def correspondences(self, **options: Any) -> pyvista.DataSet:
@@ -88,27 +95,75 @@ class Symmetry:
         """A copy whose mirror ``symsurf.straighten`` has laid flat."""
         return self._operated("straighten", options)
 
+    def symmetries(self, **options: Any) -> pyvista.DataSet:
+        """A copy of the mesh with the group of ``symsurf.symmetries`` and its other statistics in
+        ``field_data``; planes, axes and elements are then in ``analysis``. Options and errors are
+        those of the function. The other analyses likewise, with point arrays where they give any."""
+        return self._analysed("symmetries", options)
+
+    def partial_symmetries(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.partial_symmetries``: the transformation that
+        maps a point's patch, and the side."""
+        return self._analysed("partial_symmetries", options)
+
+    def recurring_parts(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.recurring_parts``: the part, and its instance."""
+        return self._analysed("recurring_parts", options)
+
+    def symmetry_embedding(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.symmetry_embedding``: orbits, coordinates and the
+        distance from what stays in its place."""
+        return self._analysed("symmetry_embedding", options)
+
+    def intrinsic_symmetry(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.intrinsic_symmetry``: the point on the other side,
+        and the confidence."""
+        return self._analysed("intrinsic_symmetry", options)
+
+    def _analysed(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
+        self._require_points(name)
+        result = self.analysis = getattr(shape_analyses, name)(self._mesh, **options)
+        return _with_arrays(self._mesh.copy(), result)
+
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         result = self._result(name, options)
         made = self._mesh.copy()
-        made.points = result.shape.points
+        if operations()[name].moves_points:
+            made.points = result.shape.points
+            drop_normals(made)
         return _with_arrays(made, result)
 
     def _result(self, name: str, options: dict[str, Any]) -> Any:
-        if isinstance(self._mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
-            raise InvalidInput(
-                f"{name} takes points that it may move; {type(self._mesh).__name__} has none: give a "
-                "surface of it, such as contour()"
-            )
+        self._require_points(name)
         return getattr(mirror_operations, name)(self._mesh, self.result, **options)
 
+    def _require_points(self, name: str) -> None:
+        if is_grid(self._mesh):
+            raise InvalidInput(
+                f"{name} takes the points of a surface or a cloud; {type(self._mesh).__name__} has "
+                "none: give a surface of it, such as contour()"
+            )
 
-def _with_arrays(made: pyvista.DataSet, result: OperationResult) -> pyvista.DataSet:
+
+def _with_arrays(
+    made: pyvista.DataSet, result: OperationResult | AnalysisResult
+) -> pyvista.DataSet:
     for array, values in result.arrays.items():
         made.point_data[array] = values
     for figure, value in result.statistics.items():
-        made.field_data[figure] = np.atleast_1d(value)
+        if isinstance(value, str):
+            made.GetFieldData().AddArray(_text(figure, value))
+        else:
+            made.field_data[figure] = np.atleast_1d(value)
     return made
+
+
+def _text(name: str, value: str) -> vtkStringArray:
+    """PyVista itself makes arrays of ASCII alone; groups such as D∞h are not."""
+    array = vtkStringArray()
+    array.SetName(name)
+    array.InsertNextValue(value)
+    return array
 
 
 def _carry(

@@ -19,11 +19,6 @@ _TYPES = {
 }
 
 
-def allowed(parameter: Parameter) -> str:
-    """What a parameter may be, with its unit: "[0, 1] of the diagonal"."""
-    return parameter.allowed
-
-
 def keyword(parameter: Parameter) -> inspect.Parameter:
     """The parameter as a keyword argument."""
     default = parameter.default
@@ -45,7 +40,7 @@ def argument_text(text: str) -> str:
 def parameter_texts(parameters: Iterable[Parameter]) -> list[str]:
     """A paragraph under "Args:" for each."""
     return [
-        argument_text(f"{each.name}: {each.doc} Allowed: {allowed(each)}.") for each in parameters
+        argument_text(f"{each.name}: {each.doc} Allowed: {each.allowed}.") for each in parameters
     ]
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from numpy.typing import ArrayLike
 
 from . import _core
+from .given_mirror import mirror_of
 from .inputs import as_input, refuses, warn
 from .lengths import as_fractions
 from .result import Result
@@ -34,18 +35,21 @@ def detect(
 
     Args:
         points: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
-            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces``
-            that it has. A C-ordered float64 array is read in place. Of a regular grid of PyVista
-            (``ImageData``, ``RectilinearGrid``, a ``StructuredGrid`` with such points) the points,
-            or the centres of the cells, that ``threshold`` chooses: ``Result.points`` are then
-            these, and pairs are indices into them.
+            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces`` or
+            ``triangles`` that it has: one of PyVista, trimesh or Open3D. A C-ordered float64 array
+            is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
+            ``StructuredGrid`` with such points) the points, or the centres of the cells, that
+            ``threshold`` chooses: ``Result.points`` are then these, and pairs are indices into
+            them.
         method: one of ``methods()``.
         faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
             spread evenly over the surface find the mirror; score and candidates are those of the
             samples, pairs those of the points. The thesis's methods see the points only.
         use_faces: False: the points alone find the mirror, whatever faces there are.
-        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. None
-            are used but these.
+        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. Those
+            of a file, a shape or a mesh are not used unless they are given here. ``perpendicular``
+            and ``quadric``, ``auto`` where it tries ``perpendicular``, ``separation_normals`` and
+            ``normals_only`` use them in place of their own estimates; the other methods do not.
         nonfinite: "skip": points with a NaN or infinite coordinate are left out, with an
             ``InputWarning``, and have no partners; "refuse": they are an error.
         threshold: of a grid or a file with an image, the number that the scalars of the points to
@@ -86,7 +90,7 @@ def detect(
 
 def match(
     points: object,
-    mirror: _core.Mirror,
+    mirror: Result | _core.Mirror,
     pair_distance: float = 0.05,
     *,
     nonfinite: str = "skip",
@@ -101,7 +105,7 @@ def match(
 
     Args:
         points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
-        mirror: the known mirror.
+        mirror: the known mirror, or a result that has one.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threads, progress: as for ``detect``.
@@ -111,10 +115,11 @@ def match(
         in the order of the points.
 
     Raises:
-        InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.
+        InvalidInput: a result without a mirror, else as ``detect`` does.
+        InvalidParameter: neither a mirror nor a result, else as ``detect`` does.
+        Cancelled: as ``detect`` does.
     """
-    if not isinstance(mirror, _core.Mirror):
-        raise _core.InvalidInput(f"mirror is of type {type(mirror).__name__}; allowed is a Mirror")
+    mirror = mirror_of(mirror)
     refuse = refuses(nonfinite)
     shape = as_input(points)
     if absolute:

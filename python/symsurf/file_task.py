@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ._core import InvalidInput, analyses
 from .detection import Progress, detect
+from .given_mirror import found_mirror
 from .inputs import InputWarning, nonfinite_message
 from .mirror_operations import Asymmetry
 from .mirror_operations.operate import operate
@@ -54,6 +55,7 @@ class FileTask:
     nonfinite: str = "skip"
     use_faces: bool = True
     use_normals: bool = False
+    """Hand those of the file to the method; a file without any is an error."""
     downsample: float | None = None
     """Work on about one point in so many."""
     input_format: str | None = None
@@ -114,6 +116,8 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     shape = read(given, task.input_format, threshold=task.threshold)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
+    if task.use_normals and shape.normals is None:
+        raise InvalidInput("use_normals is given, but the file has no normals; do without")
     record["points"] = len(shape.points)
     if task.operation in analyses():
         _analyse(task, shape, record, progress)
@@ -165,9 +169,8 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
 def _operate(
     task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
 ) -> None:
-    if found.verdict != "found":
-        raise InvalidInput(f"the shape has no mirror: {found.reason}")
-    result = operate(task.operation, shape, found, threads=task.threads, **task.parameters)
+    mirror = found_mirror(found)
+    result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     record.pop("candidates")
     for output in task.outputs:

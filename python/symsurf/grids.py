@@ -103,10 +103,15 @@ def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyv
             "such as extract_surface()"
         )
     made.points = points
-    for data in (made.point_data, made.cell_data):
+    drop_normals(made)
+    return made
+
+
+def drop_normals(mesh: pyvista.DataSet) -> None:
+    """Takes the active normals of points and cells away: those of points that have moved are wrong."""
+    for data in (mesh.point_data, mesh.cell_data):
         if data.active_normals_name is not None:
             del data[data.active_normals_name]
-    return made
 
 
 def _is_flat(grid: pyvista.UnstructuredGrid) -> bool:

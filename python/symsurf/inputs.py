@@ -46,6 +46,8 @@ def as_input(
     if isinstance(given, (str, os.PathLike)):
         given = read(given, threshold=threshold, scalars=scalars)
         threshold = scalars = None
+    if hasattr(given, "to_legacy"):  # Open3D's tensor meshes and clouds
+        given = given.to_legacy()
     pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
     if is_data_set:
@@ -68,7 +70,7 @@ def as_input(
         return Input(given.points, grids.faces_of(given))
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
-    own = getattr(given, "faces", None)
+    own = _first_of(given, "faces", "triangles")
     return Input(_points(given), None if own is None or not len(own) else triangles(own))
 
 
@@ -89,13 +91,6 @@ def refuses(nonfinite: str) -> bool:
     if nonfinite not in ("skip", "refuse"):
         raise InvalidParameter(f"nonfinite is {nonfinite!r}; allowed is 'skip' or 'refuse'")
     return nonfinite == "refuse"
-
-
-def finite_points(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Those of the points, with a warning where others are left out."""
-    finite = np.isfinite(points).all(axis=1)
-    warn({"nonfinite_points": len(points) - np.count_nonzero(finite)})
-    return points if finite.all() else points[finite]
 
 
 def warn(statistics: dict[str, Any]) -> None:
@@ -121,8 +116,22 @@ def nonfinite_message(count: int) -> str:
 
 
 def _points(given: Any) -> Any:
-    if not hasattr(given, "__array__"):
-        for attribute in ("points", "vertices"):
-            if hasattr(given, attribute):
-                return getattr(given, attribute)
+    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
+        return given
+    points = _first_of(given, "points", "vertices")
+    if points is not None:
+        return points
+    if np.asarray(given, dtype=object).ndim == 0:
+        raise InvalidInput(
+            f"points are of type {type(given).__name__}; allowed are an array or a nested list (n, 3), "
+            "the name of a file, a Shape, or a mesh or data set with points or vertices"
+        )
     return given
+
+
+def _first_of(given: Any, *attributes: str) -> Any:
+    """The first of the attributes that there is; of trimesh's the second is dear to ask for."""
+    for attribute in attributes:
+        if hasattr(given, attribute):
+            return getattr(given, attribute)
+    return None

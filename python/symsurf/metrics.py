@@ -8,6 +8,8 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._core import InvalidParameter, Mirror, Sphere, SurfaceMirror
+from .given_mirror import mirror_of
+from .result import Result
 from .synthetic import Surface
 
 
@@ -49,18 +51,31 @@ def surface_errors(
     return errors
 
 
-def sphere_errors(found: Sphere, truth: Sphere, points: ArrayLike) -> SphereErrors:
+def sphere_errors(
+    found: Sphere | Result[Sphere], truth: Sphere | Result[Sphere], points: ArrayLike
+) -> SphereErrors:
     """Distance of the centres and difference of the radii, over the diagonal of the points."""
-    return SphereErrors(*_core.sphere_errors(found, truth, points))
+    spheres = _sphere_of(found, "found"), _sphere_of(truth, "truth")
+    return SphereErrors(*_core.sphere_errors(*spheres, points))
 
 
-def surface_distance(surface_points: ArrayLike, truth: Mirror, points: ArrayLike) -> float:
+def _sphere_of(given: Sphere | Result[Sphere], argument: str) -> Sphere:
+    mirror = mirror_of(given, argument)
+    if not isinstance(mirror, Sphere):
+        raise InvalidParameter(f"{argument} is a {mirror.kind}; allowed is a sphere")
+    return mirror
+
+
+def surface_distance(surface_points: ArrayLike, truth: Result | Mirror, points: ArrayLike) -> float:
     """RMS distance of points (m, 3) from the true mirror, over the diagonal of the object's."""
-    return _core.surface_distance(surface_points, truth, points)
+    return _core.surface_distance(surface_points, mirror_of(truth, "truth"), points)
 
 
 def coverage(
-    surface_points: ArrayLike, truth: Mirror, points: ArrayLike, tolerance: float | None = None
+    surface_points: ArrayLike,
+    truth: Result | Mirror,
+    points: ArrayLike,
+    tolerance: float | None = None,
 ) -> float:
     """Which share of the object's footprint on the true mirror the surface points cover.
 
@@ -72,4 +87,4 @@ def coverage(
         tolerance = 0.0  # the core's word for it
     elif not tolerance > 0:
         raise InvalidParameter(f"tolerance is {tolerance}; allowed is (0, inf)")
-    return _core.coverage(surface_points, truth, points, tolerance)
+    return _core.coverage(surface_points, mirror_of(truth, "truth"), points, tolerance)

@@ -67,11 +67,49 @@ def test_operations_give_meshes_with_arrays(name: str) -> None:
     assert not set(expected.arrays) & set(mesh.array_names)
 
 
+@pytest.mark.parametrize("name", sorted(set(symsurf.operations()) - {"complete"}))
+def test_normals_stay_only_where_points_do(name: str) -> None:
+    mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
+    mesh = mesh.compute_normals(cell_normals=True, point_normals=True)
+    mesh.point_data["other"] = mesh.points
+    mesh.symmetry.detect("plane")
+    made = getattr(mesh.symmetry, name)()
+    stay = not symsurf.operations()[name].moves_points
+    for data in (made.point_data, made.cell_data):
+        assert ("Normals" in data) == stay
+        assert (data.active_normals is not None) == stay
+    assert "other" in made.point_data and mesh.point_data.active_normals is not None
+
+
 def test_operations_find_the_mirror_first_and_refuse_grids() -> None:
     mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
     assert mesh.symmetry.asymmetry()["distance"].max() < 1e-5
     with pytest.raises(symsurf.InvalidInput, match="ImageData has none"):
         pyvista.ImageData(dimensions=(3, 3, 3)).symmetry.align()
+
+
+@pytest.mark.parametrize("name", symsurf.analyses())
+def test_analyses_give_meshes_with_arrays(name: str) -> None:
+    mesh = pyvista.Sphere(theta_resolution=16, phi_resolution=16)
+    mesh = mesh.scale((3, 2, 1), inplace=False)
+    made = getattr(mesh.symmetry, name)()
+    found, expected = mesh.symmetry.analysis, getattr(symsurf, name)(mesh)
+    assert type(found) is type(expected)
+    assert len(found.transformations) == len(expected.transformations)
+    np.testing.assert_array_equal(made.points, mesh.points)
+    for array, values in expected.arrays.items():
+        np.testing.assert_array_equal(made.point_data[array], values)
+    for figure, value in expected.statistics.items():
+        np.testing.assert_array_equal(np.squeeze(made.field_data[figure]), np.squeeze(value))
+    assert not set(expected.arrays) & set(mesh.array_names)
+    grid = pyvista.ImageData(dimensions=(3, 3, 3))
+    with pytest.raises(symsurf.InvalidInput, match=f"{name} takes .*ImageData has none"):
+        getattr(grid.symmetry, name)()
+
+
+def test_a_group_that_is_no_ascii() -> None:
+    made = pyvista.Cylinder(resolution=400).symmetry.symmetries()
+    assert made.field_data["group"][0] == "D∞h"
 
 
 def test_complete_carries_attributes_to_what_it_adds() -> None:

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run, run_here
 from symmetric_shapes import mirrored_surface
 
 import symsurf
@@ -53,6 +53,24 @@ def test_the_same_as_in_python(clouds):
     assert record["mirror"]["offset"] == result.mirror.offset
     assert record["parameters"] == result.parameters
     assert record["pairs"] == len(result.pairs) and record["score"] == result.score
+
+
+def test_normals_of_a_file_are_used_where_asked_for(tmp_path):
+    points, _ = mirrored_surface(600, 0)
+    normals = np.random.default_rng(0).normal(size=points.shape)
+    np.savetxt(tmp_path / "cloud.xyz", np.hstack([points, normals]), fmt="%.17g")
+    np.savetxt(tmp_path / "bare.xyz", points, fmt="%.17g")
+    shape = symsurf.read(tmp_path / "cloud.xyz")
+    options = "--method normals_only --json"
+    for words, given in (("", None), ("--use-normals", shape.normals)):
+        record = json.loads(run_here(f"detect cloud.xyz {options} {words}", tmp_path).stdout)
+        expected = symsurf.detect(points, "normals_only", normals=given)
+        assert record["median_residual"] == np.median(expected.residuals)
+    done = run_here(f"detect cloud.xyz bare.xyz {options} --use-normals", tmp_path)
+    assert done.returncode == 1 and len(done.stdout.splitlines()) == 1
+    assert done.stderr.startswith("symsurf: bare.xyz: use_normals is given, but the file has no")
+    done = run_here(f"detect cloud.xyz {options} --use-normals --downsample 2", tmp_path)
+    assert done.returncode == 2 and "use_normals is given beside downsample" in done.stderr
 
 
 def test_a_reader_that_has_seen_enough_is_no_failure():

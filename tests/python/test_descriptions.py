@@ -13,7 +13,6 @@ import pytest
 
 import symsurf
 from symsurf import cli
-from symsurf.descriptions import allowed
 
 METHODS = symsurf.methods()
 OPTIONS = [
@@ -47,7 +46,7 @@ def test_signatures(name):
     assert function.__name__ in symsurf.__all__
     assert " ".join(method.summary.split()) in " ".join(function.__doc__.split())
     for parameter in method.parameters:
-        sentence = f"{parameter.name}: {parameter.doc} Allowed: {allowed(parameter)}."
+        sentence = f"{parameter.name}: {parameter.doc} Allowed: {parameter.allowed}."
         assert sentence in " ".join(function.__doc__.split())
 
 
@@ -87,7 +86,7 @@ def test_command_line_options():
             assert f"--{parameter.name}" in options
             option = options[f"--{parameter.name.replace('_', '-')}"]
             assert parameter.doc in option.help.replace("%%", "%")
-            assert allowed(parameter) in option.help.replace("%%", "%")
+            assert parameter.allowed in option.help.replace("%%", "%")
 
 
 def test_command_line_lists_the_methods(capsys):

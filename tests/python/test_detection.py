@@ -78,6 +78,18 @@ def test_float32_is_its_own_double(method, blob):
     np.testing.assert_array_equal(one.pairs, other.pairs)
 
 
+@pytest.mark.parametrize("method", sorted(set(symsurf.methods()) - {"auto"}))
+def test_the_methods_that_use_normals_are_those_that_say_so(method):
+    points, _ = mirrored_surface(600, 3)
+    rng = np.random.default_rng(1)
+    points += rng.normal(scale=0.01, size=points.shape)
+    plain = symsurf.detect(points, method)
+    other = symsurf.detect(points, method, normals=rng.normal(size=points.shape))
+    is_same = repr(plain.mirror) == repr(other.mirror) and np.array_equal(plain.pairs, other.pairs)
+    text = symsurf.detect.__doc__.split("normals: ")[1].split("nonfinite: ")[0]
+    assert (f"``{method}``" not in text) == is_same
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_candidates_are_ranked_and_can_be_matched(seed):
     rng = np.random.default_rng(seed)

@@ -23,8 +23,11 @@ def with_value(value):
         (GOOD.T, r"\(3, 50\).*\(n, 3\)"),
         (GOOD[None], r"\(1, 50, 3\).*\(n, 3\)"),
         (GOOD[0], r"\(3,\).*\(n, 3\)"),
-        (None, r"\(\).*\(n, 3\)"),
-        (7, r"\(\).*\(n, 3\)"),
+        (None, r"points are of type NoneType; allowed are an array .*\(n, 3\), the name of a file"),
+        (7, "points are of type int; allowed are"),
+        (symsurf.Plane((0, 0, 1), 0), "points are of type Plane; allowed are"),
+        (b"points.ply", "points are of type bytes; allowed are"),
+        (np.float64(7), r"\(\).*\(n, 3\)"),
         ("points.ply", "points.ply: there is no such file"),
         ([], r"\(0,\).*\(n, 3\)"),
         ([[1, 2, 3], [1, 2]], "array"),
@@ -191,8 +194,35 @@ def test_the_errors_are_value_errors():
     assert not issubclass(symsurf.Cancelled, ValueError)
 
 
-def test_match_over_what_is_no_mirror(blob):
+SPHERE = symsurf.Sphere((0, 0, 0), 5)
+TAKE_A_MIRROR = {
+    "match": ("mirror", lambda mirror: symsurf.match(GOOD, mirror).residuals),
+    "bend": ("mirror", lambda mirror: symsurf.bend(GOOD, mirror)),
+    "straight_mirror": ("mirror", lambda mirror: symsurf.straight_mirror(mirror, GOOD).numbers),
+    "asymmetry": ("result", lambda mirror: symsurf.asymmetry(GOOD, mirror or 0).distance),
+    "coverage": ("truth", lambda mirror: symsurf.metrics.coverage(GOOD, mirror, GOOD)),
+    "surface_distance": (
+        "truth",
+        lambda mirror: symsurf.metrics.surface_distance(GOOD, mirror, GOOD),
+    ),
+    "sphere_errors": ("found", lambda mirror: symsurf.metrics.sphere_errors(mirror, SPHERE, GOOD)),
+}
+
+
+@pytest.mark.parametrize("name", TAKE_A_MIRROR)
+def test_a_result_stands_for_its_mirror(name):
+    argument, call = TAKE_A_MIRROR[name]
+    np.testing.assert_equal(call(symsurf.match(GOOD, SPHERE)), call(SPHERE))
+    without = symsurf.detect(GOOD, "separation")
+    with pytest.raises(symsurf.InvalidInput, match="the result of separation has no mirror"):
+        call(without)
     with pytest.raises(
-        symsurf.InvalidInput, match="mirror is of type NoneType; allowed is a Mirror"
+        symsurf.InvalidParameter, match=f"{argument} is of type .*; allowed is a Result or a Mirror"
     ):
-        symsurf.match(blob, None)
+        call(None)
+
+
+def test_errors_of_spheres_of_other_mirrors():
+    plane = symsurf.Plane((0, 0, 1), 0)
+    with pytest.raises(symsurf.InvalidParameter, match="truth is a plane; allowed is a sphere"):
+        symsurf.metrics.sphere_errors(SPHERE, plane, GOOD)

@@ -15,3 +15,9 @@ def test_import_is_light():
     code = f"import symsurf, sys; print([name for name in {HEAVY} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout == "[]\n"
+
+
+def test_dir_lists_what_is_imported_later():
+    code = "import symsurf, sys; print(set(symsurf.__all__) - set(dir(symsurf)), 'batch' in vars(symsurf))"
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout == "set() False\n"

@@ -10,6 +10,7 @@ import symsurf
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
 from bad_input import tables
+from symmetric_shapes import mirrored_surface
 from vtk_data import (
     BALL_MIRROR,
     array,
@@ -117,6 +118,9 @@ def test_a_shape_without_mirror_says_why_there_is_none(operation: symsurf.Operat
     found = filter_of(operation, method="plane", input_data=polydata(points))
     assert "the shape has no mirror: " in error_of(found)
     assert found.output.GetNumberOfPoints() == 0
+    symmetric, _ = mirrored_surface(400, 1)
+    thesis = filter_of(operation, method="separation", input_data=polydata(symmetric))
+    assert "the result of separation has no mirror" in error_of(thesis)
     found.method = "horoscope"
     assert "'horoscope'" in error_of(found)
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 from .._core import Analysis, Damage, Generator, Operation
-from ..descriptions import allowed
 from .values import shown, value_from
 
 Description: TypeAlias = Generator | Damage | Operation | Analysis
@@ -35,7 +34,7 @@ def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
     parser.set_defaults(kind=kind)
     group = parser.add_argument_group("parameters")
     for parameter in kind.parameters:
-        about = f"{parameter.doc} {allowed(parameter)}, default {shown(parameter.default)}"
+        about = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
         vector = parameter.type in ("direction", "position")
         group.add_argument(
             *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),

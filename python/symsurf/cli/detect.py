@@ -44,7 +44,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_batch_options(parser)
     parser.add_argument("--seed", default="0", metavar="N", help="of the methods that draw lots")
     parser.add_argument(
-        "--ignore-normals", action="store_true", help="do not use the normals in the files"
+        "--use-normals",
+        action="store_true",
+        help="hand the normals in the files to the method, as lines; a file without any is an error",
     )
     parser.add_argument(
         "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
@@ -70,6 +72,8 @@ def run(arguments: argparse.Namespace) -> int:
     given = input_tasks(arguments)
     outputs = planned_outputs(arguments, given, lambda _: suffixes)
     divisor = arguments.downsample
+    if arguments.use_normals and divisor is not None:
+        raise InvalidParameter("use_normals is given beside downsample; allowed is one of them")
     _, threads = jobs_and_threads(arguments)
     tasks = [
         replace(
@@ -80,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
             threads=threads,
             nonfinite=arguments.nonfinite,
             use_faces=not arguments.ignore_faces,
-            use_normals=not arguments.ignore_normals,
+            use_normals=arguments.use_normals,
             downsample=None if divisor is None else _divisor(divisor),
             outputs=tuple(outputs.get(task.file, ())),
         )

@@ -7,7 +7,6 @@ from typing import Any
 
 from .._core import Method, Parameter
 from .._core import methods as all_methods
-from ..descriptions import allowed
 from .values import shown, value_from
 
 _PREFIX = "parameter:"
@@ -55,7 +54,7 @@ def _owners() -> dict[str, list[tuple[Method, Parameter]]]:
 def _helps(owners: list[tuple[Method, Parameter]]) -> list[str]:
     texts: dict[str, list[str]] = {}
     for method, parameter in owners:
-        text = f"{parameter.doc} {allowed(parameter)}, default {shown(parameter.default)}"
+        text = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
         texts.setdefault(text, []).append(method.name)
     return [f"({', '.join(names)}) {text}" for text, names in texts.items()]
 

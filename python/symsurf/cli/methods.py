@@ -7,7 +7,6 @@ import json
 import textwrap
 from typing import Any
 
-from .. import descriptions
 from .._core import Method, Parameter
 from .._core import methods as all_methods
 from ..plain import plain
@@ -49,7 +48,7 @@ def _parameter_record(parameter: Parameter) -> dict[str, Any]:
 def _text(method: Method) -> str:
     lines = [method.name, textwrap.indent(textwrap.fill(method.summary, 92), "    ")]
     for parameter in method.parameters:
-        about = f"{descriptions.allowed(parameter)}, default {shown(parameter.default)}"
+        about = f"{parameter.allowed}, default {shown(parameter.default)}"
         lines.append(f"  --{parameter.name.replace('_', '-')}  {about}")
         lines.append(textwrap.indent(textwrap.fill(parameter.doc, 92), "      "))
     return "\n".join(lines)

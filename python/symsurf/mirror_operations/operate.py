@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import InvalidInput, InvalidParameter, Mirror
+from .._core import InvalidInput, Mirror
 from ..detection import Progress, detect
+from ..given_mirror import found_mirror, mirror_of
 from ..inputs import Input, as_input
 from ..lengths import as_fractions, diagonal_of
 from ..result import Result
@@ -53,20 +54,7 @@ def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
 
 
 def _mirror_of(shape: Input, result: Result | Mirror | None, threads: int) -> Mirror:
-    if isinstance(result, Mirror):
-        return result
     if result is None:
         found = detect(shape.points, faces=shape.faces, threads=threads)
-        if found.verdict != "found":
-            raise InvalidInput(
-                f"the shape has no mirror: {found.reason}; give a result or a mirror to use it all "
-                "the same"
-            )
-        result = found
-    if not isinstance(result, Result):
-        raise InvalidParameter(
-            f"result is of type {type(result).__name__}; allowed is a Result, a Mirror or None"
-        )
-    if result.mirror is None:
-        raise InvalidInput(f"the result of {result.method} has no mirror")
-    return result.mirror
+        return found_mirror(found, "give a result or a mirror to use it all the same")
+    return mirror_of(result, "result")

@@ -14,7 +14,6 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from .._core import Cancelled, InvalidInput, InvalidParameter, Parameter
-from ..descriptions import allowed
 from .names import camel_case
 from .shape import shape_of
 
@@ -35,7 +34,7 @@ IMAGE_THRESHOLD = Property(
 def described(parameters: Iterable[Parameter], prefix: str = "") -> dict[str, Property]:
     """A property for each parameter, by name."""
     return {
-        prefix + each.name: Property(each.default, f"{each.doc} Allowed: {allowed(each)}.")
+        prefix + each.name: Property(each.default, f"{each.doc} Allowed: {each.allowed}.")
         for each in parameters
     }
 

@@ -13,8 +13,9 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 
 from .. import _core
-from .._core import InvalidInput, InvalidParameter, Mirror, Operation, methods, operations
+from .._core import InvalidParameter, Mirror, Operation, methods, operations
 from ..detection import detect
+from ..given_mirror import found_mirror
 from .algorithm import THREADS, Algorithm, Property, described
 from .arrays import (
     Faces,
@@ -88,12 +89,8 @@ class MirrorOperation(Algorithm):
             threads=self._options["number_of_threads"],
             progress=lambda fraction: self._progress(_FOUND_AT * fraction),
         )
-        if result.mirror is None or result.verdict != "found":
-            raise InvalidInput(
-                f"the shape has no mirror: {result.statistics['reason']}; connect the output "
-                '"Mirror" of a mirror detection to use it all the same'
-            )
-        return result.mirror
+        advice = 'connect the output "Mirror" of a mirror detection to use it all the same'
+        return found_mirror(result, advice)
 
 
 def _mask_of(shape: vtkPolyData, name: str) -> NDArray[np.float64] | None:
