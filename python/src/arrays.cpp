@@ -53,6 +53,10 @@ py::object points_of(py::handle object) {
 
 Rows rows_from(py::handle object, const char* what) {
   const py::array array = array_from(object, what);
+  if (array.ndim() == 0)
+    throw InvalidInput(std::string(what) + " are of type " +
+                       py::str(py::type::of(object).attr("__name__")).cast<std::string>() +
+                       "; allowed are numbers (n, 3)");
   if (array.ndim() != 2 || array.shape(1) != 3)
     throw InvalidInput(std::string(what) + " have shape " + shape_text(array) +
                        "; allowed is (n, 3)");
