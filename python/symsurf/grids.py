@@ -31,8 +31,10 @@ _THIN_CELLS = {
 def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     """The triangles between a data set's points, polygons divided; None where it has no faces.
 
-    Of an unstructured or a curved structured grid those of its cells, where all are flat.
+    Of an unstructured or a curved structured grid those of its cells, where all are flat. Raises
+    InvalidInput for broken cells, whatever their kind.
     """
+    require_sound_cells(mesh)
     if isinstance(mesh, pyvista.StructuredGrid):
         mesh = mesh.cast_to_unstructured_grid()
     if isinstance(mesh, pyvista.UnstructuredGrid):
@@ -44,6 +46,25 @@ def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     if mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
         return None
     return np.asarray(mesh.triangulate().regular_faces).astype(np.int64)
+
+
+def require_sound_cells(data: pyvista.DataSet) -> None:
+    """Raises InvalidInput where a cell names a point that is not there: VTK's filters would read what
+    lies beside the points."""
+    if isinstance(data, pyvista.PolyData):
+        arrays = [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
+    elif isinstance(data, pyvista.UnstructuredGrid):
+        arrays = [data.GetCells()]
+    else:
+        return
+    for cells in arrays:
+        corners = vtk_to_numpy(cells.GetConnectivityArray())
+        ends = vtk_to_numpy(cells.GetOffsetsArray())
+        outside = corners[(corners < 0) | (corners >= data.n_points)]
+        if len(outside):
+            raise InvalidInput(f"a cell names point {outside[0]}; there are {data.n_points} points")
+        if len(ends) and (ends[0] != 0 or ends[-1] != len(corners) or (np.diff(ends) < 0).any()):
+            raise InvalidInput("the cells do not end where the next begin")
 
 
 def shape_of(
@@ -80,8 +101,10 @@ def poly_data(
 def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyvista.DataSet:
     """A copy at these points, without normals, the corners of each face the other way round.
 
-    Raises InvalidInput for a data set with other cells than points, lines and flat faces.
+    Raises InvalidInput for a data set with other cells than points, lines and flat faces, and for
+    broken cells.
     """
+    require_sound_cells(mesh)
     if isinstance(mesh, pyvista.PolyData):
         reverse = vtkReverseSense()
         # A strip of an even number of triangles is wound alike from both ends.

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import subprocess
+import sys
 import warnings
 from types import SimpleNamespace
 
@@ -192,6 +194,48 @@ def test_polygons_are_divided():
     assert np.abs(result.mirror.normal).max() > 0.9999
     cells = pyvista.UnstructuredGrid({pyvista.CellType.HEXAHEDRON: np.arange(8)[None]}, mesh.points)
     assert symsurf.detect(cells, "plane").faces is None  # a body, not its surface
+
+
+def test_cells_that_name_no_point():
+    """In a process of its own: VTK would read beside the points."""
+    pytest.importorskip("pyvista")
+    done = subprocess.run(
+        [sys.executable, "-c", BROKEN_CELLS], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    said = [f"a cell names point {corner}; there are 50 points" for corner in (-1, 50, 10**6)]
+    assert done.stdout.splitlines() == 4 * [each for each in said for _ in range(5)]
+
+
+BROKEN_CELLS = """
+import numpy as np
+import pyvista
+import symsurf
+
+points = np.random.default_rng(0).normal(size=(50, 3))
+plane = symsurf.Plane((1, 0, 0), 0)
+
+
+def use_all(mesh, grid):
+    mesh.symmetry.result = symsurf.match(points, plane)
+    yield lambda: symsurf.detect(mesh)
+    yield lambda: symsurf.detect(grid)
+    yield lambda: symsurf.Shape.from_pyvista(mesh)
+    yield lambda: plane.reflect(mesh)
+    yield lambda: mesh.symmetry.complete(faces=[[0, 1, 2], [1, 2, 3]])
+
+
+for kind in ("faces", "strips", "lines", "verts"):
+    for corner in (-1, 50, 10**6):
+        cell = [0, 1, 2, corner]
+        mesh = pyvista.PolyData(points, **{kind: [4, *cell]})
+        grid = pyvista.UnstructuredGrid(np.array([4, *cell]), [pyvista.CellType.QUAD], points)
+        for use in use_all(mesh, grid):
+            try:
+                use()
+            except symsurf.InvalidInput as error:
+                print(error)
+"""
 
 
 def test_a_curved_structured_grid_is_a_mesh():
