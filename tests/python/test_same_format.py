@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import struct
 
 import numpy as np
@@ -10,6 +11,7 @@ from command_line import run_here
 from symmetric_shapes import random_rotation
 
 import symsurf
+from symsurf.saving.same_format import REWRITERS, NewShape
 
 
 @pytest.fixture
@@ -333,6 +335,60 @@ def test_what_is_added_takes_the_attributes_of_its_source(name, broken_ball, tmp
         assert texts[:2] == file.read_bytes().split(b"\n")[:2]
     elif name == "a.off":
         assert [int(row.split()[3]) for row in texts[2 : 2 + count]] == expected.sources.tolist()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
+@pytest.mark.parametrize(
+    ("kind", "is_kept"), [("char", False), ("uchar", False), ("short", True), ("float", True)]
+)
+def test_an_index_type_too_small_for_what_is_added(kind, is_kept, encoding):
+    points = np.random.default_rng(0).normal(size=(200, 3))
+    header = f"ply\nformat {encoding} 1.0\ncomment by hand\nelement vertex 200\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz")
+    header += f"element face 1\nproperty list uchar {kind} vertex_indices\nend_header\n"
+    if encoding == "ascii":
+        body = "".join(text(row) + "\n" for row in [*points.tolist(), [3, 0, 1, 2]]).encode()
+    else:
+        code = {"char": "b", "uchar": "B", "short": "h", "float": "f"}[kind]
+        body = points.tobytes() + struct.pack(f"<B3{code}", 3, 0, 1, 2)
+    made, lost = rewritten(
+        header.encode() + body,
+        points=np.vstack([points, -points]),
+        faces=np.array([[0, 1, 2], [399, 398, 397]]),
+        old_faces=1,
+        sources=np.tile(np.arange(200), 2),
+        moved=False,
+    )
+    assert made.faces.tolist() == [[0, 1, 2], [399, 398, 397]]
+    np.testing.assert_array_equal(made.points, np.vstack([points, -points]))
+    assert lost == ([] if is_kept else ["nothing of the file is kept but points and faces"])
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
+@pytest.mark.parametrize("name", ["heat", "x"])
+def test_vertices_with_two_properties_of_one_name(name, encoding):
+    rows = np.random.default_rng(0).normal(size=(9, 5))
+    header = f"ply\nformat {encoding} 1.0\nelement vertex 9\n"
+    header += "".join(f"property double {each}\n" for each in ("x", "y", "z", name, name))
+    body = rows.tobytes()
+    if encoding == "ascii":
+        body = "".join(text(row) + "\n" for row in rows.tolist()).encode()
+    made, lost = rewritten(
+        (header + "end_header\n").encode() + body,
+        points=2 * rows[:, :3],
+        faces=np.empty((0, 3), int),
+        old_faces=0,
+        sources=np.arange(9),
+        moved=True,
+    )
+    np.testing.assert_array_equal(made.points, 2 * rows[:, :3])
+    assert lost == ["nothing of the file is kept but points and faces"]
+
+
+def rewritten(content, suffix=".ply", **fields):
+    """What is read of the new content, and what it lost."""
+    new = REWRITERS[suffix](content, NewShape(**fields))
+    return symsurf.read(io.BytesIO(new.content), suffix[1:]), new.lost
 
 
 def test_a_cloud_is_completed_in_its_columns(broken_ball, tmp_path):

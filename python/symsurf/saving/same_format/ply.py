@@ -69,14 +69,25 @@ def _elements(lines: list[bytes]) -> list[_Element]:
 
 
 def _is_plain(elements: list[_Element], new: NewShape) -> bool:
-    """Whether the vertices come first, each of one size, and faces that are added have a place."""
+    """Whether the vertices come first, each of one size with a name a property, and faces that are
+    added have a place."""
     vertices, *rest = elements
     if vertices.name != b"vertex" or any(words[0] == b"list" for words in vertices.properties):
         return False
+    if len({words[-1] for words in vertices.properties}) < len(vertices.properties):
+        return False
     if not len(new.added_faces):
         return True
-    is_last = len(rest) == 1 and rest[0].name == b"face"
-    return is_last and [words[0] for words in rest[0].properties] == [b"list"]
+    if len(rest) != 1 or rest[0].name != b"face":
+        return False
+    kinds = [words[0] for words in rest[0].properties]
+    return kinds == [b"list"] and len(new.points) <= _count_held(rest[0].properties[0][2])
+
+
+def _count_held(kind: bytes) -> int:
+    """Of how many points a type holds every index."""
+    held = np.dtype(_TYPES[kind.decode()])
+    return 2 ** (np.finfo(held).nmant + 1) if held.kind == "f" else int(np.iinfo(held).max) + 1
 
 
 def _kept(element: _Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
