@@ -385,6 +385,34 @@ def test_vertices_with_two_properties_of_one_name(name, encoding):
     assert lost == ["nothing of the file is kept but points and faces"]
 
 
+@pytest.mark.parametrize("suffix", [".ply", ".obj", ".off", ".csv"])
+@pytest.mark.parametrize("turns", [False, True])
+def test_a_byte_order_mark_is_passed_over(suffix, turns, box):
+    points, faces = box
+    normals = points.astype("f4").astype(float)
+    content = {".ply": ply_text, ".obj": obj, ".off": off, ".csv": csv_text}[suffix](
+        points, faces, normals
+    )
+    if suffix == ".obj":  # the first line is that of a vertex
+        content = content[content.index(b"v ") :]
+    turn = random_rotation(np.random.default_rng(5)) if turns else None
+    fields = {
+        "points": 2 * points,
+        "faces": np.empty((0, 3), int),
+        "old_faces": 0,
+        "sources": np.arange(len(points)),
+        "moved": True,
+        "turn": turn,
+    }
+    plain, lost = rewritten(content, suffix, **fields)
+    marked, also_lost = rewritten(b"\xef\xbb\xbf" + content, suffix, **fields)
+    np.testing.assert_array_equal(marked.points, 2 * points)
+    assert also_lost == lost and len(lost) == (not turns)
+    assert (marked.normals is None) == (not turns)
+    if turns:
+        np.testing.assert_array_equal(marked.normals, plain.normals)
+
+
 def rewritten(content, suffix=".ply", **fields):
     """What is read of the new content, and what it lost."""
     new = REWRITERS[suffix](content, NewShape(**fields))
