@@ -413,6 +413,23 @@ def test_a_byte_order_mark_is_passed_over(suffix, turns, box):
         np.testing.assert_array_equal(marked.normals, plain.normals)
 
 
+@pytest.mark.parametrize("end", ["end_header 1\n", " end_header\t by hand \r\n", "end_header\r\n"])
+def test_what_stands_behind_the_end_of_a_header(end):
+    points = np.arange(12.0).reshape(4, 3) % 5
+    header = "ply\nformat binary_little_endian 1.0\nelement vertex 4\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz")
+    made, lost = rewritten(
+        (header + end).encode() + points.tobytes(),
+        points=2 * points,
+        faces=np.empty((0, 3), int),
+        old_faces=0,
+        sources=np.arange(4),
+        moved=True,
+    )
+    np.testing.assert_array_equal(made.points, 2 * points)
+    assert lost == []
+
+
 def rewritten(content, suffix=".ply", **fields):
     """What is read of the new content, and what it lost."""
     new = REWRITERS[suffix](content, NewShape(**fields))

@@ -24,7 +24,7 @@ _TYPES = {
     **dict.fromkeys(("double", "float64"), "f8"),
 }
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
-_END = re.compile(rb"^[ \t]*end_header[ \t]*\r?\n", re.MULTILINE)
+_END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
 
 
 @dataclass
