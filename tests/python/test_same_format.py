@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import struct
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -428,6 +430,29 @@ def test_what_stands_behind_the_end_of_a_header(end):
     )
     np.testing.assert_array_equal(made.points, 2 * points)
     assert lost == []
+
+
+@pytest.mark.parametrize("left", [3, 0, None])
+def test_a_text_that_was_shortened_after_it_was_read(left, box):
+    """In a process of its own, which a loop without end would keep."""
+    header, mark, body = ply_text(*box, box[0]).partition(b"end_header\n")
+    content = header
+    if left is not None:
+        content += mark + b"\n".join(body.split(b"\n")[:left])
+    points = box[0].tolist()
+    script = f"""
+import numpy as np
+from symsurf.saving.same_format import REWRITERS, NewShape
+points = np.array({points})
+new = NewShape(points, np.empty((0, 3), int), 0, np.arange(len(points)), False)
+REWRITERS[".ply"]({content!r}, new)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.stderr.splitlines()[-1].endswith(
+        "InvalidInput: the file was changed after it was read"
+    )
 
 
 def rewritten(content, suffix=".ply", **fields):

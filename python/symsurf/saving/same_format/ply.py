@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._core import InvalidInput
 from ...shape import Shape
 from ..ply_format import shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
@@ -25,6 +26,7 @@ _TYPES = {
 }
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
 _END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
+_CHANGED = "the file was changed after it was read"
 
 
 @dataclass
@@ -39,7 +41,8 @@ class _Element:
 
 def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     end = _END.search(content)
-    assert end is not None  # it could be read
+    if end is None:
+        raise InvalidInput(_CHANGED)
     lines = content[: end.start()].splitlines()
     elements = _elements(lines)
     if not _is_plain(elements, new):
@@ -138,6 +141,8 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
     rows: list[list[bytes]] = []
     position = 0
     while len(rows) < vertices.count:
+        if position > len(body):
+            raise InvalidInput(_CHANGED)
         end = body.find(b"\n", position)
         end = len(body) if end < 0 else end
         row = body[position:end].split()
