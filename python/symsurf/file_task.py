@@ -227,6 +227,8 @@ def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
     points = shape.points
     if task.nonfinite == "skip":
         finite = np.isfinite(points).all(axis=1)
+        if not finite.any():
+            raise InvalidInput(f"0 of {len(points)} points are finite; at least 1 is needed")
         if not finite.all():
             notices.append(nonfinite_message(int(np.count_nonzero(~finite))))
             points = points[finite]
