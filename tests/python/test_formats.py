@@ -339,6 +339,37 @@ def test_packed_files(cloud, tmp_path):
     assert done.returncode == 0 and os.listdir(tmp_path / "made") == ["packed.summary.json"]
 
 
+@pytest.mark.parametrize("encoding", ["gzip", "bzip2", "raw", "ascii"])
+@pytest.mark.parametrize("name", ["mask.nrrd", "mask.nhdr"])
+def test_nrrd_in_each_encoding(encoding, name, tmp_path):
+    header = {"encoding": encoding, "space directions": AFFINE[:3, :3].T}
+    nrrd.write(str(tmp_path / name), 300 * mask().astype(">i2"), header | {"space": "LPS"})
+    content = (tmp_path / name).read_bytes()
+    (tmp_path / name).rename(tmp_path / "mask.nrrd")
+    expected = chosen(mask()) - AFFINE[:3, 3]
+    points = symsurf.read(tmp_path / "mask.nrrd").points
+    np.testing.assert_allclose(by_position(points), by_position(expected))
+    if encoding in ("gzip", "bzip2") and name == "mask.nrrd":
+        head, _, packed = content.partition(b"\n\n")
+        (tmp_path / "lines.nrrd").write_bytes(head + b"\nline skip: 2\n\na\nb\n" + packed)
+        np.testing.assert_array_equal(symsurf.read(tmp_path / "lines.nrrd").points, points)
+
+
+@pytest.mark.parametrize("encoding", ["gzip", "bzip2"])
+@pytest.mark.parametrize("name", ["mask.nrrd", "mask.nhdr"])
+def test_an_nrrd_that_unpacks_to_more_than_half_of_the_memory(
+    encoding, name, tmp_path, monkeypatch
+):
+    voxels = np.zeros((40, 40, 40), np.uint8)
+    voxels[5:9, 6, 7] = 1
+    nrrd.write(str(tmp_path / name), voxels, {"encoding": encoding})
+    (tmp_path / name).rename(tmp_path / "mask.nrrd")
+    assert len(symsurf.read(tmp_path / "mask.nrrd").points) == 4
+    monkeypatch.setattr(os, "sysconf", lambda name: 256)  # pages of 256 bytes, as many
+    with pytest.raises(symsurf.InvalidInput, match="mask.nrrd: it holds more than 32768 bytes"):
+        symsurf.read(tmp_path / "mask.nrrd")
+
+
 def test_open_files_and_formats_by_name(cloud, tmp_path):
     content = (tmp_path / "cloud.xyz").read_bytes()
     np.testing.assert_array_equal(symsurf.read(io.BytesIO(content), "xyz").points, cloud)
