@@ -167,9 +167,31 @@ def points_above(
     values, of_cells = _scalars(grid, scalars, kind)
     chosen = above(values, threshold, kind)
     numbers = np.flatnonzero(chosen)
-    if not of_cells:
-        return np.ascontiguousarray(np.asarray(grid.points, dtype=float)[numbers])
-    return np.ascontiguousarray(np.asarray(grid.cell_centers().points, dtype=float)[numbers])
+    if isinstance(grid, pyvista.StructuredGrid):
+        all_ = grid.cell_centers().points if of_cells else grid.points
+        return np.ascontiguousarray(np.asarray(all_, dtype=float)[numbers])
+    return _points_at(grid, numbers, of_cells)
+
+
+def _points_at(grid: Any, numbers: NDArray[np.int64], of_cells: bool) -> NDArray[np.float64]:
+    """Some points, or centres of cells, of an image or a rectilinear grid: all of them may take far
+    more memory than the scalars."""
+    count = np.array(grid.dimensions)
+    halves = 0.5 * (of_cells & (count > 1))  # an axis of one point has one layer of cells
+    cells = np.maximum(count - 1, 1) if of_cells else count
+    index = np.column_stack(np.unravel_index(numbers, cells, order="F"))
+    if isinstance(grid, pyvista.ImageData):
+        steps = (index + np.array(grid.extent[::2]) + halves) * grid.spacing
+        return np.ascontiguousarray(steps @ np.asarray(grid.direction_matrix).T + grid.origin)
+    middles = [
+        0.5 * (x[:-1] + x[1:]) if half else x
+        for x, half in zip(map(_doubles, (grid.x, grid.y, grid.z)), halves)
+    ]
+    return np.column_stack([x[i] for x, i in zip(middles, index.T)])
+
+
+def _doubles(values: Any) -> NDArray[np.float64]:
+    return np.asarray(values, dtype=float)
 
 
 def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArray[Any], bool]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import subprocess
 import sys
+import tracemalloc
 import warnings
 from types import SimpleNamespace
 
@@ -311,6 +312,51 @@ def test_cells_are_their_centres():
     inside = np.asarray(centres.cell_data["density"]) > 1
     np.testing.assert_allclose(result.points, centres.cell_centers().points[inside])
     assert is_near(result.mirror, *MIRROR, within=HALF_A_CELL)
+
+
+@pytest.mark.parametrize("of_cells", [False, True])
+@pytest.mark.parametrize("kind", ["image", "flat image", "rectilinear", "flat rectilinear"])
+def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
+    """They are made of their indices: those of all voxels would take 24 bytes each."""
+    pyvista = pytest.importorskip("pyvista")
+    from symsurf.grids import points_above
+
+    rng = np.random.default_rng(4)
+    shape = (5, 1, 7) if "flat" in kind else (5, 6, 7)
+    if "image" in kind:
+        grid = pyvista.ImageData(
+            dimensions=shape,
+            spacing=(0.3, 2, 1.7),
+            origin=(10, -200, 3),
+            offset=(4, -3, 11),
+            direction_matrix=random_rotation(rng),
+        )
+    else:
+        grid = pyvista.RectilinearGrid(*(np.sort(rng.normal(size=n)) for n in shape))
+    data, count = (grid.cell_data, grid.n_cells) if of_cells else (grid.point_data, grid.n_points)
+    data["value"] = rng.normal(size=count)
+    expected = grid.cell_centers().points if of_cells else grid.points
+    chosen = np.asarray(data["value"]) > 0.2
+    points = points_above(grid, 0.2, "value")
+    assert points.flags.c_contiguous and points.dtype == float
+    np.testing.assert_allclose(points, expected[chosen], rtol=1e-12, atol=1e-12)
+
+
+def test_few_points_of_a_large_image_take_little_memory():
+    pyvista = pytest.importorskip("pyvista")
+    from symsurf.grids import points_above
+
+    image = pyvista.ImageData(dimensions=(200, 200, 200))
+    values = np.zeros(image.n_points, np.uint8)
+    values[[5, 77, 7_000_000]] = 1
+    image["value"] = values
+    tracemalloc.start()
+    try:
+        assert len(points_above(image, None, "value")) == 3
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 8 * len(values)
 
 
 @pytest.mark.parametrize("kind", ["rectilinear", "structured", "flat"])
