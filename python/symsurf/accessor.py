@@ -22,7 +22,7 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from . import mirror_operations, shape_analyses
 from ._core import InvalidInput, operations
 from .detection import detect
-from .grids import drop_normals, is_grid
+from .grids import drop_normals, is_grid, require_sound_cells
 from .mirror_operations import OperationResult
 from .result import Result
 from .shape_analyses import AnalysisResult
@@ -82,6 +82,7 @@ class Symmetry:
         made = result.shape.to_pyvista()
         _carry(self._mesh.point_data, made.point_data, result.sources)
         if result.given.faces is not None:
+            require_sound_cells(self._mesh)  # ``faces`` may stand in place of them
             triangles = self._mesh.triangulate()
             if triangles.n_cells == len(result.given.faces):  # neither lines nor vertices beside
                 _carry(triangles.cell_data, made.cell_data, result.face_sources)

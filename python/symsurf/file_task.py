@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import time
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -13,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import InvalidInput, analyses
+from ._core import InvalidInput, InvalidParameter, analyses
 from .detection import Progress, detect
 from .given_mirror import found_mirror
 from .inputs import InputWarning, nonfinite_message
-from .mirror_operations import Asymmetry
+from .mirror_operations import Asymmetry, OperationResult
 from .mirror_operations.operate import operate
 from .plain import plain
 from .reading import read, suffix_of
@@ -27,7 +29,7 @@ from .saving import write_whole
 from .saving.json_format import mirror_record, record_bytes, summary
 from .saving.shape_files import save_shape
 from .shape import Shape
-from .shape_analyses import Symmetries
+from .shape_analyses import AnalysisResult, Symmetries
 from .shape_analyses.analyse import analyse
 
 DETECT = "detect"
@@ -144,6 +146,18 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         _operate(task, shape, found, record, notices)
 
 
+@contextmanager
+def _as_invalid_input() -> Iterator[None]:
+    """Raises what nobody foresaw while a file is written as an error of that file, so that the next
+    ones are done; ``read`` does the same for what it reads."""
+    try:
+        yield
+    except (InvalidInput, InvalidParameter, ImportError, OSError, MemoryError):
+        raise
+    except Exception as error:
+        raise InvalidInput(f"it cannot be written ({type(error).__name__}: {error})") from error
+
+
 def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | None) -> None:
     found = analyse(
         task.operation,
@@ -158,6 +172,11 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
     record |= plain(found.to_json())
     if isinstance(found, Symmetries):
         record["bop"] = found.to_bop()
+    _write_analysis(found, task)
+
+
+@_as_invalid_input()
+def _write_analysis(found: AnalysisResult, task: FileTask) -> None:
     for output in task.outputs:
         output.parent.mkdir(parents=True, exist_ok=True)
         if output.suffix == PICTURE_SUFFIX:
@@ -173,6 +192,13 @@ def _operate(
     result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     record.pop("candidates")
+    _write_operation(task, shape, result, record, notices)
+
+
+@_as_invalid_input()
+def _write_operation(
+    task: FileTask, shape: Shape, result: OperationResult, record: Record, notices: list[str]
+) -> None:
     for output in task.outputs:
         output.parent.mkdir(parents=True, exist_ok=True)
         if output.suffix == PICTURE_SUFFIX:
@@ -185,6 +211,7 @@ def _operate(
             notices += save_shape(output, result, shape, task.file, task.suffix, task.content)
 
 
+@_as_invalid_input()
 def _write_result(found: Result, record: Record, task: FileTask) -> None:
     for output in task.outputs:
         output.parent.mkdir(parents=True, exist_ok=True)
@@ -230,6 +257,8 @@ def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
     points = shape.points
     if task.nonfinite == "skip":
         finite = np.isfinite(points).all(axis=1)
+        if not finite.any():
+            raise InvalidInput(f"0 of {len(points)} points are finite; at least 1 is needed")
         if not finite.all():
             notices.append(nonfinite_message(int(np.count_nonzero(~finite))))
             points = points[finite]

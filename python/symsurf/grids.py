@@ -31,8 +31,10 @@ _THIN_CELLS = {
 def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     """The triangles between a data set's points, polygons divided; None where it has no faces.
 
-    Of an unstructured or a curved structured grid those of its cells, where all are flat.
+    Of an unstructured or a curved structured grid those of its cells, where all are flat. Raises
+    InvalidInput for broken cells, whatever their kind.
     """
+    require_sound_cells(mesh)
     if isinstance(mesh, pyvista.StructuredGrid):
         mesh = mesh.cast_to_unstructured_grid()
     if isinstance(mesh, pyvista.UnstructuredGrid):
@@ -44,6 +46,25 @@ def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     if mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
         return None
     return np.asarray(mesh.triangulate().regular_faces).astype(np.int64)
+
+
+def require_sound_cells(data: pyvista.DataSet) -> None:
+    """Raises InvalidInput where a cell names a point that is not there: VTK's filters would read what
+    lies beside the points."""
+    if isinstance(data, pyvista.PolyData):
+        arrays = [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
+    elif isinstance(data, pyvista.UnstructuredGrid):
+        arrays = [data.GetCells()]
+    else:
+        return
+    for cells in arrays:
+        corners = vtk_to_numpy(cells.GetConnectivityArray())
+        ends = vtk_to_numpy(cells.GetOffsetsArray())
+        outside = corners[(corners < 0) | (corners >= data.n_points)]
+        if len(outside):
+            raise InvalidInput(f"a cell names point {outside[0]}; there are {data.n_points} points")
+        if len(ends) and (ends[0] != 0 or ends[-1] != len(corners) or (np.diff(ends) < 0).any()):
+            raise InvalidInput("the cells do not end where the next begin")
 
 
 def shape_of(
@@ -80,8 +101,10 @@ def poly_data(
 def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyvista.DataSet:
     """A copy at these points, without normals, the corners of each face the other way round.
 
-    Raises InvalidInput for a data set with other cells than points, lines and flat faces.
+    Raises InvalidInput for a data set with other cells than points, lines and flat faces, and for
+    broken cells.
     """
+    require_sound_cells(mesh)
     if isinstance(mesh, pyvista.PolyData):
         reverse = vtkReverseSense()
         # A strip of an even number of triangles is wound alike from both ends.
@@ -149,9 +172,31 @@ def points_above(
     values, of_cells = _scalars(grid, scalars, kind)
     chosen = above(values, threshold, kind)
     numbers = np.flatnonzero(chosen)
-    if not of_cells:
-        return np.ascontiguousarray(np.asarray(grid.points, dtype=float)[numbers])
-    return np.ascontiguousarray(np.asarray(grid.cell_centers().points, dtype=float)[numbers])
+    if isinstance(grid, pyvista.StructuredGrid):
+        all_ = grid.cell_centers().points if of_cells else grid.points
+        return np.ascontiguousarray(np.asarray(all_, dtype=float)[numbers])
+    return _points_at(grid, numbers, of_cells)
+
+
+def _points_at(grid: Any, numbers: NDArray[np.int64], of_cells: bool) -> NDArray[np.float64]:
+    """Some points, or centres of cells, of an image or a rectilinear grid: all of them may take far
+    more memory than the scalars."""
+    count = np.array(grid.dimensions)
+    halves = 0.5 * (of_cells & (count > 1))  # an axis of one point has one layer of cells
+    cells = np.maximum(count - 1, 1) if of_cells else count
+    index = np.column_stack(np.unravel_index(numbers, cells, order="F"))
+    if isinstance(grid, pyvista.ImageData):
+        steps = (index + np.array(grid.extent[::2]) + halves) * grid.spacing
+        return np.ascontiguousarray(steps @ np.asarray(grid.direction_matrix).T + grid.origin)
+    middles = [
+        0.5 * (x[:-1] + x[1:]) if half else x
+        for x, half in zip(map(_doubles, (grid.x, grid.y, grid.z)), halves)
+    ]
+    return np.column_stack([x[i] for x, i in zip(middles, index.T)])
+
+
+def _doubles(values: Any) -> NDArray[np.float64]:
+    return np.asarray(values, dtype=float)
 
 
 def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArray[Any], bool]:

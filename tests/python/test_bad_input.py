@@ -78,12 +78,19 @@ def test_clouds_on_the_command_line(cloud, tmp_path):
     assert_refused_and_the_rest_done(path, cloud.reason, refuse=cloud.refuses_nonfinite)
 
 
-def assert_refused_and_the_rest_done(path, reason, refuse=False):
+@pytest.mark.parametrize("option", ["", "--downsample 2"])
+def test_no_point_is_finite(option, tmp_path):
+    path = tmp_path / "bad.xyz"
+    path.write_text(9 * "nan 0 0\n")
+    assert_refused_and_the_rest_done(path, "0 of 9 points", option=option)
+
+
+def assert_refused_and_the_rest_done(path, reason, refuse=False, option=""):
     """One line says why, and the file after it is done."""
     good = path.with_name("good.xyz")
     np.savetxt(good, GOOD)
     output = path.with_name("results")
-    words = "--nonfinite refuse" if refuse else ""
+    words = f"--nonfinite refuse {option}" if refuse else option
     done = run_here(
         f"detect {path.name} good.xyz --method plane --json --output {output} {words}", path.parent
     )

@@ -17,6 +17,7 @@ from command_line import run
 from symmetric_shapes import difference, mirrored_surface
 
 import symsurf
+from symsurf import file_task
 
 
 @pytest.fixture
@@ -124,6 +125,22 @@ def test_output_in_the_format_of_the_file(files, tmp_path):
     for path in good:
         made = symsurf.read(folder / path.name).points
         np.testing.assert_array_equal(made, symsurf.align(path).shape.points)
+
+
+@pytest.mark.parametrize("operation", ["detect", "align"])
+def test_what_nobody_foresaw_of_one_file_is_in_its_row(operation, files, tmp_path, monkeypatch):
+    first, second = [path for path, known in files.items() if known][:2]
+    writer = "save_shape" if operation == "align" else "write_whole"
+    write = getattr(file_task, writer)
+
+    def fails_once(*given):
+        monkeypatch.setattr(file_task, writer, write)
+        raise KeyError("no such thing")
+
+    monkeypatch.setattr(file_task, writer, fails_once)
+    rows = list(symsurf.batch([first, second], operation, method="plane", output=tmp_path / "made"))
+    assert rows[0]["error"] == f"{first}: it cannot be written (KeyError: 'no such thing')"
+    assert rows[1]["error"] == "" and len(list((tmp_path / "made").iterdir())) == 1
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import gzip
 import json
+import os
 import subprocess
 import sys
 
@@ -304,3 +305,34 @@ def test_a_threshold_for_what_is_no_image(tmp_path):
     for name in ("mesh.vtk", "cloud.xyz"):
         with pytest.raises(symsurf.InvalidParameter, match="threshold is 1; allowed is None"):
             symsurf.read(tmp_path / name, threshold=1)
+
+
+@pytest.mark.parametrize("encoding", ["gzip", "bzip2", "raw", "ascii"])
+@pytest.mark.parametrize("name", ["mask.nrrd", "mask.nhdr"])
+def test_nrrd_in_each_encoding(encoding, name, tmp_path):
+    header = {"encoding": encoding, "space directions": AFFINE[:3, :3].T}
+    nrrd.write(str(tmp_path / name), 300 * mask().astype(">i2"), header | {"space": "LPS"})
+    content = (tmp_path / name).read_bytes()
+    (tmp_path / name).rename(tmp_path / "mask.nrrd")
+    expected = chosen(mask()) - AFFINE[:3, 3]
+    points = symsurf.read(tmp_path / "mask.nrrd").points
+    np.testing.assert_allclose(by_position(points), by_position(expected))
+    if encoding in ("gzip", "bzip2") and name == "mask.nrrd":
+        head, _, packed = content.partition(b"\n\n")
+        (tmp_path / "lines.nrrd").write_bytes(head + b"\nline skip: 2\n\na\nb\n" + packed)
+        np.testing.assert_array_equal(symsurf.read(tmp_path / "lines.nrrd").points, points)
+
+
+@pytest.mark.parametrize("encoding", ["gzip", "bzip2"])
+@pytest.mark.parametrize("name", ["mask.nrrd", "mask.nhdr"])
+def test_an_nrrd_that_unpacks_to_more_than_half_of_the_memory(
+    encoding, name, tmp_path, monkeypatch
+):
+    voxels = np.zeros((40, 40, 40), np.uint8)
+    voxels[5:9, 6, 7] = 1
+    nrrd.write(str(tmp_path / name), voxels, {"encoding": encoding})
+    (tmp_path / name).rename(tmp_path / "mask.nrrd")
+    assert len(symsurf.read(tmp_path / "mask.nrrd").points) == 4
+    monkeypatch.setattr(os, "sysconf", lambda name: 256)  # pages of 256 bytes, as many
+    with pytest.raises(symsurf.InvalidInput, match="mask.nrrd: it holds more than 32768 bytes"):
+        symsurf.read(tmp_path / "mask.nrrd")

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import subprocess
+import sys
+import tracemalloc
 import warnings
 from types import SimpleNamespace
 
@@ -205,6 +208,48 @@ def test_polygons_are_divided():
     assert symsurf.detect(cells, "plane").faces is None  # a body, not its surface
 
 
+def test_cells_that_name_no_point():
+    """In a process of its own: VTK would read beside the points."""
+    pytest.importorskip("pyvista")
+    done = subprocess.run(
+        [sys.executable, "-c", BROKEN_CELLS], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    said = [f"a cell names point {corner}; there are 50 points" for corner in (-1, 50, 10**6)]
+    assert done.stdout.splitlines() == 4 * [each for each in said for _ in range(5)]
+
+
+BROKEN_CELLS = """
+import numpy as np
+import pyvista
+import symsurf
+
+points = np.random.default_rng(0).normal(size=(50, 3))
+plane = symsurf.Plane((1, 0, 0), 0)
+
+
+def use_all(mesh, grid):
+    mesh.symmetry.result = symsurf.match(points, plane)
+    yield lambda: symsurf.detect(mesh)
+    yield lambda: symsurf.detect(grid)
+    yield lambda: symsurf.Shape.from_pyvista(mesh)
+    yield lambda: plane.reflect(mesh)
+    yield lambda: mesh.symmetry.complete(faces=[[0, 1, 2], [1, 2, 3]])
+
+
+for kind in ("faces", "strips", "lines", "verts"):
+    for corner in (-1, 50, 10**6):
+        cell = [0, 1, 2, corner]
+        mesh = pyvista.PolyData(points, **{kind: [4, *cell]})
+        grid = pyvista.UnstructuredGrid(np.array([4, *cell]), [pyvista.CellType.QUAD], points)
+        for use in use_all(mesh, grid):
+            try:
+                use()
+            except symsurf.InvalidInput as error:
+                print(error)
+"""
+
+
 def test_a_curved_structured_grid_is_a_mesh():
     pyvista = pytest.importorskip("pyvista")
     x, y = np.meshgrid(np.linspace(-1, 1, 20), np.linspace(-2, 3, 30), indexing="ij")
@@ -278,6 +323,51 @@ def test_cells_are_their_centres():
     inside = np.asarray(centres.cell_data["density"]) > 1
     np.testing.assert_allclose(result.points, centres.cell_centers().points[inside])
     assert is_near(result.mirror, *MIRROR, within=HALF_A_CELL)
+
+
+@pytest.mark.parametrize("of_cells", [False, True])
+@pytest.mark.parametrize("kind", ["image", "flat image", "rectilinear", "flat rectilinear"])
+def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
+    """They are made of their indices: those of all voxels would take 24 bytes each."""
+    pyvista = pytest.importorskip("pyvista")
+    from symsurf.grids import points_above
+
+    rng = np.random.default_rng(4)
+    shape = (5, 1, 7) if "flat" in kind else (5, 6, 7)
+    if "image" in kind:
+        grid = pyvista.ImageData(
+            dimensions=shape,
+            spacing=(0.3, 2, 1.7),
+            origin=(10, -200, 3),
+            offset=(4, -3, 11),
+            direction_matrix=random_rotation(rng),
+        )
+    else:
+        grid = pyvista.RectilinearGrid(*(np.sort(rng.normal(size=n)) for n in shape))
+    data, count = (grid.cell_data, grid.n_cells) if of_cells else (grid.point_data, grid.n_points)
+    data["value"] = rng.normal(size=count)
+    expected = grid.cell_centers().points if of_cells else grid.points
+    chosen = np.asarray(data["value"]) > 0.2
+    points = points_above(grid, 0.2, "value")
+    assert points.flags.c_contiguous and points.dtype == float
+    np.testing.assert_allclose(points, expected[chosen], rtol=1e-12, atol=1e-12)
+
+
+def test_few_points_of_a_large_image_take_little_memory():
+    pyvista = pytest.importorskip("pyvista")
+    from symsurf.grids import points_above
+
+    image = pyvista.ImageData(dimensions=(200, 200, 200))
+    values = np.zeros(image.n_points, np.uint8)
+    values[[5, 77, 7_000_000]] = 1
+    image["value"] = values
+    tracemalloc.start()
+    try:
+        assert len(points_above(image, None, "value")) == 3
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 8 * len(values)
 
 
 @pytest.mark.parametrize("kind", ["rectilinear", "structured", "flat"])

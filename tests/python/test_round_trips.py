@@ -15,8 +15,11 @@ from symmetric_shapes import mirrored_surface
 
 import symsurf
 from symsurf import synthetic
+from symsurf.benchmark.answers import answer_in
+from symsurf.benchmark.files import read_benchmark
 from symsurf.saving.json_format import mirror_record
 from symsurf.saving.json_loading import mirror_from
+from symsurf.truth import read_truth
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 lengths = st.floats(1e-3, 1e6)
@@ -166,6 +169,57 @@ def test_what_cannot_be_loaded_is_named(name, content, error, says, tmp_path):
         (tmp_path / name).write_text(content)
     with pytest.raises(error, match=says):
         symsurf.Result.load(tmp_path / name)
+
+
+PLANE = '{"kind": "plane", "normal": [1, 0, 0], "offset": 0}'
+HUGE = "1" + 400 * "0"  # no double holds it
+BROKEN = {
+    "deep": 100_000 * "[",
+    "deep objects": 100_000 * '{"a":',
+    "infinite": f'{{"mirror": {PLANE}, "pairs": [[1e400, 0]]}}',
+    "too large": f'{{"mirror": {PLANE}, "pairs": [[{10**30}, 0]]}}',
+    "huge": f'{{"mirror": {PLANE}, "pairs": [[{HUGE}, 0]]}}',
+    "a huge vector": f'{{"mirror": {PLANE.replace("1", HUGE)}, "pairs": []}}',
+    "a huge number": f'{{"mirror": {PLANE.replace(": 0", ": " + HUGE)}, "pairs": []}}',
+    "a kind": f'{{"mirror": {PLANE.replace("plane", "x")}, "pairs": []}}',
+    "a list": "[]",
+    "a number": "5",
+    "no text": "\udcff",
+}
+
+
+@pytest.mark.parametrize("content", BROKEN)
+def test_broken_json_is_named(content, tmp_path):
+    whole = {"method": "plane", "score": 0, "candidates": [], "footprint": None}
+    for name, read in {
+        "result.json": symsurf.Result.load,
+        "cloud.truth.json": read_truth,
+        "case.json": lambda path: answer_in(tmp_path, "case", np.eye(3)),
+        "truth.json": lambda path: read_benchmark(tmp_path),
+    }.items():
+        path = tmp_path / name
+        text = BROKEN[content]
+        if name == "result.json":
+            text = text.replace("{", json.dumps(whole)[:-1] + ", ", 1)
+        if name == "case.json" and '"pairs": [[' in text:
+            continue  # it holds none
+        path.write_text(text, errors="surrogateescape")
+        with pytest.raises(symsurf.InvalidInput) as error:
+            read(path)
+        assert str(error.value).startswith(f"{path}: no") and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("field", ["score", "seconds"])
+@pytest.mark.parametrize("value", ["abc", "0.5", True, [1], {"a": 1}])
+def test_figures_of_a_result_are_numbers(field, value, tmp_path):
+    points, mirror = mirrored_surface(200, 0)
+    path = tmp_path / "result.json"
+    symsurf.match(points, mirror).save(path)
+    path.write_text(json.dumps(json.loads(path.read_text()) | {field: value}))
+    with pytest.raises(
+        symsurf.InvalidInput, match=rf"result.json: .*{field} is .*; allowed is a n"
+    ):
+        symsurf.Result.load(path)
 
 
 @pytest.mark.parametrize("name", symsurf.operations())

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import struct
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ from command_line import run_here
 from symmetric_shapes import random_rotation
 
 import symsurf
+from symsurf.saving.same_format import REWRITERS, NewShape
 
 
 @pytest.fixture
@@ -333,6 +337,128 @@ def test_what_is_added_takes_the_attributes_of_its_source(name, broken_ball, tmp
         assert texts[:2] == file.read_bytes().split(b"\n")[:2]
     elif name == "a.off":
         assert [int(row.split()[3]) for row in texts[2 : 2 + count]] == expected.sources.tolist()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
+@pytest.mark.parametrize(
+    ("kind", "is_kept"), [("char", False), ("uchar", False), ("short", True), ("float", True)]
+)
+def test_an_index_type_too_small_for_what_is_added(kind, is_kept, encoding):
+    points = np.random.default_rng(0).normal(size=(200, 3))
+    header = f"ply\nformat {encoding} 1.0\ncomment by hand\nelement vertex 200\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz")
+    header += f"element face 1\nproperty list uchar {kind} vertex_indices\nend_header\n"
+    if encoding == "ascii":
+        body = "".join(text(row) + "\n" for row in [*points.tolist(), [3, 0, 1, 2]]).encode()
+    else:
+        code = {"char": "b", "uchar": "B", "short": "h", "float": "f"}[kind]
+        body = points.tobytes() + struct.pack(f"<B3{code}", 3, 0, 1, 2)
+    made, lost = rewritten(
+        header.encode() + body,
+        points=np.vstack([points, -points]),
+        faces=np.array([[0, 1, 2], [399, 398, 397]]),
+        old_faces=1,
+        sources=np.tile(np.arange(200), 2),
+        moved=False,
+    )
+    assert made.faces.tolist() == [[0, 1, 2], [399, 398, 397]]
+    np.testing.assert_array_equal(made.points, np.vstack([points, -points]))
+    assert lost == ([] if is_kept else ["nothing of the file is kept but points and faces"])
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
+@pytest.mark.parametrize("name", ["heat", "x"])
+def test_vertices_with_two_properties_of_one_name(name, encoding):
+    rows = np.random.default_rng(0).normal(size=(9, 5))
+    header = f"ply\nformat {encoding} 1.0\nelement vertex 9\n"
+    header += "".join(f"property double {each}\n" for each in ("x", "y", "z", name, name))
+    body = rows.tobytes()
+    if encoding == "ascii":
+        body = "".join(text(row) + "\n" for row in rows.tolist()).encode()
+    made, lost = rewritten(
+        (header + "end_header\n").encode() + body,
+        points=2 * rows[:, :3],
+        faces=np.empty((0, 3), int),
+        old_faces=0,
+        sources=np.arange(9),
+        moved=True,
+    )
+    np.testing.assert_array_equal(made.points, 2 * rows[:, :3])
+    assert lost == ["nothing of the file is kept but points and faces"]
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".obj", ".off", ".csv"])
+@pytest.mark.parametrize("turns", [False, True])
+def test_a_byte_order_mark_is_passed_over(suffix, turns, box):
+    points, faces = box
+    normals = points.astype("f4").astype(float)
+    content = {".ply": ply_text, ".obj": obj, ".off": off, ".csv": csv_text}[suffix](
+        points, faces, normals
+    )
+    if suffix == ".obj":  # the first line is that of a vertex
+        content = content[content.index(b"v ") :]
+    turn = random_rotation(np.random.default_rng(5)) if turns else None
+    fields = {
+        "points": 2 * points,
+        "faces": np.empty((0, 3), int),
+        "old_faces": 0,
+        "sources": np.arange(len(points)),
+        "moved": True,
+        "turn": turn,
+    }
+    plain, lost = rewritten(content, suffix, **fields)
+    marked, also_lost = rewritten(b"\xef\xbb\xbf" + content, suffix, **fields)
+    np.testing.assert_array_equal(marked.points, 2 * points)
+    assert also_lost == lost and len(lost) == (not turns)
+    assert (marked.normals is None) == (not turns)
+    if turns:
+        np.testing.assert_array_equal(marked.normals, plain.normals)
+
+
+@pytest.mark.parametrize("end", ["end_header 1\n", " end_header\t by hand \r\n", "end_header\r\n"])
+def test_what_stands_behind_the_end_of_a_header(end):
+    points = np.arange(12.0).reshape(4, 3) % 5
+    header = "ply\nformat binary_little_endian 1.0\nelement vertex 4\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz")
+    made, lost = rewritten(
+        (header + end).encode() + points.tobytes(),
+        points=2 * points,
+        faces=np.empty((0, 3), int),
+        old_faces=0,
+        sources=np.arange(4),
+        moved=True,
+    )
+    np.testing.assert_array_equal(made.points, 2 * points)
+    assert lost == []
+
+
+@pytest.mark.parametrize("left", [3, 0, None])
+def test_a_text_that_was_shortened_after_it_was_read(left, box):
+    """In a process of its own, which a loop without end would keep."""
+    header, mark, body = ply_text(*box, box[0]).partition(b"end_header\n")
+    content = header
+    if left is not None:
+        content += mark + b"\n".join(body.split(b"\n")[:left])
+    points = box[0].tolist()
+    script = f"""
+import numpy as np
+from symsurf.saving.same_format import REWRITERS, NewShape
+points = np.array({points})
+new = NewShape(points, np.empty((0, 3), int), 0, np.arange(len(points)), False)
+REWRITERS[".ply"]({content!r}, new)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.stderr.splitlines()[-1].endswith(
+        "InvalidInput: the file was changed after it was read"
+    )
+
+
+def rewritten(content, suffix=".ply", **fields):
+    """What is read of the new content, and what it lost."""
+    new = REWRITERS[suffix](content, NewShape(**fields))
+    return symsurf.read(io.BytesIO(new.content), suffix[1:]), new.lost
 
 
 def test_a_cloud_is_completed_in_its_columns(broken_ball, tmp_path):

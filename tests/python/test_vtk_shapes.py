@@ -17,6 +17,7 @@ from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON,
     VTK_POLYGON,
+    vtkCellArray,
     vtkImageData,
     vtkMultiBlockDataSet,
     vtkPolyData,
@@ -199,6 +200,20 @@ def test_what_is_no_shape_is_an_error() -> None:
         assert detection.output.GetNumberOfPoints() == 0
     detection.SetInputDataObject(dented_ball())
     assert error_of(detection) == ""
+
+
+@pytest.mark.parametrize("point", [-1, 362, 10**9])
+@pytest.mark.parametrize("kind", ["Verts", "Lines", "Polys", "Strips"])
+def test_every_cell_names_points_that_are_there(kind: str, point: int) -> None:
+    ball = dented_ball()
+    cells = vtkCellArray()
+    cells.DeepCopy(getattr(ball, f"Get{kind}")())
+    cells.InsertNextCell(3, (0, 1, point))
+    getattr(ball, f"Set{kind}")(cells)
+    for data in (ball, blocks_of(dented_ball(), ball)):
+        for algorithm in (MirrorDetection, MirrorAsymmetry, PointDamage, SymmetryAnalysis):
+            said = error_of(algorithm(input_data=data))
+            assert f"a cell names point {point}; allowed is 0 to 361" in said
 
 
 def test_symsurf_detect_sees_the_same_points() -> None:

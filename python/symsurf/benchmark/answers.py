@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput
 from ..reading import read
-from ..saving.json_loading import mirror_from
+from ..saving.json_loading import content_of, mirror_from
 
 _IMAGES = (".ply", ".csv", ".xyz")
 _RECORDS = (".summary.json", ".json")
@@ -39,15 +38,12 @@ def answer_in(folder: Path, name: str, points: NDArray[np.float64]) -> Answer | 
     record = next((p for s in _RECORDS if (p := folder / f"{name}{s}").exists()), None)
     if record is None:
         return None if images is None else Answer(_images(images, points), "", True)
-    try:
-        said = json.loads(record.read_text())
+    with content_of(record, "no answer") as said:
         verdict = said.get("verdict") or said.get("statistics", {}).get("verdict", "found")
-        kind = said.get("kind") or (said.get("mirror") or {}).get("kind", "")
-        given = _images(images, points) if images else _over_mirror(said.get("mirror"), points)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        if isinstance(error, InvalidInput):
-            raise
-        raise InvalidInput(f"{record}: no answer ({error})") from error
+        kind = str(said.get("kind") or (said.get("mirror") or {}).get("kind", ""))
+        given = None if images else _over_mirror(said.get("mirror"), points)
+    if images:
+        given = _images(images, points)
     found = verdict == "found" and given is not None
     return Answer(given, kind if given is not None else "none", found)
 

@@ -13,6 +13,7 @@ from .._core import InvalidInput
 from ..plain import plain
 from ..reading import read
 from ..saving import write_whole
+from ..saving.json_loading import content_of
 from ..saving.ply_format import shape_ply_bytes
 from ..shape import Shape
 from .cases import BenchmarkSample
@@ -57,34 +58,28 @@ def _record(sample: BenchmarkSample) -> dict[str, Any]:
 def read_benchmark(folder: Path) -> list[BenchmarkSample]:
     """The cases of a folder that was written. Raises InvalidInput, naming the file, for a truth or
     points that are missing or broken."""
-    try:
-        records = json.loads((folder / TRUTH).read_text())["cases"]
-        return [_read(folder, record) for record in records]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        if isinstance(error, InvalidInput):
-            raise
-        raise InvalidInput(f"{folder / TRUTH}: not the truth of a benchmark ({error})") from error
+    with content_of(folder / TRUTH, "not the truth of a benchmark") as truth:
+        told = [_told(record) for record in truth["cases"]]
+    return [_read(folder, each) for each in told]
 
 
-def _read(folder: Path, record: dict[str, Any]) -> BenchmarkSample:
-    name, mirror = record["name"], dict(record["mirror"])
+def _told(record: dict[str, Any]) -> dict[str, Any]:
+    """What the truth says of a case."""
+    mirror = dict(record["mirror"])
+    return {
+        **{name: record[name] for name in ("name", "shape", "bend", "damage")},
+        **{name: float(record[name]) for name in ("asymmetry", "diagonal")},
+        "kind": mirror.pop("kind"),
+        "mirror": mirror,
+    }
+
+
+def _read(folder: Path, told: dict[str, Any]) -> BenchmarkSample:
+    name = told["name"]
     points = read(folder / "points" / f"{name}.ply").points
-    kind = mirror.pop("kind")
-    images = None if kind == "none" else read(folder / "images" / f"{name}.ply").points
+    images = None if told["kind"] == "none" else read(folder / "images" / f"{name}.ply").points
     if images is not None and len(images) != len(points):
         raise InvalidInput(
             f"{folder / 'images' / f'{name}.ply'} has {len(images)} images of {len(points)} points"
         )
-    return BenchmarkSample(
-        name,
-        record["shape"],
-        record["bend"],
-        record["damage"],
-        record["asymmetry"],
-        points,
-        images,
-        np.full(len(points), -1),
-        record["diagonal"],
-        kind,
-        mirror,
-    )
+    return BenchmarkSample(points=points, images=images, partners=np.full(len(points), -1), **told)

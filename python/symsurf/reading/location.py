@@ -12,6 +12,7 @@ from .._core import InvalidInput
 from .formats import PACKED
 
 if TYPE_CHECKING:
+    import bz2
     import gzip
 
 _BLOCK = 1 << 20  # bytes that are unpacked at once
@@ -36,11 +37,11 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
         file = Path(folder) / f"input{plain}"
         if suffix != plain:
             with gzip.open(stream or name) as content:
-                _copy(content, file)
+                copy_bounded(content, file)
         elif stream is None:
             file.symlink_to(os.path.abspath(name))
         else:
-            _copy(stream, file)
+            copy_bounded(stream, file)
         yield file
 
 
@@ -53,7 +54,7 @@ def _require_file(name: str) -> None:
         raise InvalidInput("the file is empty")
 
 
-def _copy(content: BinaryIO | gzip.GzipFile, file: Path) -> None:
+def copy_bounded(content: BinaryIO | gzip.GzipFile | bz2.BZ2File, file: Path) -> None:
     """As the core does, takes no more than half of the memory: few bytes may unpack to very many."""
     allowed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
     with file.open("wb") as copy:

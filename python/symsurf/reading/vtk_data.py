@@ -8,9 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyvista
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOLegacy import vtkDataSetReader
 from vtkmodules.vtkIOXML import (
@@ -54,7 +52,6 @@ def read(path: Path, threshold: float | None, scalars: str | None) -> Shape:
     for name, value in (("threshold", threshold), ("scalars", scalars)):
         if value is not None:
             raise InvalidParameter(f"{name} is {value!r}; allowed is None, as this is no image")
-    _require_sound_cells(data)
     return Shape.from_pyvista(data)
 
 
@@ -71,21 +68,3 @@ def _complaints_raised() -> Iterator[None]:
         vtkOutputWindow.SetInstance(before)
     if found := _COMPLAINT.search(window.GetOutput()):
         raise InvalidInput(f"VTK cannot read it: {found[1] or found[2]}")
-
-
-def _require_sound_cells(data: pyvista.DataSet) -> None:
-    """VTK's filters read what lies beside the points where a cell names one that is not there."""
-    if isinstance(data, pyvista.PolyData):
-        arrays = [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
-    elif isinstance(data, pyvista.UnstructuredGrid):
-        arrays = [data.GetCells()]
-    else:
-        return
-    for cells in arrays:
-        corners = vtk_to_numpy(cells.GetConnectivityArray())
-        ends = vtk_to_numpy(cells.GetOffsetsArray())
-        outside = corners[(corners < 0) | (corners >= data.n_points)]
-        if len(outside):
-            raise InvalidInput(f"a cell names point {outside[0]}; there are {data.n_points} points")
-        if len(ends) and (ends[0] != 0 or ends[-1] != len(corners) or (np.diff(ends) < 0).any()):
-            raise InvalidInput("its cells do not end where the next begin")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +20,31 @@ def load(path: str | os.PathLike[str]) -> Result[Mirror]:
     path = Path(path)
     if path.suffix.lower() != ".json":
         raise InvalidParameter(f"path is {str(path)!r}; allowed is the suffix .json")
+    with content_of(path, "no result that was saved") as record:
+        return _result(record)
+
+
+@contextmanager
+def content_of(path: Path, what: str) -> Iterator[Any]:
+    """What a JSON file holds. Raises InvalidInput, naming the file, for one that cannot be read, and
+    for whatever its content does to the code within: any value may stand where another should.
+
+    Args:
+        what: the reason, in words such as "not the truth of a sample".
+    """
     try:
-        record = json.loads(path.read_text())
+        content = json.loads(path.read_text())
     except OSError as error:
         raise InvalidInput(f"{path}: {error.strerror}") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise InvalidInput(f"{path}: no JSON ({error})") from error
     try:
-        return _result(record)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise InvalidInput(f"{path}: no result that was saved ({error!r})") from error
+        yield content
+    except MemoryError:
+        raise
+    except Exception as error:
+        reason = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+        raise InvalidInput(f"{path}: {what} ({' '.join(reason.split())})") from error
 
 
 def mirror_from(record: dict[str, Any], footprint: Any = None) -> Mirror:
@@ -52,11 +69,11 @@ def _found(
         surface_points=_rows(record.get("surface_points", []), 3, np.float64),
         pairs=_rows(record.get("pairs", []), 2, np.int64),
         residuals=np.array(record.get("residuals", []), dtype=np.float64),
-        score=_number(record["score"]),
+        score=_real("score", record["score"]),
         candidates=candidates or [],
         parameters=_values(record.get("parameters", {})),
         statistics=_values(record.get("statistics", {})),
-        seconds=record.get("seconds", 0.0),
+        seconds=_real("seconds", record.get("seconds", 0.0)),
     )
 
 
@@ -70,6 +87,13 @@ def _values(record: dict[str, Any]) -> dict[str, Any]:
 
 def _value(value: Any) -> Any:
     return np.array(value, dtype=np.float64) if isinstance(value, list) else _number(value)
+
+
+def _real(name: str, value: Any) -> float:
+    number = _number(value)
+    if isinstance(number, bool) or not isinstance(number, (int, float)):
+        raise InvalidInput(f"{name} is {number!r:.40}; allowed is a number")
+    return float(number)
 
 
 def _number(value: Any) -> Any:

@@ -44,11 +44,9 @@ class Faces(NamedTuple):
 
 
 def faces_of(data: vtkPolyData) -> Faces:
-    """Raises InvalidInput where a cell names a point that is not there."""
+    """Of data that ``shape_of`` gives, whose cells name points that are there."""
     if data.GetNumberOfPolys() + data.GetNumberOfStrips() == 0:
         return Faces(None, np.empty(0, np.int64))
-    for cells in (data.GetPolys(), data.GetStrips()):
-        require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
     polygons = vtkPolyData()
     polygons.SetPoints(data.GetPoints())
     polygons.SetPolys(data.GetPolys())

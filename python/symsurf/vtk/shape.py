@@ -7,6 +7,7 @@ from typing import Any
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray,
     vtkCompositeDataSet,
     vtkDataObject,
     vtkImageData,
@@ -29,9 +30,14 @@ def shape_of(
     """Poly data as they are; the surface of other point sets' cells, or their points where they have
     none; of an image the points whose scalar is greater; all blocks of a composite as one shape.
 
-    algorithm: its input array to process 0 says which scalars. Raises InvalidInput.
+    algorithm: its input array to process 0 says which scalars. Raises InvalidInput, also where a
+    cell names a point that is not there.
     """
-    if data is None or isinstance(data, vtkPolyData):
+    if data is None:
+        return None
+    if isinstance(data, vtkPolyData):
+        for cells in (data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()):
+            _require_points(cells, data)
         return data
     if isinstance(data, vtkPointSet):
         return _surface_of(data)
@@ -53,9 +59,12 @@ def _surface_of(data: vtkPointSet) -> vtkPolyData:
         points.GetFieldData().ShallowCopy(data.GetFieldData())
         return points
     if isinstance(data, vtkUnstructuredGrid):
-        named = vtk_to_numpy(data.GetCells().GetConnectivityArray())
-        require_points(named, data.GetNumberOfPoints())
+        _require_points(data.GetCells(), data)
     return _made(vtkGeometryFilter(), data)
+
+
+def _require_points(cells: vtkCellArray, data: vtkPointSet) -> None:
+    require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
 
 
 def _points_above(image: Any, algorithm: vtkAlgorithm, threshold: float) -> vtkPolyData:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
+from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts, texts
 
 _COORDINATES = ((b"x", b"points:0"), (b"y", b"points:1"), (b"z", b"points:2"))
 _NORMALS = ((b"nx", b"normals:0"), (b"ny", b"normals:1"), (b"nz", b"normals:2"))
@@ -12,7 +12,7 @@ _NORMALS = ((b"nx", b"normals:0"), (b"ny", b"normals:1"), (b"nz", b"normals:2"))
 
 def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
     comments, rows = [], []
-    for line in content.removeprefix(b"\xef\xbb\xbf").split(b"\n"):
+    for line in content.removeprefix(BYTE_ORDER_MARK).split(b"\n"):
         text = line.strip()
         if text.startswith((b"#", b"//")):
             comments.append(new.with_space(text))

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # of UTF-8, which the readers pass over
 _SPACE = re.compile(rb"SPACE=(RAS|LPS)")  # how 3D Slicer's files name their axes
 
 

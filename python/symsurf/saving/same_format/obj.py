@@ -7,14 +7,14 @@ import re
 
 import numpy as np
 
-from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts
+from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts
 
 _NORMAL = re.compile(rb"/[^/\s]*(?=\s|$)")  # what follows the second slash of a corner
 _CORNER = re.compile(rb"(\S+?/[^/\s]*)/[^/\s]*")
 
 
 def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
-    lines = content.split(b"\n")
+    lines = content.removeprefix(BYTE_ORDER_MARK).split(b"\n")
     coordinates = row_texts(new.points) if new.changes_points else []
     made: list[bytes] = []
     rests: list[bytes] = []

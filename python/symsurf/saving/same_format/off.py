@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts
+from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts
 
 
 def rewritten_off(content: bytes, new: NewShape) -> Rewritten:
-    rows = [row for row in map(_words, content.split(b"\n")) if row]
+    rows = [row for row in map(_words, content.removeprefix(BYTE_ORDER_MARK).split(b"\n")) if row]
     keyword, *counts = rows[0]
     if not counts:
         counts = rows.pop(1)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._core import InvalidInput
 from ...shape import Shape
 from ..ply_format import shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
@@ -24,7 +25,8 @@ _TYPES = {
     **dict.fromkeys(("double", "float64"), "f8"),
 }
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
-_END = re.compile(rb"^[ \t]*end_header[ \t]*\r?\n", re.MULTILINE)
+_END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
+_CHANGED = "the file was changed after it was read"
 
 
 @dataclass
@@ -39,7 +41,8 @@ class _Element:
 
 def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     end = _END.search(content)
-    assert end is not None  # it could be read
+    if end is None:
+        raise InvalidInput(_CHANGED)
     lines = content[: end.start()].splitlines()
     elements = _elements(lines)
     if not _is_plain(elements, new):
@@ -69,14 +72,25 @@ def _elements(lines: list[bytes]) -> list[_Element]:
 
 
 def _is_plain(elements: list[_Element], new: NewShape) -> bool:
-    """Whether the vertices come first, each of one size, and faces that are added have a place."""
+    """Whether the vertices come first, each of one size with a name a property, and faces that are
+    added have a place."""
     vertices, *rest = elements
     if vertices.name != b"vertex" or any(words[0] == b"list" for words in vertices.properties):
         return False
+    if len({words[-1] for words in vertices.properties}) < len(vertices.properties):
+        return False
     if not len(new.added_faces):
         return True
-    is_last = len(rest) == 1 and rest[0].name == b"face"
-    return is_last and [words[0] for words in rest[0].properties] == [b"list"]
+    if len(rest) != 1 or rest[0].name != b"face":
+        return False
+    kinds = [words[0] for words in rest[0].properties]
+    return kinds == [b"list"] and len(new.points) <= _count_held(rest[0].properties[0][2])
+
+
+def _count_held(kind: bytes) -> int:
+    """Of how many points a type holds every index."""
+    held = np.dtype(_TYPES[kind.decode()])
+    return 2 ** (np.finfo(held).nmant + 1) if held.kind == "f" else int(np.iinfo(held).max) + 1
 
 
 def _kept(element: _Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
@@ -127,6 +141,8 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
     rows: list[list[bytes]] = []
     position = 0
     while len(rows) < vertices.count:
+        if position > len(body):
+            raise InvalidInput(_CHANGED)
         end = body.find(b"\n", position)
         end = len(body) if end < 0 else end
         row = body[position:end].split()
