@@ -1,6 +1,7 @@
 #include "field_values.h"
 
 #include <cctype>
+#include <cmath>
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -13,7 +14,7 @@ namespace {
 
 std::string core_name(const std::string& name) {
   std::string text;
-  for (const char c : name) {
+  for (const unsigned char c : name) {
     if (std::isupper(c) && !text.empty()) text += '_';
     text += static_cast<char>(std::tolower(c));
   }
@@ -59,7 +60,8 @@ symsurf::Value value_of(vtkAbstractArray* array) {
   if (array->GetNumberOfValues() == 1) {
     const double value = data->GetComponent(0, 0);
     const bool is_real = array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT;
-    return is_real ? symsurf::Value(value) : symsurf::Value(static_cast<symsurf::Index>(value));
+    const bool is_index = !is_real && std::abs(value) < 0x1p63;
+    return is_index ? symsurf::Value(static_cast<symsurf::Index>(value)) : symsurf::Value(value);
   }
   if (array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 3)
     return symsurf::Vector3(data->GetTuple3(0));

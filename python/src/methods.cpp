@@ -25,8 +25,8 @@ void bind_methods(py::module_& module) {
       .def_readonly("choices", &Parameter::choices, "What is allowed; choices only.")
       .def_readonly("doc", &Parameter::doc, "One sentence.")
       .def("__repr__", [](const Parameter& p) {
-        return "<Parameter " + p.name + ": " + std::string(to_string(p.type)) + " " + p.range() +
-               ">";
+        return "<Parameter " + p.name + ": " + std::string(to_string(p.type)) + " " + p.allowed() +
+               ", default " + to_string(p.default_value) + ">";
       });
 
   py::class_<Method>(module, "Method", "The description of one method of detection.")
@@ -36,7 +36,8 @@ void bind_methods(py::module_& module) {
       .def_readonly("parameters", &Method::parameters)
       .def_readonly("minimum_points", &Method::minimum_points)
       .def_readonly("automatic", &Method::automatic, "Whether 'auto' tries it.")
-      .def("__repr__", [](const Method& m) { return "<Method " + m.name + ">"; });
+      .def("__repr__",
+           [](const Method& m) { return "<Method " + m.name + ": " + m.summary + ">"; });
 
   module.def(
       "methods",

@@ -77,7 +77,10 @@ void bind_mirror(py::module_& module) {
       module, "Mirror",
       "A surface of symmetry. The image of x is x + 2 (foot(x) - x), foot(x) being the point of\n"
       "the mirror that x maps through.")
-      .def_property_readonly("kind", [](const Mirror& m) { return std::string(m.kind()); })
+      .def_property_readonly(
+          "kind", [](const Mirror& m) { return std::string(m.kind()); },
+          "\"plane\", \"sphere\", \"cylinder\", \"quadric\", \"height field\" (of\n"
+          "fixed_direction), \"free-form\" (of perpendicular) or \"surface\" (a generator's).")
       .def_property_readonly(
           "numbers", [](const Mirror& m) { return to_python(m.numbers()); },
           "The numbers that define the mirror, by name.")
@@ -154,12 +157,15 @@ auto bind_kind(py::module_& module, const char* name, const char* doc,
 
 void bind_mirrors(py::module_& module) {
   bind_mirror(module);
-  module.def("make_mirror", &made, py::arg("kind"), py::arg("numbers"),
-             py::arg("footprint") = py::none(),
-             "The mirror of Mirror.kind and Mirror.numbers: how one comes back from a file.\n\n"
-             "footprint: points (n, 3) that stand for the object, for Mirror.mesh.\n"
-             "Raises InvalidInput for an unknown kind, or a number that is missing or of another\n"
-             "type.");
+  module.def(
+      "make_mirror", &made, py::arg("kind"), py::arg("numbers"), py::arg("footprint") = py::none(),
+      "The mirror of Mirror.kind and Mirror.numbers: how one comes back from a file.\n\n"
+      "numbers: those that the class of the kind lists, such as {\"normal\": (3,),\n"
+      "\"offset\": real} of a plane; a quadric's \"origin\", \"gradient\" and \"value\" come\n"
+      "before its linear and constant terms.\n"
+      "footprint: points (n, 3) that stand for the object, for Mirror.mesh.\n"
+      "Raises InvalidInput for an unknown kind, or a number that is missing or of another\n"
+      "type.");
 
   bind_kind<Plane>(module, "Plane", "The plane normal . x + offset = 0.",
                    {{"normal", "Unit normal (3,)."}, {"offset", "In input units."}})
