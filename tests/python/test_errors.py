@@ -27,7 +27,7 @@ def with_value(value):
         (7, "points are of type int; allowed are"),
         (symsurf.Plane((0, 0, 1), 0), "points are of type Plane; allowed are"),
         (b"points.ply", "points are of type bytes; allowed are"),
-        (np.float64(7), r"\(\).*\(n, 3\)"),
+        (np.float64(7), r"type float64.*\(n, 3\)"),
         ("points.ply", "points.ply: there is no such file"),
         ([], r"\(0,\).*\(n, 3\)"),
         ([[1, 2, 3], [1, 2]], "array"),
