@@ -21,7 +21,7 @@ BROWSER = [
     "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--hide-scrollbars", "--virtual-time-budget=20000",
+    "--hide-scrollbars", "--virtual-time-budget=60000",
 ]  # fmt: skip
 WIDTH, HEIGHT = 1000, 900
 
