@@ -2,7 +2,7 @@
 #include "operation_mirror.h"
 
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
+#include <symsurf/found_mirror.h>
 #include <symsurf/plane.h>
 
 #include "mirror_layer.h"
@@ -55,10 +55,7 @@ OperationMirror::OperationMirror(const LayerCloud& cloud, const Context& context
   Options options;
   options.faces = cloud.faces;
   const Result result = detect(cloud.points, options, context);
-  if (result.verdict() != "found")
-    throw InvalidInput("the layer has no mirror: " + result.reason() +
-                       "; choose a layer that holds one to use it all the same");
-  mirror_ = result.mirror;
+  mirror_ = found_mirror(result, "choose a layer that holds one to use it all the same");
   log_ =
       "found first: " + std::string(mirror_->kind()) + ", score " + to_string(Value(result.score));
 }

@@ -1,6 +1,7 @@
 #include "run_operation.h"
 
 #include <symsurf/detect.h>
+#include <symsurf/found_mirror.h>
 #include <symsurf/operation.h>
 
 #include "controller_communicator.h"
@@ -42,18 +43,16 @@ Eigen::VectorXd mask_of(vtkPolyData* input, const std::string& name) {
   return mask;
 }
 
-std::shared_ptr<symsurf::Mirror> found_mirror(const symsurf::OperationInput& input,
-                                              const std::string& method,
-                                              const symsurf::Context& context) {
+std::shared_ptr<symsurf::Mirror> mirror_by(const std::string& method,
+                                           const symsurf::OperationInput& input,
+                                           const symsurf::Context& context) {
   symsurf::Options options;
   options.method = method;
   options.faces = input.faces;
   options.refuse_nonfinite = true;
-  const symsurf::Result result = symsurf::detect(input.points, options, context);
-  if (result.mirror && result.verdict() == "found") return result.mirror;
-  throw symsurf::InvalidInput("the shape has no mirror: " + result.reason() +
-                              "; connect the output \"Mirror\" of a mirror detection to use it all "
-                              "the same");
+  return symsurf::found_mirror(
+      symsurf::detect(input.points, options, context),
+      "connect the output \"Mirror\" of a mirror detection to use it all the same");
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     const double found_at = given ? 0 : 0.6;
     const std::shared_ptr<symsurf::Mirror> mirror =
         given ? mirror_of(given)
-              : found_mirror(input, filter->GetMethod(), context.stage(0, found_at));
+              : mirror_by(filter->GetMethod(), input, context.stage(0, found_at));
     const symsurf::OperationResult result = symsurf::operate(
         call.operation, input, *mirror, call.parameters, context.stage(found_at, 1));
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
+#include <symsurf/errors.h>
+#include <symsurf/found_mirror.h>
 
 #include <string>
 
+#include "expect_error.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -24,6 +27,23 @@ TEST(Verdict, SaysWhatAutoTriedWhereNothingFits) {
   EXPECT_NE(result.reason().find("; " + result.method + " is the simplest of those"),
             std::string::npos)
       << result.reason();
+}
+
+TEST(Verdict, OfWhatNeedsAMirror) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Result none = detect(RandomCloud(seed).box(150), {.method = "plane"});
+    expect_error<InvalidInput>("the shape has no mirror: " + none.reason() + "; draw one",
+                               [&] { found_mirror(none, "draw one"); });
+    const Points half = RandomCloud(seed).box(60);
+    Points points(120, 3);
+    points << half, half * Vector3(-1, 1, 1).asDiagonal();
+    const Result found = detect(points, {.method = "plane"});
+    EXPECT_EQ(found_mirror(found, ""), found.mirror);
+  }
+  Result pairs_only;
+  pairs_only.method = "separation";
+  pairs_only.statistics = {{"verdict", std::string("found")}, {"reason", std::string()}};
+  expect_error<InvalidInput>("separation has no mirror", [&] { found_mirror(pairs_only, ""); });
 }
 
 // A plane is all that a well mirrored shape needs; asked for more, auto names what is missing.

@@ -198,7 +198,7 @@ def test_vertices_that_are_not_finite(filter_name):
 @pytest.mark.parametrize("filter_name", OPERATIONS)
 def test_a_layer_without_symmetry(filter_name):
     lengths = np.random.default_rng(0).random((60, 3)) ** 4
-    assert_refused(layer(lengths), filter_name, "the layer has no mirror: .*; choose a layer")
+    assert_refused(layer(lengths), filter_name, "the shape has no mirror: .*; choose a layer")
 
 
 @pytest.mark.parametrize("filter_name", [f for f in OPERATIONS if "symmetrization" in f])

@@ -10,6 +10,7 @@
 #include <symsurf/detect.h>
 #include <symsurf/downsample.h>
 #include <symsurf/errors.h>
+#include <symsurf/found_mirror.h>
 #include <symsurf/free_form.h>
 #include <symsurf/height_field.h>
 #include <symsurf/make_mirror.h>
