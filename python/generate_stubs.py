@@ -1,5 +1,5 @@
 """Writes the type stubs of what only exists at run time: the compiled module, and the functions
-made from the descriptions of methods and operations.
+made from the descriptions of methods, operations and analyses.
 
 Usage: generate_stubs.py BUILT STUBS. BUILT is the folder that holds the built package.
 """
@@ -51,6 +51,18 @@ def operations_stub() -> str:
     )
 
 
+def analyses_stub() -> str:
+    from symsurf.shape_analyses import functions
+
+    return _functions_stub(
+        functions,
+        "from numpy.typing import ArrayLike",
+        "",
+        "from ..detection import Progress",
+        "from .results import *",
+    )
+
+
 def _functions_stub(module: ModuleType, *imports: str) -> str:
     lines = [*imports, "", f"__all__ = {module.__all__}"]
     for function in (getattr(module, name) for name in module.__all__):
@@ -71,12 +83,15 @@ def _declaration(name: str, signature: inspect.Signature) -> list[str]:
 
 def main(built: str, stubs: str) -> None:
     sys.path[0] = built  # not the sources beside this script
-    folder = Path(stubs)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "_core.pyi").write_text(compiled_stub())
-    (folder / "detectors.pyi").write_text(detectors_stub())
-    (folder / "mirror_operations").mkdir(exist_ok=True)
-    (folder / "mirror_operations" / "functions.pyi").write_text(operations_stub())
+    for name, stub in {
+        "_core": compiled_stub(),
+        "detectors": detectors_stub(),
+        "mirror_operations/functions": operations_stub(),
+        "shape_analyses/functions": analyses_stub(),
+    }.items():
+        path = Path(stubs) / f"{name}.pyi"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(stub)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,8 @@ assert_type(symsurf.detect(points), symsurf.Result[symsurf.Mirror])
 assert_type(symsurf.Result.load("found.json"), symsurf.Result[symsurf.Mirror])
 assert_type(symsurf.asymmetry(points, max_angle=30.0), symsurf.Asymmetry)
 assert_type(symsurf.align("scan.ply", frame="ras").shape, symsurf.Shape)
+assert_type(symsurf.symmetries(points, minimum_score=0.5), symsurf.Symmetries)
+assert_type(symsurf.intrinsic_symmetry("scan.ply"), symsurf.IntrinsicSymmetry)
 plane = symsurf.Plane((1, 0, 0), 0)
 assert_type(plane == symsurf.Plane((0, 1, 0), 0), bool)
 assert_type(plane.reflect(symsurf.Shape(points)), symsurf.Shape)
@@ -44,6 +46,7 @@ WRONG = {
     "symsurf.detect_plane(points, pair_distance='2 mm')": "pair_distance",
     "symsurf.asymmetry(points).confidence": "confidence",
     "symsurf.asymmetry(points, speed=3)": "speed",
+    "symsurf.symmetries(points, minimum_scores=3)": "minimum_scores",
     "plane.reflect(symsurf.Shape(points)).colours": "colours",
 }
 
