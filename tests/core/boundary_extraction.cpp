@@ -119,8 +119,8 @@ TEST(Boundary, BodiesDifferFromSurfacesHoweverNoisy) {
       for (const Index count : {600, 4096, 20000}) {
         Points surface = dented_ball(random, count);
         std::mt19937_64 generator(seed);
-        std::normal_distribution<double> normal(0, noise * 3.5);
-        surface = surface.unaryExpr([&](double x) { return x + normal(generator); });
+        std::normal_distribution<double> normal;
+        surface = surface.unaryExpr([&](double x) { return x + noise * 3.5 * normal(generator); });
         EXPECT_FALSE(is_volumetric(surface)) << seed << ", noise " << noise << ", " << count;
       }
   }
