@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ._core import InvalidInput, Mirror, make_mirror
 from .saving import write_whole
 from .saving.json_format import mirror_record
-from .saving.json_loading import content_of, mirror_from
+from .saving.json_loading import content_of, mirror_from, pairs_from
 from .saving.points_format import write_points
 
 
@@ -58,8 +58,7 @@ def write_sample(path: Path, points: NDArray[np.float64], truth: Truth | None) -
 def read_truth(path: Path) -> Truth:
     """Raises InvalidInput, naming the file, for one that is missing or broken."""
     with content_of(path, "not the truth of a sample") as record:
-        pairs = np.array(record["pairs"], dtype=np.int64).reshape(-1, 2)
-        return Truth(mirror_from(record["mirror"]), pairs)
+        return Truth(mirror_from(record["mirror"]), pairs_from(record["pairs"]))
 
 
 def _rotated(mirror: Mirror, rotation: NDArray[np.float64]) -> Mirror:

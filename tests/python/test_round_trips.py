@@ -177,6 +177,8 @@ BROKEN = {
     "deep": 100_000 * "[",
     "deep objects": 100_000 * '{"a":',
     "infinite": f'{{"mirror": {PLANE}, "pairs": [[1e400, 0]]}}',
+    "fractions": f'{{"mirror": {PLANE}, "pairs": [[0.5, 1]]}}',
+    "words": f'{{"mirror": {PLANE}, "pairs": [["0", "1"]]}}',
     "too large": f'{{"mirror": {PLANE}, "pairs": [[{10**30}, 0]]}}',
     "huge": f'{{"mirror": {PLANE}, "pairs": [[{HUGE}, 0]]}}',
     "a huge vector": f'{{"mirror": {PLANE.replace("1", HUGE)}, "pairs": []}}',
@@ -207,6 +209,15 @@ def test_broken_json_is_named(content, tmp_path):
         with pytest.raises(symsurf.InvalidInput) as error:
             read(path)
         assert str(error.value).startswith(f"{path}: no") and "\n" not in str(error.value)
+
+
+def test_the_method_of_a_result_is_a_word(tmp_path):
+    points, mirror = mirrored_surface(200, 0)
+    path = tmp_path / "result.json"
+    symsurf.match(points, mirror).save(path)
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"method": 3}))
+    with pytest.raises(symsurf.InvalidInput, match="method is 3; allowed is a word"):
+        symsurf.Result.load(path)
 
 
 @pytest.mark.parametrize("field", ["score", "seconds"])

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter, Mirror, make_mirror
 from ..result import Result
@@ -64,10 +65,10 @@ def _found(
 ) -> Result[Mirror]:
     mirror = record["mirror"]
     return Result(
-        method=record["method"],
+        method=_text("method", record["method"]),
         mirror=None if mirror is None else mirror_from(mirror, footprint),
-        surface_points=_rows(record.get("surface_points", []), 3, np.float64),
-        pairs=_rows(record.get("pairs", []), 2, np.int64),
+        surface_points=np.array(record.get("surface_points", []), np.float64).reshape(-1, 3),
+        pairs=pairs_from(record.get("pairs", [])),
         residuals=np.array(record.get("residuals", []), dtype=np.float64),
         score=_real("score", record["score"]),
         candidates=candidates or [],
@@ -77,8 +78,12 @@ def _found(
     )
 
 
-def _rows(values: Any, columns: int, kind: type) -> Any:
-    return np.array(values, dtype=kind).reshape(-1, columns)
+def pairs_from(values: Any) -> NDArray[np.int64]:
+    """Pairs (m, 2) of a list. Raises InvalidInput, or ValueError for rows of another length."""
+    rows = np.array(values)
+    if rows.size and rows.dtype.kind != "i":
+        raise InvalidInput("pairs are not all indices; allowed are whole numbers of 64 bits")
+    return rows.astype(np.int64).reshape(-1, 2)
 
 
 def _values(record: dict[str, Any]) -> dict[str, Any]:
@@ -87,6 +92,12 @@ def _values(record: dict[str, Any]) -> dict[str, Any]:
 
 def _value(value: Any) -> Any:
     return np.array(value, dtype=np.float64) if isinstance(value, list) else _number(value)
+
+
+def _text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise InvalidInput(f"{name} is {value!r:.40}; allowed is a word")
+    return value
 
 
 def _real(name: str, value: Any) -> float:
