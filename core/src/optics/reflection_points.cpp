@@ -129,6 +129,7 @@ ReflectionPoints reflection_points(const Mirror& mirror, PointsView sources, con
   std::vector<std::vector<Reflection>> parts((sources.size() + grain - 1) / grain);
   parallel_for(context, sources.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
+      context.check();  // over a quadric near two planes a source takes long
       const LightPath path{sources[i], eye};
       add(path, i, find(path), parts[begin / grain]);
     }
