@@ -193,8 +193,4 @@ Counterparts::Limits limits_of(const ParameterValues& values, PointsView points)
           std::cos(values.real("max_angle") * std::numbers::pi / 180) - 1e-12};
 }
 
-double diagonal_of(PointsView points) {
-  return (points.matrix().colwise().maxCoeff() - points.matrix().colwise().minCoeff()).norm();
-}
-
 }  // namespace symsurf

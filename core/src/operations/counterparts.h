@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloud/diagonal.h"
 #include "mesh/triangle_mesh.h"
 
 namespace symsurf {
@@ -79,8 +80,5 @@ class Counterparts {
 Parameter max_distance();
 Parameter max_angle();
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
-
-/// Of the bounding box, in input units.
-double diagonal_of(PointsView points);
 
 }  // namespace symsurf

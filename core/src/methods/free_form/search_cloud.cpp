@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/quadratic_fit.h"
 #include "base/radix_sort.h"
+#include "cloud/diagonal.h"
 #include "cloud/surface_spacing.h"
 
 namespace symsurf::perpendicular {
@@ -77,18 +78,16 @@ std::vector<Index> spread_out(PointsView points, double radius, const Context& c
   return taken;
 }
 
-constexpr double least_radius = 0x1p-19;  // of the extent: cells have 20 bits an axis and a sign
+constexpr double least_radius = 0x1p-19;  // of the diagonal: cells have 20 bits an axis and a sign
 
 std::vector<Index> thinned(PointsView points, Index most, const Context& context) {
   std::vector<Index> all(points.size());
   std::iota(all.begin(), all.end(), Index{0});
   if (points.size() <= most) return all;
   // Points at random are 0.75 of a lattice's spacing apart when thinned to the same number.
-  const double extent =
-      (points.matrix().colwise().maxCoeff() - points.matrix().colwise().minCoeff()).norm();
   double radius = 0.75 * sampled_spacing(points, context) *
                   std::sqrt(static_cast<double>(points.size()) / static_cast<double>(most));
-  radius = std::max(radius, least_radius * extent);
+  radius = std::max(radius, least_radius * diagonal_of(points));
   std::vector<Index> taken = spread_out(points, radius, context);
   while (static_cast<Index>(taken.size()) > most + most / 4) {
     radius *= std::sqrt(static_cast<double>(taken.size()) / static_cast<double>(most));

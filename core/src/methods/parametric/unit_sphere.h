@@ -14,8 +14,8 @@ namespace symsurf {
 class SphereStep;
 
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:
-/// F(x) = k/2 |x - p|^2 + n . (x - p) = 0 through the point p with the unit normal n there. Of
-/// either sign, its sign is the side it bends to. It is a |x|^2 + b . x + c with |b|^2 - 4 a c = 1
+/// F(x) = k/2 |x - p|^2 + n . (x - p) = 0 through the point p with the unit normal n there. The
+/// sign of k is the side it bends to. It is a |x|^2 + b . x + c with |b|^2 - 4 a c = 1
 /// (Pratt, Direct least-squares fitting of algebraic surfaces, 1987): a = k/2, b = n - k p,
 /// c = k/2 |p|^2 - n . p.
 struct UnitSphere {

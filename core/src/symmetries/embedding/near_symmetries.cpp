@@ -28,7 +28,7 @@ using Maps = std::vector<NearSymmetry>;
 class Search {
  public:
   Search(PointsView points, const PointTree& tree, const Context& context)
-      : points_(points), tree_(tree), context_(context) {
+      : tree_(tree), context_(context) {
     found_.centre = points.matrix().colwise().mean().transpose();
     rows_ = (points.matrix().rowwise() - found_.centre.transpose()).transpose();
     radii_ = rows_.colwise().norm();
@@ -179,7 +179,8 @@ class Search {
   }
 
   void add_near(double tolerance) {
-    const std::vector<Index> few = farthest_points(points_, landmarks, context_);
+    const std::vector<Index> few =
+        farthest_points({rows_.data(), rows_.cols()}, landmarks, context_);
     std::vector<Index> many;
     for (Index i = 0; i < radii_.size(); i += std::max<Index>(1, radii_.size() / compared))
       many.push_back(i);
@@ -240,7 +241,6 @@ class Search {
     return nearest;
   }
 
-  PointsView points_;
   const PointTree& tree_;
   const Context& context_;
   Columns rows_;  // the points from their centroid
