@@ -12,8 +12,8 @@ from .cad import KINDS, cad_mesh
 from .icp import best_plane
 from .nearly_symmetric import shape_of
 from .pieces import Mesh, box, loft
-from .poses import Points, diagonal, random_rotation
-from .solids import bent, bumps, mirrored_mesh, sampled
+from .poses import Points, diagonal, random_rotation, turned
+from .solids import bent, bumps, lacking, mirrored_mesh, sampled
 from .symmetric_parts import turned as revolved
 
 Rng = np.random.Generator
@@ -27,7 +27,26 @@ ONE_PLANE = ("ant", "airplane", "cow", "face", "blob", "chair", "aircraft", "rif
 
 
 def symmetric(subject: str, rng: Rng) -> tuple[Points, NDArray[np.int64], Plane]:
-    """Vertices, faces and the plane of a body; one of a CAD kind may be named too."""
+    """Vertices, faces and the plane of a body in a random pose; a CAD kind may be named too."""
+    vertices, faces, plane = _standing(subject, rng)
+    return in_pose(vertices, faces, plane, rng)
+
+
+def one_of(subjects: tuple[str, ...], rng: Rng) -> str:
+    """Any whose files are there."""
+    return str(rng.choice([subject for subject in subjects if not lacking(subject)]))
+
+
+def in_pose(
+    vertices: Points, faces: NDArray[np.int64], plane: Plane, rng: Rng
+) -> tuple[Points, NDArray[np.int64], Plane]:
+    rotation = random_rotation(rng)
+    posed = turned(plane, rotation)
+    assert isinstance(posed, Plane)
+    return vertices @ rotation.T, faces, posed
+
+
+def _standing(subject: str, rng: Rng) -> tuple[Points, NDArray[np.int64], Plane]:
     if subject == "skull":
         vertices, faces, marks, partners = shape_of(subject, rng)
         return vertices, faces, best_plane(marks, partners)
@@ -49,7 +68,7 @@ def _blob(rng: Rng, rings: int = 49, sides: int = 96) -> Mesh:
     ways = np.stack([x, y, np.broadcast_to(np.cos(polar), x.shape)], axis=-1).reshape(-1, 3)
     folded = np.column_stack([ways[:, 0] ** 2, ways[:, 1:]])
     radii = bumps(folded, rng)
-    return loft((ways * radii[:, None] * rng.uniform(0.5, 1, size=3)).reshape(rings, sides, 3))
+    return loft((ways * radii[:, None] * rng.uniform((0.7, 0.5, 0.5), 1)).reshape(rings, sides, 3))
 
 
 def _plate(rng: Rng) -> Mesh:
