@@ -19,7 +19,8 @@ Rng = np.random.Generator
 SIZES = (1000, 3000, 10_000, 30_000, 100_000)
 DENSITY_SIZES = (2000, 8000, 30_000)
 COUNT = 8000
-MIRRORED = tuple(subject for subject in SYMMETRIC if subject != "skull")
+MIRRORED = ("ant", "airplane", "cow", "face", "CAD", "blob", "pot", "shell")
+"""Bodies whose images are exact, and no face so near to another that it stands for it."""
 
 
 def _drift(name: str, share: float) -> Case:
@@ -158,7 +159,7 @@ CASES = (
     _uneven(3, 0.95),
     _uneven(5, 0.9),
     Case("judgement, one side cut", MIRRORED, _cut, {"off": at_most(0.05), "monotone": at_least(1)}),
-    Case("judgement, cut, result over the true plane", (*SYMMETRIC,), _below,
+    Case("judgement, cut, result over the true plane", SYMMETRIC, _below,
          {"never below": at_least(1)}),
     Case("judgement, meshes of thin faces", ("prism", "can", "chair", "aircraft", "rifle"),
          _thin_faces, {"off even": at_most(0.03), "angle": at_most(0.3)}),

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import symsurf
-from symsurf import Cylinder, Mirror, Plane, Sphere
+from symsurf import Mirror, Plane, Sphere
 
+from .bodies import STEEPEST
 from .cad import KINDS, cad_mesh
 from .icp import best_plane
 from .nearly_symmetric import shape_of
@@ -72,7 +73,7 @@ def _blob(rng: Rng, rings: int = 49, sides: int = 96) -> Mesh:
 
 
 def _plate(rng: Rng) -> Mesh:
-    """About 200 x 300, 2 to 40 thick; its plane crosses the width, the length or the thickness."""
+    """About 200 x 300 and 2 to 40 thick; its plane crosses the width, the length or the thickness."""
     size = np.array([rng.uniform(100, 250), rng.uniform(250, 400), rng.uniform(2, 40)])
     return box((0, 0, 0), np.roll(size, rng.integers(3)))
 
@@ -130,24 +131,26 @@ class Cut:
 
 def arched(points: Points, plane: Plane, kind: str, sag: float) -> tuple[Points, Mirror]:
     """Points about a plane that was bent into a cylinder or sphere, and that mirror. In the middle it
-    is a share ``sag`` of the diagonal above its rims."""
-    feet = plane.project(points)
-    feet -= (feet.max(axis=0) + feet.min(axis=0)) / 2
+    is a share ``sag`` of the diagonal above its rims, less where points reach too far from it."""
     ways = np.linalg.svd(plane.normal[None])[2][1:]
-    rise = sag * diagonal(points)
+    height = plane.signed_distance(points)[:, None]
+    rise, least = sag * diagonal(points), float(np.abs(height).max()) / STEEPEST
     if kind == "cylinder":
         reach = max(np.ptp(points @ way) for way in ways) / 2
-        # rise = radius - radius cos(reach / radius), to the first order of rise / reach.
-        mirror: tuple[Points, Cylinder] = bent(points, plane, reach**2 / (2 * rise) / (2 * reach))
-        return mirror
-    u, v = (feet @ way for way in ways)
-    out = np.hypot(u, v)
-    radius = out.max() ** 2 / (2 * rise)
-    turn = (np.sinc(out / radius / np.pi) / radius)[:, None]
-    ways_out = np.column_stack([u, v]) * turn
-    normal = np.column_stack([ways_out, np.cos(out / radius)])
-    height = plane.signed_distance(points)[:, None]
+        return bent(points, plane, max(least, _radius(reach, rise)) / (2 * reach))
+    u, v = (points @ way for way in ways)
+    across = np.column_stack([u - (u.max() + u.min()) / 2, v - (v.max() + v.min()) / 2])
+    out = np.linalg.norm(across, axis=1)
+    radius = max(least, _radius(out.max(), rise))
+    sine_over_out = np.sinc(out / radius / np.pi) / radius
+    normal = np.column_stack([across * sine_over_out[:, None], np.cos(out / radius)])
     return (radius + height) * normal, Sphere((0, 0, 0), radius)
+
+
+def _radius(reach: float, rise: float) -> float:
+    """Of an arc that is so high over its ends, ``reach`` from its middle along it; to the first order
+    of their ratio."""
+    return reach**2 / (2 * rise)
 
 
 def turned_about(points: Points, mirror: Mirror, rng: Rng) -> tuple[Points, Points]:

@@ -101,5 +101,5 @@ CASES = (
     _none("handed", HANDED, 0.95, 20),
     Case("judgement, time of auto over plane",
          tuple(f"{body} {size}" for size in TIMED_SIZES for body in SCANS), _time,
-         {"times plane": at_most(3), "within 3": at_least(1)}, trials=5),
+         {"times plane": at_most(3), "within 3": at_least(1)}, trials=7),
 )  # fmt: skip
