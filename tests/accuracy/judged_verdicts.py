@@ -10,6 +10,7 @@ from symsurf import Plane
 
 from .case import Case, Figures, at_least, at_most, timed_detect
 from .damage import noise
+from .icp import best_plane
 from .judged_shapes import SYMMETRIC, Cut, matched, symmetric
 from .mirrorless import BODIES, HANDED, mirrorless
 from .nearly_symmetric import smooth_field
@@ -17,6 +18,8 @@ from .poses import Points, random_rotation
 from .solids import sampled
 
 Rng = np.random.Generator
+Damaged = tuple[Points, Plane]
+"""What is left, and its true plane."""
 
 COUNT = 4096
 SIZES = (1000, 4000, 10_000)
@@ -25,27 +28,31 @@ TIMED_SIZES = (1000, 4000, 10_000, 100_000)
 TIMED_RUNS = 3  # of ``plane``, whose least time counts
 
 
-def _whole(points: Points, plane: Plane, rng: Rng) -> Points:
-    return points
+def _whole(points: Points, plane: Plane, rng: Rng) -> Damaged:
+    return points, plane
 
 
-def _noisy(points: Points, plane: Plane, rng: Rng) -> Points:
-    return noise(points, 0.01, rng)
+def _noisy(points: Points, plane: Plane, rng: Rng) -> Damaged:
+    return noise(points, 0.01, rng), plane
 
 
-def _unlike(points: Points, plane: Plane, rng: Rng) -> Points:
-    return points + smooth_field(points, 0.01, rng)(points)
+def _unlike(points: Points, plane: Plane, rng: Rng) -> Damaged:
+    """With the plane that is nearest to exchanging what the two sides have become."""
+    field, images = smooth_field(points, 0.01, rng), plane.reflect(points)
+    points, images = points + field(points), images + field(images)
+    both = np.vstack([points, images]), np.vstack([images, points])
+    return points, best_plane(*both)
 
 
-def _cut(points: Points, plane: Plane, rng: Rng) -> Points:
+def _cut(points: Points, plane: Plane, rng: Rng) -> Damaged:
     """Two fifths of one side, a fifth of all, are gone."""
-    return points[Cut(points, plane, rng).kept(0.4)[0]]
+    return points[Cut(points, plane, rng).kept(0.4)[0]], plane
 
 
-def _found(name: str, damage: Callable[[Points, Plane, Rng], Points]) -> Case:
+def _found(name: str, damage: Callable[[Points, Plane, Rng], Damaged]) -> Case:
     def run(subject: str, rng: Rng) -> Figures:
         vertices, faces, plane = symmetric(subject, rng)
-        points = damage(sampled(vertices, faces, COUNT, rng), plane, rng)
+        points, truth = damage(sampled(vertices, faces, COUNT, rng), plane, rng)
         result, seconds = timed_detect(points, "auto")
         found = result.verdict == "found"
         kind = result.mirror.kind if result.mirror else ""
@@ -54,7 +61,7 @@ def _found(name: str, damage: Callable[[Points, Plane, Rng], Points]) -> Case:
             "found": float(found),
             "kind plane": float(kind == "plane"),
             "score": result.score,
-            "true plane": matched(points, plane),
+            "true plane": matched(points, truth),
             "seconds": seconds,
         }
 

@@ -15,7 +15,7 @@ from .solids import ASYMMETRIC, asymmetric, sampled
 from .without_mirror import handed
 
 Rng = np.random.Generator
-UNLIKE = 0.08  # of the diagonal: how far a tetrahedron's corners are from any images, at least
+UNLIKE = 0.15  # of the diagonal: how far a tetrahedron's corners are from any images, at least
 
 
 def _room(rng: Rng) -> Mesh:
@@ -26,7 +26,7 @@ def _room(rng: Rng) -> Mesh:
         box((-0.05, long / 2, high / 2), (0.1, long, high)),
         box((wide / 2, -0.05, high / 2), (wide, 0.1, high)),
     ]
-    for _ in range(rng.integers(6, 13)):
+    for _ in range(rng.integers(3, 13)):
         size = rng.uniform(0.3, 1.6, size=3)
         x, y = rng.uniform(size[:2] / 2, np.array([wide, long]) - size[:2] / 2)
         pieces.append(box((x, y, size[2] / 2), size))
@@ -78,7 +78,7 @@ def _tetrahedron(rng: Rng) -> Mesh:
 
 
 def _tetracube(rng: Rng) -> Mesh:
-    """Four blocks in a screw, of steps of their own along each axis."""
+    """Four cubes in a screw, or blocks of other steps along each axis."""
     cells = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)])
     quads = []
     for cell in cells:
@@ -89,7 +89,8 @@ def _tetracube(rng: Rng) -> Mesh:
                     continue
                 square = np.insert([(0, 0), (1, 0), (1, 1), (0, 1)], axis, side, axis=1)
                 quads.append(cell + square)
-    corners = np.vstack(quads) * rng.uniform(0.8, 1.25, size=3)
+    spread = rng.choice([0, 0.2])
+    corners = np.vstack(quads) * rng.uniform(1 - spread, 1 + spread, size=3)
     first = 4 * np.arange(len(quads))[:, None]
     return corners, np.vstack([first + [0, 1, 2], first + [0, 2, 3]])
 
