@@ -2,6 +2,9 @@
 #include <symsurf/errors.h>
 #include <symsurf/symmetries.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "random_cloud.h"
@@ -66,6 +69,75 @@ TEST(Symmetries, OfABoxAreThoseOfItsPlanes) {
     for (const Plane& plane : found.planes)
       EXPECT_GT((rotation.transpose() * plane.normal()).cwiseAbs().maxCoeff(), 1 - 1e-6);
   }
+}
+
+// Some points in general position and all their images, turned, shifted and shuffled.
+Points orbits_of(const PointGroup& group, Index count, RandomCloud& random) {
+  const Matrix3 rotation = random.rotation();
+  const Vector3 shift = 3 * random.in_box();
+  const Points seeds = random.box(count);
+  std::vector<Vector3> rows;
+  for (const Vector3 seed : seeds.rowwise())
+    for (const Matrix3& element : group.elements)
+      rows.insert(rows.begin() + random.below(static_cast<Index>(rows.size()) + 1),
+                  rotation * (element * seed) + shift);
+  Points points(static_cast<Index>(rows.size()), 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) = rows[i].transpose();
+  return points;
+}
+
+TEST(Symmetries, OfSmallSetsAreExact) {
+  std::vector<PointGroup> groups{axial_group(1, {}), reflection_group(), inversion_group()};
+  for (const Index order : {2, 3, 4, 5, 6, 7, 12})
+    for (const AxialElements& has : std::vector<AxialElements>{{},
+                                                               {.across = true},
+                                                               {.rotary = true},
+                                                               {.vertical = true},
+                                                               {.twofold = true},
+                                                               {.across = true, .vertical = true},
+                                                               {.rotary = true, .vertical = true}})
+      groups.push_back(axial_group(order, has));
+  for (const Index highest : {3, 4, 5})
+    for (const bool inversion : {false, true})
+      groups.push_back(polyhedral_group(highest, inversion, inversion));
+  groups.push_back(polyhedral_group(3, false, true));
+  for (std::uint64_t seed = 0; seed < 3; ++seed)
+    for (const PointGroup& group : groups)
+      for (const Index count : {3, 7}) {
+        RandomCloud random(seed);
+        const Points points =
+            orbits_of(group, std::max<Index>(count, group.name == "C1" ? 9 : 3), random);
+        const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+        const Symmetries found = find_symmetries(points);
+        EXPECT_EQ(found.group, group.name) << seed << ' ' << points.rows();
+        EXPECT_EQ(found.elements.size(), group.elements.size()) << group.name;
+        EXPECT_EQ(found.planes.size(), group.plane_normals().size()) << group.name;
+        EXPECT_EQ(found.axes.size(), group.axes().size()) << group.name;
+        EXPECT_EQ(found.score, 1);
+        for (const Matrix4& element : found.elements)
+          for (const Vector3 x : points.rowwise()) {
+            const Vector3 image = (element * x.homogeneous()).head<3>();
+            EXPECT_LT((points.rowwise() - image.transpose()).rowwise().norm().minCoeff(),
+                      1e-9 * size)
+                << group.name;
+          }
+      }
+}
+
+// Eight corners, in single precision; the atoms of a flat molecule, whose plane is a mirror.
+TEST(Symmetries, OfMolecules) {
+  RandomCloud random(1);
+  const Matrix3 rotation = random.rotation();
+  Points cube(8, 3), ring(12, 3);
+  for (Index i = 0; i < 8; ++i) cube.row(i) << (i & 1 ? 1 : -1), (i & 2 ? 1 : -1), (i & 4 ? 1 : -1);
+  for (Index i = 0; i < 12; ++i) {
+    const double angle = std::numbers::pi / 3 * static_cast<double>(i % 6);
+    ring.row(i) = (i < 6 ? 1.39 : 2.48) * Vector3(std::cos(angle), std::sin(angle), 0).transpose();
+  }
+  cube = (cube * rotation.transpose()).cast<float>().cast<double>().eval();
+  ring = (ring * rotation.transpose()).cast<float>().cast<double>().eval();
+  EXPECT_EQ(find_symmetries(cube).group, "Oh");
+  EXPECT_EQ(find_symmetries(ring).group, "D6h");
 }
 
 TEST(Symmetries, RefusesScoresThatThereAreNot) {

@@ -38,13 +38,15 @@ struct SymmetryOptions {
   double minimum_score = 0.7;     ///< of a group, [0, 1]
 };
 
-/// Finds the point group of a shape. A group counts where its elements map the shape onto itself
-/// wherever it has points, where hardly any point is confirmed by too few of its images, as a
-/// bottle's handle is when the bottle is turned, and where at most a third of the images fall where
-/// the shape has none. Orders are products of primes up to 31 and their powers up to 64, 128 at
-/// most. Groups of turns about several axes without any mirror (T, O, I) are found only where the
-/// principal axes are among theirs. Throws InvalidInput and Cancelled as detect() does,
-/// InvalidParameter for minimum_score.
+/// Finds the point group of a shape. Of at most 1000 points without faces, as landmarks and the
+/// atoms of a molecule are, it is that of all isometries that map each point onto one of them, to
+/// the rounding of single precision, where there are any but the identity. Otherwise a group counts
+/// where its elements map the shape onto itself wherever it has points, where hardly any point is
+/// confirmed by too few of its images, as a bottle's handle is when the bottle is turned, and where
+/// at most a third of the images fall where the shape has none. Orders are products of primes up to
+/// 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any mirror
+/// (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput and
+/// Cancelled as detect() does, InvalidParameter for minimum_score.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});
 

@@ -52,7 +52,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   searching.preprocessing.sample_faces = true;
   searching.preprocessing.merge_duplicates = true;
   searching.run = [&](const Cloud& cloud, const ParameterValues&, const Context& running) {
-    found = search_symmetries(cloud, options.minimum_score, running);
+    found = search_symmetries(cloud, options.faces.empty(), options.minimum_score, running);
     return Result{};
   };
   Cloud cloud;

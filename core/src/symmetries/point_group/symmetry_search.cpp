@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "symmetries/point_group/element_search.h"
+#include "symmetries/point_group/exact_group.h"
 #include "symmetries/point_group/point_group.h"
 #include "symmetries/point_group/symmetry_test.h"
 
@@ -24,6 +25,34 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
   const Vector3 z = pose.axes.col(2), across = (x - x.dot(z) * z).normalized();
   pose.axes << across, z.cross(across), z;
   return pose;
+}
+
+Symmetries described(const PlacedGroup& placed, const OrbitVote& vote,
+                     const PrincipalFrame& frame) {
+  const auto to_input = [&](const Vector3& direction) -> Vector3 {
+    return frame.axes * (placed.pose.axes * direction);
+  };
+  Symmetries found;
+  found.group = placed.group.name;
+  found.centre = frame.from_frame(placed.pose.centre);
+  for (const Vector3& normal : placed.group.plane_normals()) {
+    const Vector3 unit = placed.pose.axes * normal;
+    found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
+  }
+  for (const PointGroup::Axis& axis : placed.group.axes())
+    found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
+  found.inversion = placed.group.inversion();
+  for (const Matrix3& element : placed.group.elements) {
+    const Matrix3 axes = frame.axes * placed.pose.axes;
+    Matrix4 matrix = Matrix4::Identity();
+    if (!element.isIdentity(0))  // else it would be one but for rounding
+      matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
+    matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
+    found.elements.push_back(matrix);
+  }
+  found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
+  found.missing = vote.missing;
+  return found;
 }
 
 class SymmetrySearch {
@@ -42,7 +71,7 @@ class SymmetrySearch {
         if (std::optional<Symmetries> found = verified(*placed)) return *found;
     if (std::optional<Symmetries> found = axial()) return *found;
     if (std::optional<Symmetries> found = of_two()) return *found;
-    return described({{}, {}}, {.support = 1});
+    return described({{}, {}}, {.support = 1}, cloud_.frame);
   }
 
  private:
@@ -224,35 +253,7 @@ class SymmetrySearch {
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
-    return described({placed.group, passed->pose}, passed->vote);
-  }
-
-  Symmetries described(const Placed& placed, const OrbitVote& vote) const {
-    const PrincipalFrame& frame = cloud_.frame;
-    const auto to_input = [&](const Vector3& direction) -> Vector3 {
-      return frame.axes * (placed.pose.axes * direction);
-    };
-    Symmetries found;
-    found.group = placed.group.name;
-    found.centre = frame.from_frame(placed.pose.centre);
-    for (const Vector3& normal : placed.group.plane_normals()) {
-      const Vector3 unit = placed.pose.axes * normal;
-      found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
-    }
-    for (const PointGroup::Axis& axis : placed.group.axes())
-      found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
-    found.inversion = placed.group.inversion();
-    for (const Matrix3& element : placed.group.elements) {
-      const Matrix3 axes = frame.axes * placed.pose.axes;
-      Matrix4 matrix = Matrix4::Identity();
-      if (!element.isIdentity(0))  // else it would be one but for rounding
-        matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
-      matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
-      found.elements.push_back(matrix);
-    }
-    found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
-    found.missing = vote.missing;
-    return found;
+    return described({placed.group, passed->pose}, passed->vote, cloud_.frame);
   }
 
   const Cloud& cloud_;
@@ -264,7 +265,11 @@ class SymmetrySearch {
 
 }  // namespace
 
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context) {
+Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
+                             const Context& context) {
+  if (is_set)
+    if (const std::optional<PlacedGroup> exact = exact_group(cloud, context))
+      return described(*exact, {.support = 1}, cloud.frame);
   return SymmetrySearch(cloud, minimum_score, context).run();
 }
 
