@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "random_cloud.h"
@@ -138,6 +139,73 @@ TEST(Symmetries, OfMolecules) {
   ring = (ring * rotation.transpose()).cast<float>().cast<double>().eval();
   EXPECT_EQ(find_symmetries(cube).group, "Oh");
   EXPECT_EQ(find_symmetries(ring).group, "D6h");
+}
+
+// Drawn evenly over a box, about its middle.
+Points on_box(const Vector3& size, Index count, RandomCloud& random) {
+  const Vector3 areas(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
+  Points points = random.box(count);
+  for (Index i = 0; i < count; ++i) {
+    double at = random.uniform(0, areas.sum());
+    int axis = 0;
+    while (axis < 2 && at >= areas[axis]) at -= areas[axis++];
+    points(i, axis) = points(i, axis) < 0 ? -1 : 1;
+    points.row(i) = points.row(i).cwiseProduct(size.transpose() / 2);
+  }
+  return points;
+}
+
+// Drawn evenly over a cone or a part of one about z.
+Points on_cone(double from, double to, double from_radius, double to_radius, Index count,
+               RandomCloud& random) {
+  const double widest = std::max(from_radius, to_radius);
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i) {
+    double share = 0, radius = 0;
+    do {
+      share = random.uniform(0, 1);
+      radius = from_radius + share * (to_radius - from_radius);
+    } while (random.uniform(0, widest) > radius);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), from + share * (to - from);
+  }
+  return points;
+}
+
+Points joined(const std::vector<Points>& parts) {
+  Index count = 0;
+  for (const Points& part : parts) count += part.rows();
+  Points all(count, 3);
+  count = 0;
+  for (const Points& part : parts) {
+    all.middleRows(count, part.rows()) = part;
+    count += part.rows();
+  }
+  return all;
+}
+
+// Slanted blades and a hub alone have half turns across the axis. A nose on one side of the hub, a
+// twentieth of the area, has none.
+TEST(Symmetries, HoldForSmallPartsToo) {
+  for (const Index blades : {3, 4, 5}) {
+    RandomCloud random(static_cast<std::uint64_t>(blades));
+    std::vector<Points> parts;
+    for (Index k = 0; k < blades; ++k) {
+      const double angle =
+          2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(blades);
+      const Points blade =
+          on_box({90, 22, 4}, 3000, random) * turn(Vector3::UnitX(), 0.6).transpose();
+      parts.push_back((blade.rowwise() + Eigen::RowVector3d(60, 0, 0)) *
+                      turn(Vector3::UnitZ(), angle).transpose());
+    }
+    parts.push_back(on_cone(-12, 12, 16, 16, 1500, random));
+    const Points hub = joined(parts);
+    parts.push_back(on_cone(12, 30, 16, 2, 150 * blades + 300, random));
+    const Matrix3 rotation = random.rotation();
+    const std::string turns = std::to_string(blades);
+    EXPECT_EQ(find_symmetries(Points(hub * rotation)).group, "D" + turns);
+    EXPECT_EQ(find_symmetries(Points(joined(parts) * rotation)).group, "C" + turns);
+  }
 }
 
 TEST(Symmetries, RefusesScoresThatThereAreNot) {
