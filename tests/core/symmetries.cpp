@@ -208,6 +208,27 @@ TEST(Symmetries, HoldForSmallPartsToo) {
   }
 }
 
+// A set whose points mirror each other, then one of them moved.
+TEST(Symmetries, SayHowFarTheyAreOff) {
+  RandomCloud random(3);
+  const Points half = random.box(300);
+  Points points(600, 3);
+  points << half, half * Vector3(-1, 1, 1).asDiagonal();
+  points *= 10;
+  const Symmetries exact = find_symmetries(points);
+  ASSERT_EQ(exact.group, "Cs");
+  ASSERT_EQ(exact.max_deviations.size(), 2u);
+  EXPECT_EQ(exact.max_deviations[0], 0);
+  EXPECT_LT(exact.max_deviations[1], 1e-12);
+  Points moved = points;
+  moved.row(0) += Eigen::RowVector3d(0, 1e-5, 0);  // within the rounding of single precision
+  const Symmetries found = find_symmetries(moved, {.tolerance = 1e-4});
+  ASSERT_EQ(found.group, "Cs");
+  EXPECT_NEAR(found.max_deviations[1], 1e-5, 1e-7);
+  EXPECT_EQ(find_symmetries(moved, {.tolerance = 1e-6}).group, "C1");
+  EXPECT_THROW(find_symmetries(points, {.tolerance = -1}), InvalidParameter);
+}
+
 TEST(Symmetries, RefusesScoresThatThereAreNot) {
   const Points points = RandomCloud(0).box(100);
   EXPECT_THROW(find_symmetries(points, {.minimum_score = -0.1}), InvalidParameter);

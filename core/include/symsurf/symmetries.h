@@ -27,6 +27,10 @@ struct Symmetries {
   /// Every element on homogeneous columns (x, y, z, 1), the identity first; of a continuous group
   /// those that, with the turns about the continuous axes, make up all.
   std::vector<Matrix4> elements;
+  /// Of each element how far it takes the shape off itself, input units: the greatest distance from
+  /// the image of a vertex to the surface, of a cloud from that of a point to the nearest point. Of
+  /// large shapes by a sample of their points.
+  std::vector<double> max_deviations;
   double score = 1;    ///< how well images lie on the shape where it has points, 0 to 1
   double missing = 0;  ///< share of the images that fall where it has none: what is cut away
   double seconds = 0;  ///< that it took
@@ -36,6 +40,7 @@ struct SymmetryOptions {
   TrianglesView faces = {};       ///< optional, between the points, as detect() takes them
   bool refuse_nonfinite = false;  ///< whether a point that is not finite is an error
   double minimum_score = 0.7;     ///< of a group, [0, 1]
+  double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: any
 };
 
 /// Finds the point group of a shape. Of at most 1000 points without faces, as landmarks and the
@@ -46,7 +51,7 @@ struct SymmetryOptions {
 /// at most a third of the images fall where the shape has none. Orders are products of primes up to
 /// 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any mirror
 /// (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput and
-/// Cancelled as detect() does, InvalidParameter for minimum_score.
+/// Cancelled as detect() does, InvalidParameter for minimum_score and tolerance.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});
 

@@ -57,8 +57,12 @@ Symmetries described(const PlacedGroup& placed, const OrbitVote& vote,
 
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Cloud& cloud, double minimum_score, const Context& context)
-      : cloud_(cloud), context_(context), test_(cloud, minimum_score, context.stage(0, 0.4)) {}
+  SymmetrySearch(const Cloud& cloud, double minimum_score,
+                 const std::function<bool(Symmetries&)>& accepts, const Context& context)
+      : cloud_(cloud),
+        accepts_(accepts),
+        context_(context),
+        test_(cloud, minimum_score, context.stage(0, 0.4)) {}
 
   Symmetries run() {
     planes_ = find_planes(test_);
@@ -71,7 +75,9 @@ class SymmetrySearch {
         if (std::optional<Symmetries> found = verified(*placed)) return *found;
     if (std::optional<Symmetries> found = axial()) return *found;
     if (std::optional<Symmetries> found = of_two()) return *found;
-    return described({{}, {}}, {.support = 1}, cloud_.frame);
+    Symmetries none = described({{}, {}}, {.support = 1}, cloud_.frame);
+    accepts_(none);
+    return none;
   }
 
  private:
@@ -253,10 +259,13 @@ class SymmetrySearch {
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
-    return described({placed.group, passed->pose}, passed->vote, cloud_.frame);
+    Symmetries found = described({placed.group, passed->pose}, passed->vote, cloud_.frame);
+    if (!accepts_(found)) return {};
+    return found;
   }
 
   const Cloud& cloud_;
+  const std::function<bool(Symmetries&)>& accepts_;
   const Context& context_;
   SymmetryTest test_;
   std::vector<FoundDirection> planes_, axes_;
@@ -266,11 +275,14 @@ class SymmetrySearch {
 }  // namespace
 
 Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
+                             const std::function<bool(Symmetries&)>& accepts,
                              const Context& context) {
   if (is_set)
-    if (const std::optional<PlacedGroup> exact = exact_group(cloud, context))
-      return described(*exact, {.support = 1}, cloud.frame);
-  return SymmetrySearch(cloud, minimum_score, context).run();
+    if (const std::optional<PlacedGroup> exact = exact_group(cloud, context)) {
+      Symmetries found = described(*exact, {.support = 1}, cloud.frame);
+      if (accepts(found)) return found;
+    }
+  return SymmetrySearch(cloud, minimum_score, accepts, context).run();
 }
 
 }  // namespace symsurf
