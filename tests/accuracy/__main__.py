@@ -16,6 +16,9 @@ from . import (
     deformed,
     exact,
     intrinsic,
+    judged_bends,
+    judged_scores,
+    judged_verdicts,
     kinds,
     nearly_symmetric,
     operations,
@@ -31,8 +34,8 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           intrinsic, operations, partial, recurring, scores, symmetries,
-           without_mirror)  # fmt: skip
+           intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, recurring,
+           scores, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

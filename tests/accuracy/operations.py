@@ -46,7 +46,7 @@ def _vertex_normals(points: Points, faces: Faces) -> Points:
     return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
 
 
-def _bumped(
+def bumped(
     points: Points, faces: Faces, plane: Mirror, height: float, rng: np.random.Generator
 ) -> tuple[Points, NDArray[np.intp], NDArray[np.bool_]]:
     """The points with a bump on one side, so high; its top, and what lies far from it and from its
@@ -68,7 +68,7 @@ def _bump(subject: str, rng: np.random.Generator) -> Figures:
     name, kind = subject.split()
     points, faces, plane = _mesh(name)
     height = rng.uniform(0.005, 0.02) * diagonal(points)
-    raised, top, far = _bumped(points, faces, plane, height, rng)
+    raised, top, far = bumped(points, faces, plane, height, rng)
     flat, mirror = _bend(points, plane, kind)
     shape, _ = _bend(raised, plane, kind)
     result = symsurf.asymmetry(shape, mirror, faces=faces, threads=1)
@@ -81,7 +81,7 @@ def _bump(subject: str, rng: np.random.Generator) -> Figures:
 
 def _dent(subject: str, rng: np.random.Generator) -> Figures:
     points, faces, plane = _mesh(subject)
-    dented, _, far = _bumped(points, faces, plane, -0.02 * diagonal(points), rng)
+    dented, _, far = bumped(points, faces, plane, -0.02 * diagonal(points), rng)
     shape, _ = _bend(dented, plane, "cylinder")
     over = {
         method: symsurf.asymmetry(

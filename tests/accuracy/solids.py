@@ -111,10 +111,10 @@ def _radii(kind: str, count: int, rng: np.random.Generator) -> tuple[Points, NDA
     """Random directions, and how far the solid reaches there."""
     directions = rng.normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    return directions, (_bumps if kind == "bumpy" else _facets)(directions, rng)
+    return directions, (bumps if kind == "bumpy" else _facets)(directions, rng)
 
 
-def _bumps(directions: Points, rng: np.random.Generator) -> NDArray[np.float64]:
+def bumps(directions: Points, rng: np.random.Generator) -> NDArray[np.float64]:
     waves = rng.normal(size=(12, 3)) * rng.uniform(1, 4, size=(12, 1))
     phases = rng.uniform(0, 2 * np.pi, size=12)
     bumps = np.cos(directions @ waves.T + phases) @ rng.normal(size=12)

@@ -14,6 +14,8 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"
+#include "score/ball.h"
+#include "score/cloud_halves.h"
 #include "spatial/nearest_points.h"
 #include "spatial/point_tree.h"
 
@@ -24,7 +26,7 @@ class MirrorSides;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
-  double share = 0;         ///< mean support of the points that the mirror moves, at most 1
+  double share = 0;         ///< of the points that the mirror moves; sampling may take it past 1
   double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
   double evidence = 0;      ///< of a mirror of any shape, that it is none of chance's, in nats
@@ -33,35 +35,24 @@ struct MirrorFit {
 /// What a map does with one of the points that the score is measured at.
 struct PointFit {
   std::size_t point = 0;  ///< which of them
-  double weight = 0;      ///< what it counts: less where the map hardly moves it
+  double weight = 0;      ///< what it counts: its ceiling, less where the map hardly moves it
   double support = 0;     ///< so much of that for the map; may be negative
   double missing = 0;     ///< so much of that is lost as the cloud has less where its image falls
   double rim = 0;         ///< so much of that is lost as the cloud has less around the point itself
   bool exact = false;     ///< its image is a point of the cloud, to rounding
 };
 
-/// The score of all kinds of mirror: the mean support of points spread evenly over the cloud.
+/// The score of all kinds of mirror: the share of the cloud that the mirror maps onto it as well as
+/// the cloud maps onto itself.
 ///
-/// A point whose image is a point of the cloud has support 1. Around any other the cloud and its
-/// mirror image are compared within a ball. With r the distance of their means across the surface
-/// and c = (n . n')^2 the consistency of their normals,
-///
-///   support = c / (1 + (r / near)^2) - penalty (r / far)^2 exp(1 - (r / far)^2):
-///
-/// near 1 where the image lies on the surface, negative where it just misses it, 0 in the void. The
-/// balls have a fixed size, and the cloud is thinned to a fixed number of points: from some
-/// thousand points on the score hardly depends on the sampling nor, as means lose noise, on noise.
-/// Inside a volume, where any image has neighbours, only a partner nearer than chance would put it
-/// counts.
+/// The cloud is split at random into halves A and B. At points spread evenly over the cloud s is
+/// how well the image of B says what A says (BallSupport), and c, the ceiling, how well B itself
+/// does: the score is the sum of s over that of c. What the sampling, the noise and the distance of
+/// layers leave unsaid is so in both. A point whose image is a point of the cloud counts 1 in both.
 class MirrorScore {
  public:
-  /// What a cell of the thinned cloud counts: the same where it holds some points, so that density
-  /// hardly matters, or as many as it holds, so that where cells divide a noisy surface does not.
-  enum class Cells { alike, by_points };
-
   /// The cloud and its points must outlive the score. Collective, as all that follows.
-  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context,
-              Cells cells = Cells::alike);
+  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The same of a third of the points: enough to see which mirrors are worth refining.
@@ -78,70 +69,31 @@ class MirrorScore {
                 const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
 
  private:
-  // The points in a ball, with weights that fall to 0 at its rim. In the principal frame.
-  struct Ball {
-    double count = 0;                // of points, sparse ones less
-    double effective = 0;            // points of equal weight with the same variance
-    Vector3 mean = Vector3::Zero();  // from the centre
-    Matrix3 covariance = Matrix3::Zero();
-  };
-  // How a ball's points spread along their principal axes.
-  struct Spread {
-    Vector3 variances;  // ascending
-    Matrix3 axes;
-    Vector3 thinness;  // 0..1: 1 where they spread as little as a surface's, 0 as a volume's
-    double flatness;   // 0..1: do they have a normal?
-
-    Spread(const Matrix3& covariance, double radius);
-    double surface() const { return thinness.maxCoeff(); }
-  };
   struct Sample {
     Vector3 position;
-    Ball ball;
-    double surface;  // 0..1: how well the ball defines where the surface lies
-    double density;  // 0..1: less where next to no others are, as among clutter
-
-    double weight() const { return weighed(surface, 1, 1); }
-    // Of what the surface, and what the inside of a body says, so much of each as there is.
-    double weighed(double surface, double on_surface, double in_body) const;
-  };
-
-  struct Support {
-    double on_surface;
-    double missing, rim;  // 0..1: where the image's or the sample's ball has fewer points
-    double surface;       // the sample's, where the image defines it better
+    std::size_t split;  // whose halves it is compared in
+    Ball ball;          // of one half
+    double ceiling;     // support of the other half for it
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
-  // image(x) in input units; image_ball(x), of the cloud's image around x, in the principal frame.
+  // image(x) in input units; image_ball(sample), of the other half's image, in the principal frame.
   template <typename Image, typename ImageBall>
   std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,
                                    std::size_t stride, MirrorLayers* layers,
                                    MirrorSides* sides) const;
+  static void add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
+                        MirrorSides& sides);
   MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
                      const MirrorLayers* layers, const MirrorSides* sides) const;
-  void choose_radius();
+  double radius_for(const CloudHalves& halves) const;
   double measured_noise() const;
-  // The thinned points, or their images.
-  struct PointSet {
-    PointSet(Points rows, std::vector<double> weights)
-        : points(std::move(rows)), weights(std::move(weights)), tree(points) {}
-    Points points;
-    std::vector<double> weights;  // 0..1: less where the cloud is sparse, as among clutter
-    PointTree tree;
-  };
-
-  Ball ball_of(const PointSet& set, const Vector3& x) const;
-  static PointSet thinned(const Surfels& fine, Cells cells);
-  PointSet mirrored(const Mirror& mirror) const;
-  Support supported(const Sample& sample, const Ball& image) const;
-  void add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
-                 MirrorSides& sides) const;
+  ThinnedHalf mirrored(const ThinnedHalf& half, const Mirror& mirror) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
-  Surfels coarse_, fine_;
-  PointSet thinned_;  // the means of fine cells
+  Surfels coarse_;
+  std::vector<CloudHalves> splits_;
   double radius_;     // of the balls
   double noise_ = 0;  // standard deviation, in diagonals
   double moved_;      // displacement from which on a point counts in full

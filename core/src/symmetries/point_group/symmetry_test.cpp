@@ -39,7 +39,7 @@ SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Conte
       points_(cloud.points, tree_, context.stage(0.2, 0.2)),
       coarse_(cloud, surfels, context.stage(0.2, 0.4)),
       fine_(cloud, coarse_, context.stage(0.4, 0.6)),
-      score_(cloud, points_, context.stage(0.6, 1), MirrorScore::Cells::by_points),
+      score_(cloud, points_, context.stage(0.6, 1)),
       fit_(cloud, tree_, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {

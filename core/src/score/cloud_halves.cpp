@@ -1,0 +1,127 @@
+#include "score/cloud_halves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "base/math.h"
+#include "base/random.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index most_points = 32768;  // drawn of larger clouds: some in each of the least cells
+constexpr double least_cell = 0.01;   // diagonals: some forty in the smallest ball on a surface
+constexpr Index asked = 500;          // points whose neighbours say how sparse the cloud is
+constexpr Index neighbours = 7;       // the nearest is the point itself
+constexpr double sparse = 0.9;        // quantile
+// Where the density differs a cell of the sparse part must not be empty by chance, as few of the
+// dense are: e^-2.5 are. `by_chance`: that quantile over the median in points spread at random.
+constexpr double by_chance = 1.26, most_wider = 1.6;
+
+// Random, and the same wherever the point lies in the cloud's order, however it is turned: a cell
+// of 2^-30 diagonals holds it before and after rounding.
+struct Drawn {
+  std::uint64_t key;
+  Vector3 x;
+  bool operator<(const Drawn& other) const {
+    return key != other.key
+               ? key < other.key
+               : std::lexicographical_compare(x.begin(), x.end(), other.x.begin(), other.x.end());
+  }
+  bool operator==(const Drawn& other) const { return key == other.key; }
+};
+
+std::uint64_t key_of(const Vector3& x, std::size_t split) {
+  std::uint64_t key = split;
+  for (const double coordinate : x)
+    key = Random(key ^ static_cast<std::uint64_t>(std::llround(coordinate * 0x1p30))).bits();
+  return key;
+}
+
+std::vector<Drawn> drawn_points(const Cloud& cloud, std::size_t split) {
+  const double share = std::min(
+      1.0, static_cast<double>(most_points) / static_cast<double>(cloud.partition.total()));
+  const auto most_key = static_cast<std::uint64_t>(share * 0x1p63);
+  std::vector<Drawn> own;
+  for (Index i = 0; i < cloud.points.size(); ++i) {
+    const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
+    if (const std::uint64_t key = key_of(x, split); key >> 1 <= most_key) own.push_back({key, x});
+  }
+  std::vector<Drawn> all = cloud.partition.concatenate(own);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+Points every_other(const std::vector<Drawn>& drawn, std::size_t first) {
+  Points points(static_cast<Index>((drawn.size() + 1 - first) / 2), 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    points.row(i) = drawn[first + 2 * static_cast<std::size_t>(i)].x.transpose();
+  return points;
+}
+
+// As wide as the seven nearest points lie where they are sparse: on a surface, each cell has some.
+double cell_of(const Points& points) {
+  const PointTree tree(points);
+  std::vector<double> reach;
+  std::vector<Neighbour> nearest;
+  for (Index i = 0; i < std::min(asked, points.rows()); ++i) {
+    tree.nearest(points.row(i).transpose(), neighbours, nearest);
+    reach.push_back(std::sqrt(nearest.back().squared_distance));
+  }
+  if (reach.empty()) return least_cell;
+  const double disc = std::sqrt((neighbours - 1) / std::numbers::pi);  // spacings that it reaches
+  const double typical = median(reach), widest = quantile(std::move(reach), sparse);
+  const double wider = std::clamp(widest / (by_chance * typical), 1.0, most_wider);
+  return std::max(least_cell, wider * widest / disc);
+}
+
+Points cell_means(const Points& points, double cell) {
+  struct Entry {
+    std::int64_t x, y, z;
+    Index row;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries;
+  const auto in_cells = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell)); };
+  for (Index i = 0; i < points.rows(); ++i)
+    entries.push_back({in_cells(points(i, 0)), in_cells(points(i, 1)), in_cells(points(i, 2)), i});
+  std::sort(entries.begin(), entries.end());
+  std::vector<Vector3> means;
+  for (std::size_t begin = 0, end; begin < entries.size(); begin = end) {
+    Vector3 sum = Vector3::Zero();
+    for (end = begin; end < entries.size() && entries[end].x == entries[begin].x &&
+                      entries[end].y == entries[begin].y && entries[end].z == entries[begin].z;
+         ++end)
+      sum += points.row(entries[end].row).transpose();
+    means.push_back(sum / static_cast<double>(end - begin));
+  }
+  return rows_of(means);
+}
+
+// On a grid that no symmetry of the principal frame maps onto the other's.
+Points turned_cell_means(const Points& points, double cell) {
+  const Matrix3 turn = Eigen::AngleAxisd(1, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  return cell_means(points * turn, cell) * turn.transpose();
+}
+
+}  // namespace
+
+struct CloudHalves::Split {
+  explicit Split(const std::vector<Drawn>& drawn)
+      : one(every_other(drawn, 0)), two(every_other(drawn, 1)), cell(cell_of(one)) {}
+  Points one, two;
+  double cell;
+};
+
+CloudHalves::CloudHalves(const Cloud& cloud, std::size_t split)
+    : CloudHalves(Split(drawn_points(cloud, split))) {}
+
+CloudHalves::CloudHalves(const Split& split)
+    : cell(split.cell), one(cell_means(split.one, cell)), two(turned_cell_means(split.two, cell)) {}
+
+}  // namespace symsurf
