@@ -94,8 +94,12 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", InputWarning)  # it is told in the record
             _perform(task, record, progress)
+    except (InvalidParameter, ImportError):
+        raise
     except (InvalidInput, OSError, MemoryError) as error:
         record["error"] = _one_line(task.file, error)
+    except Exception as error:  # which nobody foresaw, and which is no reason to lose other files
+        record["error"] = _one_line(task.file, Exception(f"{type(error).__name__}: {error}"))
     record["seconds_in_all"] = time.perf_counter() - started
     return record
 
