@@ -36,6 +36,7 @@ def batch(
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
     threshold: float | None = None,
+    label: int | str | None = None,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
     """Finds the mirror of each of many files, and does the operation with it.
@@ -57,7 +58,7 @@ def batch(
             in PLY where that cannot hold what the operation gives each point; of "detect" a small
             JSON file each.
         unit: of the coordinates, such as "mm": a label for the rows.
-        threshold: of masks and images; see ``read``.
+        threshold, label: of masks and images; see ``read``.
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
@@ -91,6 +92,7 @@ def batch(
             threads=each,
             unit=unit,
             threshold=threshold,
+            label=label,
             outputs=tuple(outputs.get(path, ())),
         )
         for path in paths
@@ -151,7 +153,7 @@ def _submitted(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record
                 record = future.result()
             except (BrokenExecutor, InvalidParameter, ImportError):
                 raise
-            except Exception as error:
+            except Exception as error:  # noqa: BLE001 - each executor has its own
                 reason = f"{type(error).__name__}: {error}"
                 record = failed(
                     task, f"the executor did not finish it ({' '.join(reason.split())})"

@@ -1,4 +1,4 @@
-"""Calling a function in a process of its own, which may die or eat memory without harm to this one."""
+"""Calling functions in a process of its own, which may die or eat memory without harm to this one."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 
@@ -15,47 +16,68 @@ class ProcessDied(Exception):
     """The process ended without an answer."""
 
 
-def call(module: str, function: str, *arguments: Any, memory: int | None = None) -> Any:
-    """What the function gives or raises there. The process imports this package, and nothing of the
-    caller's script.
+def call(module: str, function: str, *arguments: Any) -> Any:
+    """What the function, of these names, gives or raises there.
 
-    Args:
-        module, function: their names.
-        memory: the most bytes that the process may have.
-
-    Raises ProcessDied. In a host that has no Python to run, such as one it is built into, the function
-    runs in this process.
+    The process imports this package, and nothing of the caller's script. It stays for the next call,
+    with no more memory than the machine has, and ends with this one. In a host that has no Python to
+    run, such as one it is built into, the function runs in this process. Raises ProcessDied.
     """
+    global _process
     python = _python()
     if python is None:
         return getattr(import_module(module), function)(*arguments)
-    answer, to_parent = os.pipe()
-    request = pickle.dumps((module, function, arguments, memory))
-    command = [python, "-c", f"from {__name__} import answer; answer({to_parent})"]
-    paths = [str(Path(__file__).parents[1]), *filter(None, sys.path)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
-    try:
-        child = subprocess.Popen(
-            command,
+    with _lock:
+        while True:
+            process = _process
+            if process is None or process.parent != os.getpid():
+                process = _Process(python)
+            _process = None
+            try:
+                is_error, value = process.answer(module, function, arguments)
+                break
+            except ProcessDied:
+                if not process.answers:  # else perhaps of an earlier call
+                    raise
+        _process = process
+    if is_error:
+        raise value
+    return value
+
+
+class _Process:
+    def __init__(self, python: str) -> None:
+        self.parent, self.answers = os.getpid(), 0
+        answers, to_parent = os.pipe()
+        paths = [str(Path(__file__).parents[1]), *filter(None, sys.path)]
+        self._child = subprocess.Popen(
+            [python, "-c", f"from {__name__} import serve; serve({to_parent})"],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             pass_fds=[to_parent],
-            env=environment,
+            env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
         )
-    finally:
         os.close(to_parent)
-    with child, open(answer, "rb") as stream:
+        self._answers = os.fdopen(answers, "rb")
+
+    def answer(self, *request: Any) -> tuple[bool, Any]:
+        assert self._child.stdin is not None
         try:
-            assert child.stdin is not None
-            child.stdin.write(request)
-            child.stdin.close()
-            is_error, value = pickle.load(stream)
+            self._child.stdin.write(pickle.dumps(request))
+            self._child.stdin.flush()
+            value = pickle.load(self._answers)
         except (EOFError, pickle.UnpicklingError, BrokenPipeError) as error:
+            self._answers.close()
+            self._child.kill()
+            self._child.communicate()
             raise ProcessDied from error
-    if is_error:
-        raise value
-    return value
+        self.answers += 1
+        return value
+
+
+_process: _Process | None = None
+_lock = Lock()
 
 
 def _python() -> str | None:
@@ -66,18 +88,25 @@ def _python() -> str | None:
     return None
 
 
-def answer(descriptor: int) -> None:
-    """The other end of ``call``."""
-    module, function, arguments, memory = pickle.load(sys.stdin.buffer)
-    if memory is not None:
-        import resource
+def serve(descriptor: int) -> None:
+    """The other end of ``call``: answers until its parent is gone."""
+    import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    try:
-        value = (False, getattr(import_module(module), function)(*arguments))
-    except Exception as error:  # the caller's to judge
-        value = (True, error)
-    except BaseException as error:  # so are panics of libraries in Rust
-        value = (True, RuntimeError(str(error)))
-    with open(descriptor, "wb") as stream:
-        stream.write(pickle.dumps(value))
+    limit, hard = resource.getrlimit(resource.RLIMIT_AS)
+    machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    limits = [each for each in (limit, machine) if each != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_AS, (min(limits), hard))
+    with open(descriptor, "wb") as answers:
+        while True:
+            try:
+                module, function, arguments = pickle.load(sys.stdin.buffer)
+            except EOFError:
+                return
+            try:
+                value = (False, getattr(import_module(module), function)(*arguments))
+            except Exception as error:  # noqa: BLE001 - it is the caller's to judge
+                value = (True, error)
+            except BaseException as error:  # noqa: BLE001 - and so are panics of libraries in Rust
+                value = (True, RuntimeError(str(error)))
+            answers.write(pickle.dumps(value))
+            answers.flush()
