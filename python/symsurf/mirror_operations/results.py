@@ -43,8 +43,8 @@ class OperationResult(Summarised):
         faces = made["faces"] if len(made["faces"]) else None
         frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
         return cls(
-            given=Shape(made["given"], made["given_faces"], space=made.get("space")),
-            shape=Shape(made["points"], faces, space=frame or made.get("space")),
+            given=Shape(made["given"], made["given_faces"], space=made["space"]),
+            shape=Shape(made["points"], faces, space=frame or made["space"]),
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
