@@ -8,6 +8,7 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
+from select import select
 from threading import Lock
 from typing import Any
 
@@ -16,12 +17,24 @@ class ProcessDied(Exception):
     """The process ended without an answer."""
 
 
-def call(module: str, function: str, *arguments: Any) -> Any:
+def call(
+    module: str,
+    function: str,
+    *arguments: Any,
+    memory: int | None = None,
+    seconds: float | None = None,
+) -> Any:
     """What the function, of these names, gives or raises there.
 
     The process imports this package, and nothing of the caller's script. It stays for the next call,
-    with no more memory than the machine has, and ends with this one. In a host that has no Python to
-    run, such as one it is built into, the function runs in this process. Raises ProcessDied.
+    and ends with this one. In a host that has no Python to run, such as one it is built into, the
+    function runs in this process.
+
+    Args:
+        memory: the most bytes that the process may have; without it those of the machine.
+        seconds: until it is ended; without it, it has any time.
+
+    Raises ProcessDied.
     """
     global _process
     python = _python()
@@ -34,7 +47,7 @@ def call(module: str, function: str, *arguments: Any) -> Any:
                 process = _Process(python)
             _process = None
             try:
-                is_error, value = process.answer(module, function, arguments)
+                is_error, value = process.answer(module, function, arguments, memory, seconds)
                 break
             except ProcessDied:
                 if not process.answers:  # else perhaps of an earlier call
@@ -63,9 +76,12 @@ class _Process:
 
     def answer(self, *request: Any) -> tuple[bool, Any]:
         assert self._child.stdin is not None
+        *asked, seconds = request
         try:
-            self._child.stdin.write(pickle.dumps(request))
+            self._child.stdin.write(pickle.dumps(asked))
             self._child.stdin.flush()
+            if not select([self._answers], [], [], seconds)[0]:
+                raise EOFError
             value = pickle.load(self._answers)
         except (EOFError, pickle.UnpicklingError, BrokenPipeError) as error:
             self._answers.close()
@@ -92,16 +108,17 @@ def serve(descriptor: int) -> None:
     """The other end of ``call``: answers until its parent is gone."""
     import resource
 
-    limit, hard = resource.getrlimit(resource.RLIMIT_AS)
+    inherited, hard = resource.getrlimit(resource.RLIMIT_AS)
     machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    limits = [each for each in (limit, machine) if each != resource.RLIM_INFINITY]
-    resource.setrlimit(resource.RLIMIT_AS, (min(limits), hard))
+    most = machine if inherited == resource.RLIM_INFINITY else min(machine, inherited)
     with open(descriptor, "wb") as answers:
         while True:
             try:
-                module, function, arguments = pickle.load(sys.stdin.buffer)
+                module, function, arguments, memory = pickle.load(sys.stdin.buffer)
             except EOFError:
                 return
+            limit = most if memory is None else min(most, memory)
+            resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
             try:
                 value = (False, getattr(import_module(module), function)(*arguments))
             except Exception as error:  # noqa: BLE001 - it is the caller's to judge

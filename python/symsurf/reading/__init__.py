@@ -117,7 +117,7 @@ def _read(name: str, suffix: str, stream: BinaryIO | None, choice: Choice) -> Sh
                 raise InvalidInput(str(error).removeprefix(f"{file.absolute()}: ")) from error
             except ProcessDied as error:
                 raise InvalidInput(
-                    f"broken {described.name} (the process that read it died)"
+                    f"broken {described.name} (its reader died, or took too much memory or time)"
                 ) from error
         _require_sound(shape)
     except InvalidInput as error:

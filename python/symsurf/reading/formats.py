@@ -18,6 +18,23 @@ PACKED = ".gz"
 Reader = Callable[[Path, Choice], Shape]
 
 
+# What a reader's own process may take: a packed mask unpacks to a thousand times its bytes, by zlib.
+_MEMORY, _MEMORY_A_BYTE = 2 << 30, 1000
+_SECONDS, _SECONDS_A_BYTE = 60, 1e-5
+
+
+def _elsewhere(module: str, path: Path, choice: Choice) -> Shape:
+    size = path.stat().st_size
+    return call(
+        module,
+        "read",
+        path,
+        choice,
+        memory=_MEMORY + _MEMORY_A_BYTE * size,
+        seconds=_SECONDS + _SECONDS_A_BYTE * size,
+    )
+
+
 @dataclass(frozen=True)
 class Format:
     """A format, told by the suffix of a file's name."""
@@ -47,7 +64,7 @@ class Format:
                     f"pip install 'symsurf[{self.extra}]'"
                 )
         module = f"{__package__}.{self.reader}"
-        return partial(call, module, "read") if self.may_die else import_module(module).read
+        return partial(_elsewhere, module) if self.may_die else import_module(module).read
 
 
 _CORE = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt", ".fcsv")
