@@ -5,6 +5,7 @@ from __future__ import annotations
 import bz2
 import gzip
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -142,6 +143,12 @@ def nifti(
     return head + values.astype(values.dtype.newbyteorder(order)).tobytes("F")
 
 
+def _lying(sides: Sequence[int]) -> bytes:
+    content = bytearray(nifti(slope=0.5))
+    struct.pack_into("<4h", content, 40, 3, *sides)
+    return bytes(content)
+
+
 def _spacings(form: str) -> list[float]:
     return [1.5, 2.0, 3.0] if form == "sform" else [1.0, 1.0, 1.0]
 
@@ -155,6 +162,14 @@ def _by_nibabel(suffix: str, make: Any) -> tuple[str, Any]:
     return suffix, write
 
 
+REFUSED_NIFTI = {
+    _lying((1500, 1500, 1500)): "truncated: its values end at byte 3375000352",
+    _lying((32000, 32000, 32000)): "truncated",
+}
+REFUSED_NRRD = {
+    nrrd(encoding=encoding).replace(b"sizes: 5 6 4", b"sizes: 90000 90000 90000"): "729000000000000"
+    for encoding in ("raw", "gzip", "ascii")
+}
 _KINDS = (np.int8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.float32, np.float64)
 NIFTI: dict[str, Any] = {
     "plain": nifti(),

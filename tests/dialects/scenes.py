@@ -200,6 +200,11 @@ REFUSED_GLTF = {
     gltf(change=lambda tree: tree["accessors"][0].pop("bufferView")): "no data",
     gltf(change=lambda tree: tree["accessors"][0].update(count=9_000_000_000)): "truncated",
     gltf(change=lambda tree: tree["buffers"][0].update(byteLength=10**12)): "truncated",
+    gltf(
+        change=lambda tree: tree["accessors"].__setitem__(
+            0, {"componentType": 5126, "count": 2 * 10**9, "type": "VEC3", "sparse": {"count": 0}}
+        )
+    ): "no data",
     gltf(change=lambda tree: tree["buffers"][0].update(uri="none.bin")): "none.bin",
     gltf(change=lambda tree: tree["asset"].update(version="1.0")): "version is 1.0",
     gltf(change=lambda tree: tree["nodes"][0].update(children=[0])): "stands in the scene twice",
@@ -327,7 +332,13 @@ THREE_MF: dict[str, Any] = {
     ),
     "other files beside": archive({"3D/3dmodel.model": model(mesh()), "Metadata/a.png": "png"}),
 }
+_DOUBLED = "".join(
+    f'<object id="{i + 1}"><components><component objectid="{i}"/><component objectid="{i}"/>'
+    "</components></object>"
+    for i in range(1, 40)
+)
 REFUSED_THREE_MF = {
+    simple(mesh() + _DOUBLED, '<item objectid="40"/>'): "more than 1000000 objects",
     simple(mesh(), attributes=' requiredextensions="s" xmlns:s="http://a.b/slice"'): "a.b/slice",
     simple(_PART.format("").replace('"1"', '"2"'), '<item objectid="2"/>'): "part of itself",
     simple(mesh(), '<item objectid="7"/>'): "no object 7",

@@ -37,6 +37,8 @@ REFUSED = {  # by their names
     ".las": clouds.REFUSED_LAS,
     ".pcd": clouds.REFUSED_PCD,
     ".vtk": data_sets.REFUSED_VTK,
+    ".nrrd": images.REFUSED_NRRD,
+    ".nii": images.REFUSED_NIFTI,
 }
 
 

@@ -123,14 +123,10 @@ class _Scene:
             raise InvalidInput(f"an accessor has the type {accessor['type']}; allowed is {kind}")
         type_ = np.dtype(_TYPES[accessor["componentType"]])
         shape = (accessor["count"], _COMPONENTS[kind])
-        sparse = accessor.get("sparse")
-        if "bufferView" in accessor:
-            values = self._view(accessor["bufferView"], accessor.get("byteOffset", 0), type_, shape)
-        elif sparse is None:
+        if "bufferView" not in accessor:
             raise InvalidInput("an accessor has no data")
-        else:
-            values = np.zeros(shape, type_)
-        if sparse is not None:
+        values = self._view(accessor["bufferView"], accessor.get("byteOffset", 0), type_, shape)
+        if (sparse := accessor.get("sparse")) is not None:
             values = np.array(values)
             at, new = sparse["indices"], sparse["values"]
             rows = self._view(

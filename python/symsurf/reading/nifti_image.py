@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from math import prod
 from pathlib import Path
 
 import nibabel
 import numpy as np
 from nibabel.imageglobals import ErrorLevel, LoggingOutputSuppressor
 
+from .._core import InvalidInput
 from ..shape import Shape
 from ..thresholds import Choice
 from .voxels import world_points
@@ -18,6 +20,9 @@ def read(path: Path, choice: Choice) -> Shape:
     # A header that nibabel would repair, and print so, is an error where its voxel sizes are wrong.
     with LoggingOutputSuppressor(), ErrorLevel(35):
         image = nibabel.load(path)
+    needed = image.dataobj.offset + prod(image.shape) * image.get_data_dtype().itemsize
+    if needed > (size := path.stat().st_size):
+        raise InvalidInput(f"the file is truncated: its values end at byte {needed}, it has {size}")
     values = np.asanyarray(image.dataobj)
     while values.ndim > 3 and values.shape[-1] == 1:
         values = values[..., 0]

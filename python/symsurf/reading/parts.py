@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..shape import Shape
+from .location import require_memory
 
+_POINT = 24  # bytes
 Part = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Points (n, 3) and faces (m, 3)."""
 
@@ -22,6 +24,7 @@ def joined(parts: Iterable[Part]) -> Shape:
         points.append(own_points)
         faces.append(own_faces + count)
         count += len(own_points)
+        require_memory(_POINT * count)
     triangles = np.concatenate(faces)
     return Shape(np.concatenate(points), triangles if len(triangles) else None)
 

@@ -31,6 +31,9 @@ _KNOWN = (
 )
 
 
+_MOST_USES = 1_000_000  # of objects: each may be made of two that are made of two, and so on
+
+
 class _Object:
     def __init__(self) -> None:
         self.points: list[tuple[float, float, float]] = []
@@ -79,6 +82,7 @@ def read(path: Path, choice: Choice) -> Shape:
 def _built(archive: ZipFile) -> Iterator[Part]:
     names = {name.lower(): name for name in archive.namelist()}
     models: dict[str, _Model] = {}
+    uses = 0
 
     def model(name: str) -> _Model:
         if name not in models:
@@ -91,6 +95,12 @@ def _built(archive: ZipFile) -> Iterator[Part]:
     def parts(name: str, number: str, matrix: NDArray[np.float64], above: tuple[Any, ...]) -> Any:
         if (name, number) in above:
             raise InvalidInput(f"object {number} is a part of itself")
+        nonlocal uses
+        uses += 1
+        if uses > _MOST_USES:
+            raise InvalidInput(
+                f"more than {_MOST_USES} objects are built, which are the most allowed"
+            )
         if number not in model(name).objects:
             raise InvalidInput(f"there is no object {number}")
         own = model(name).objects[number]
