@@ -40,9 +40,11 @@ class OperationResult(Summarised):
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
+        faces = made["faces"] if len(made["faces"]) else None
+        frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
         return cls(
-            given=Shape(made["given"], made["given_faces"]),
-            shape=Shape(made["points"], made["faces"] if len(made["faces"]) else None),
+            given=Shape(made["given"], made["given_faces"], space=made["space"]),
+            shape=Shape(made["points"], faces, space=frame or made["space"]),
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
