@@ -27,7 +27,7 @@ Shape read_off(std::string_view content);
 /// Stereolithography, ascii in any case or binary. Equal corners of the triangles are one point.
 Shape read_stl(std::string_view content);
 
-/// XYZ, CSV and TXT: rows of numbers, as read() describes them.
+/// XYZ, CSV, TXT and FCSV: rows of numbers, as read() describes them.
 Shape read_columns(std::string_view content);
 
 }  // namespace symsurf

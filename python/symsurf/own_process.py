@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import pickle
 import subprocess
@@ -84,16 +85,25 @@ class _Process:
                 raise EOFError
             value = pickle.load(self._answers)
         except (EOFError, pickle.UnpicklingError, BrokenPipeError) as error:
-            self._answers.close()
-            self._child.kill()
-            self._child.communicate()
+            self.end()
             raise ProcessDied from error
         self.answers += 1
         return value
 
+    def end(self) -> None:
+        self._answers.close()
+        self._child.kill()
+        self._child.communicate()
+
 
 _process: _Process | None = None
 _lock = Lock()
+
+
+@atexit.register
+def _end() -> None:
+    if _process is not None and _process.parent == os.getpid():
+        _process.end()
 
 
 def _python() -> str | None:

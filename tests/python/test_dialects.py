@@ -91,7 +91,7 @@ def test_what_is_refused_is_named(suffix, content, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", FORMATS)
-def test_damage_is_an_error_of_the_file(suffix, tmp_path):
+def test_damage_is_an_error_of_the_file(suffix, tmp_path, capfd):
     """Cut, and with bytes changed: a shape or an error that names the file, and nothing else."""
     random = np.random.default_rng(0)
     contents = [each for each in FORMATS[suffix].values() if isinstance(each, bytes)]
@@ -107,3 +107,4 @@ def test_damage_is_an_error_of_the_file(suffix, tmp_path):
                 assert len(symsurf.read(path).points)
             except symsurf.InvalidInput as error:
                 assert str(error).startswith(f"{path}: ") and "\n" not in str(error)
+    assert capfd.readouterr().err == ""
