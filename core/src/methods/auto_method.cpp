@@ -14,10 +14,9 @@ namespace symsurf {
 
 namespace {
 
-// A plane that scores as much leaves freer mirrors nothing to explain: skulls, a cow and an
-// airplane score 0.8 and more as they are, 0.6 and less once bent about a cylinder of three
-// diagonals' radius.
-constexpr double enough = 0.75;
+// A plane that maps so much of what it covers leaves freer mirrors nothing to explain, where it
+// covers so much: what has lost a fifth of its points on one side keeps 0.6 and more.
+constexpr double enough = 0.9, enough_covered = 0.6;
 // Explained share of the shape that a freer kind has to gain. On 24 bent bodies of 10,000 points
 // with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
 // the best of the wrong ones 0.26 less at least, where a mirror was found.
@@ -28,8 +27,13 @@ constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
 constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
 constexpr Index few = 1000;             // points: the score of fewer is unreliable
 
+double statistic(const Result& result, const char* name) {
+  const auto found = result.statistics.find(name);
+  return found == result.statistics.end() ? 0 : std::get<double>(found->second);
+}
+
 // Only where every point has an exact partner: else a freer mirror may improve on it.
-bool is_exact(const Result& result) { return result.score >= 1; }
+bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
 
 // Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
 // hide where the score looks least closely: among few points, and inside bodies.
@@ -66,9 +70,11 @@ Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
   return result;
 }
 
-double explained(const Result& result) {
-  const auto share = result.statistics.find("explained_share");
-  return share == result.statistics.end() ? 0 : std::get<double>(share->second);
+double explained(const Result& result) { return statistic(result, "explained_share"); }
+
+bool is_enough(const Result& plane) {
+  return plane.score >= enough_covered &&
+         explained(plane) >= enough * statistic(plane, "covered_share");
 }
 
 // Which kind is meant: that which explains most of the shape, less a prior on its freedom. The
@@ -174,9 +180,11 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   Contest contest{run_with_defaults(plane, cloud, context.stage(0, 0.2)), &plane};
   contest.scores["score_plane"] = contest.best.score;
   contest.tried = "plane " + text(explained(contest.best));
-  const bool content = contest.best.score >= enough;
-  std::string reason =
-      "a plane that scores " + text(enough) + " or more leaves freer mirrors nothing to explain";
+  const bool content = is_enough(contest.best);
+  std::string reason = "the plane maps " + text(explained(contest.best)) +
+                       " of the shape onto it, and " +
+                       text(1 - statistic(contest.best, "covered_share")) +
+                       " has no counterpart: nothing is left for freer mirrors to explain";
   if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
   } else if (!content || may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {

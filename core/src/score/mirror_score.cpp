@@ -58,6 +58,17 @@ Freedom freedom_of(std::string_view kind) {
 // to 10,000 points, half of them with noise of 1 %) score 0.43 at most.
 constexpr double doubt = 10;
 
+void tell(const MirrorFit& fit, Result& result) {
+  const std::string_view kind = result.mirror->kind();
+  result.score = score_of(fit, kind);
+  result.statistics["explained_share"] = std::min(1.0, fit.share);
+  result.statistics["exact_share"] = fit.exact;
+  result.statistics["covered_share"] = fit.covered;
+  if (!freedom_of(kind).any_shape) return;
+  result.statistics["single_layer"] = fit.single_layer;
+  result.statistics["evidence"] = fit.evidence;
+}
+
 }  // namespace
 
 MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
@@ -140,7 +151,9 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                    return Ball(*image, sample.position, radius_);
                  },
                  stride, layers ? &*layers : nullptr, layers ? &sides : nullptr);
-  return whole_of(points, stride, layers ? &*layers : nullptr, &sides);
+  MirrorFit found = whole_of(points, stride, layers ? &*layers : nullptr);
+  if (layers) found.evidence = sides.evidence();
+  return found;
 }
 
 std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map,
@@ -172,7 +185,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     const Sample& sample = samples_[k];
     const Vector3 x = frame.from_frame(sample.position), image = image_of(x);
     if (!image.allFinite()) {
-      fits.push_back({k, sample.ceiling});
+      fits.push_back({k, sample.ceiling, 0, sample.ceiling});
       continue;
     }
     if (layers) layers->add(x, frame.axes * sample.ball.normal(), image);
@@ -210,71 +223,63 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
 }
 
 MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t stride,
-                                const MirrorLayers* layers, const MirrorSides* sides) const {
-  double ceilings = 0, weights = 0, support = 0, exact = 0;
+                                const MirrorLayers* layers) const {
+  double ceilings = 0, weights = 0, support = 0, missing = 0, exact = 0;
   for (std::size_t k = 0; k < samples_.size(); k += stride) ceilings += samples_[k].ceiling;
   for (const PointFit& point : points) {
     weights += point.weight;
     support += point.support;
+    missing += point.missing;
     if (point.exact) exact += point.weight;
   }
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;
   const double least = least_share * (1 - exact_share) * ceilings;
-  return {std::max(0.0, support / std::max(weights, least)), exact_share,
-          layers ? layers->single() : 0, layers ? sides->evidence() : 0};
+  return {std::max(0.0, support / std::max(weights, least)), 1 - missing / weights, exact_share,
+          layers ? layers->single() : 0};
 }
 
-void MirrorScore::fill(Result& result) const {
-  const MirrorFit found = fit(*result.mirror);
-  result.score = score_of(found, result.mirror->kind());
-  result.statistics["explained_share"] = std::min(1.0, found.share);
-  result.statistics["exact_share"] = found.exact;
-  if (freedom_of(result.mirror->kind()).any_shape) {
-    result.statistics["single_layer"] = found.single_layer;
-    result.statistics["evidence"] = found.evidence;
-  }
-}
+void MirrorScore::fill(Result& result) const { tell(fit(*result.mirror), result); }
 
 Result MirrorScore::ranked(const std::string& method,
                            const std::vector<std::shared_ptr<Mirror>>& mirrors) const {
-  std::vector<Result> found;
+  struct Ranked {
+    std::shared_ptr<Mirror> mirror;
+    MirrorFit fit;
+    double merit;
+  };
+  std::vector<Ranked> found;
   for (const std::shared_ptr<Mirror>& mirror : mirrors) {
-    Result& result = found.emplace_back();
-    result.method = method;
-    result.mirror = mirror;
-    fill(result);
+    MirrorFit its = fit(*mirror);
+    const double merit = its.exact < 1 ? beyond_chance(its, mirror->kind()) : infinity;
+    found.push_back({mirror, std::move(its), merit});
   }
   // Of those that chance explains, the one that it explains least.
-  const auto merit = [](const Result& r) {
-    return std::pair(beyond_chance(r), std::get<double>(r.statistics.at("explained_share")));
-  };
-  std::stable_sort(found.begin(), found.end(),
-                   [&](const Result& a, const Result& b) { return merit(a) > merit(b); });
-  Result best = std::move(found.front());
-  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
-                         std::make_move_iterator(found.end()));
+  std::stable_sort(found.begin(), found.end(), [](const Ranked& a, const Ranked& b) {
+    return std::pair(a.merit, a.fit.share) > std::pair(b.merit, b.fit.share);
+  });
+  Result best;
+  for (const Ranked& one : found) {
+    Result& result = &one == &found.front() ? best : best.candidates.emplace_back();
+    result.method = method;
+    result.mirror = one.mirror;
+    tell(one.fit, result);
+  }
   cap_candidates(best);
   return best;
 }
 
-double score_of(const MirrorFit& fit, std::string_view kind) {
+double beyond_chance(const MirrorFit& fit, std::string_view kind) {
   const Freedom freedom = freedom_of(kind);
-  const double chance = 1 - fit.exact;
-  const double beyond =
-      std::max(0.0, fit.share - freedom.by_chance * chance) / (1 - freedom.by_chance * chance);
-  const double believed = fit.share * fit.evidence / (fit.evidence + doubt);
-  return (1 - freedom.cost * chance) *
-         std::min(1.0, std::max((1 - fit.single_layer * chance) * beyond, believed));
+  const double chance = 1 - fit.exact, by_chance = freedom.by_chance * chance;
+  return (1 - freedom.cost * chance) * (1 - fit.single_layer * chance) *
+         std::max(0.0, fit.share - by_chance) / (1 - by_chance);
 }
 
-double beyond_chance(const Result& result) {
-  const auto number = [&](const char* name) {
-    const auto found = result.statistics.find(name);
-    return found == result.statistics.end() ? 0 : std::get<double>(found->second);
-  };
-  return score_of({number("explained_share"), number("exact_share"), number("single_layer")},
-                  result.mirror->kind());
+double score_of(const MirrorFit& fit, std::string_view kind) {
+  const double certain = (1 - freedom_of(kind).cost * (1 - fit.exact)) * fit.share;
+  const double believed = certain * fit.evidence / (fit.evidence + doubt);
+  return std::min(1.0, std::max(beyond_chance(fit, kind), believed));
 }
 
 void cap_candidates(Result& result) {

@@ -27,6 +27,7 @@ class MirrorSides;
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
   double share = 0;         ///< of the points that the mirror moves; sampling may take it past 1
+  double covered = 0;       ///< share of those that have anything of the cloud where their image is
   double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
   double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
   double evidence = 0;      ///< of a mirror of any shape, that it is none of chance's, in nats
@@ -61,7 +62,8 @@ class MirrorScore {
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, std::size_t stride = 1) const;
 
-  /// Sets the result's score, and "explained_share" and "exact_share" among its statistics.
+  /// Sets the result's score, and among its statistics "explained_share", "exact_share" and
+  /// "covered_share".
   void fill(Result& result) const;
 
   /// The result with the best of at least one mirror, the others its candidates, best first.
@@ -85,7 +87,7 @@ class MirrorScore {
   static void add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
                         MirrorSides& sides);
   MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
-                     const MirrorLayers* layers, const MirrorSides* sides) const;
+                     const MirrorLayers* layers) const;
   double radius_for(const CloudHalves& halves) const;
   double measured_noise() const;
   ThinnedHalf mirrored(const ThinnedHalf& half, const Mirror& mirror) const;
@@ -103,9 +105,9 @@ class MirrorScore {
 /// The score: what is left of a fit after what mirrors of its kind fit by chance.
 double score_of(const MirrorFit& fit, std::string_view kind);
 
-/// The same of a result without the evidence of its sides, which says how sure a mirror is and not
-/// how well it fits: what mirrors are ranked by. 0: chance fits as well.
-double beyond_chance(const Result& result);
+/// The same without the evidence of its sides, which says how sure a mirror is and not how well it
+/// fits: what mirrors are ranked by. 0: chance fits as well. Sampling may take it past 1.
+double beyond_chance(const MirrorFit& fit, std::string_view kind);
 
 /// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
 void cap_candidates(Result& result);
