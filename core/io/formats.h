@@ -11,8 +11,8 @@
 namespace symsurf {
 
 /// Turk's Polygon File Format 1.0: ascii, binary_little_endian, binary_big_endian. Elements but
-/// vertex and face, and properties but x y z nx ny nz and vertex_indices (vertex_index), are
-/// skipped.
+/// vertex, those with polygons and tristrips, and properties but x y z nx ny nz and vertex_indices
+/// (vertex_index), are skipped.
 Shape read_ply(std::string_view content);
 
 /// Wavefront OBJ: v, vn and f. A vertex's normal is the one that its faces' corners name (their
@@ -20,10 +20,11 @@ Shape read_ply(std::string_view content);
 /// there are as many.
 Shape read_obj(std::string_view content);
 
-/// Geomview's OFF, COFF, NOFF, CNOFF, with or without texture coordinates (ST); ascii.
+/// Geomview's OFF, COFF, NOFF, CNOFF, with or without texture coordinates (ST); ascii, the keyword
+/// missing or glued to the first number as well.
 Shape read_off(std::string_view content);
 
-/// Stereolithography, ascii or binary. Equal corners of the triangles are one point.
+/// Stereolithography, ascii in any case or binary. Equal corners of the triangles are one point.
 Shape read_stl(std::string_view content);
 
 /// XYZ, CSV and TXT: rows of numbers, as read() describes them.

@@ -78,7 +78,8 @@ class CornerNormals {
 
 Shape read_obj(std::string_view content) {
   TextScanner text(content);
-  text.pass_over("#");
+  text.cut_at('#');
+  text.join_at('\\');
   ShapeBuilder shape;
   std::vector<Vector3> normals;
   std::vector<Corner> corners;
@@ -95,7 +96,6 @@ Shape read_obj(std::string_view content) {
       while (!text.line_ends()) {
         // vertex, vertex/texture, vertex//normal or vertex/texture/normal
         const std::string_view word = text.word();
-        if (word == "\\" && text.next_line()) continue;  // the face goes on in the next line
         const std::size_t end = std::min(word.find('/'), word.size());
         const std::size_t last = word.rfind('/');
         face.push_back(to_points.resolve(text, word.substr(0, end), shape.points()));
@@ -103,7 +103,6 @@ Shape read_obj(std::string_view content) {
           corners.push_back({face.back(), to_normals.resolve(text, word.substr(last + 1),
                                                              static_cast<Index>(normals.size()))});
       }
-      if (face.size() < 3) text.fail("a face needs at least 3 corners");
       shape.add_polygon(face);
     }
   }

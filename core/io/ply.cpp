@@ -82,16 +82,45 @@ void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
       });
 }
 
+bool is_polygon(const PlyProperty& property) {
+  return property.length_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+// Triangles that each share an edge with the one before, in strips that end with -1.
 template <typename Rows>
-void read_faces(Rows& rows, const PlyElement& element, Index vertices, ShapeBuilder& shape) {
+void read_strips(Rows& rows, const PlyElement& element, Index vertices, ShapeBuilder& shape) {
+  std::array<Index, 3> corners{};
+  each_row(
+      rows, element,
+      [&](std::size_t p) {
+        const PlyProperty& property = element.properties[p];
+        if (!is_polygon(property)) return false;
+        Index in_strip = 0;
+        for (Index left = list_length(rows, property); left > 0; --left) {
+          const Index corner = integer(rows, property, property.type);
+          if (corner < -1 || corner >= vertices) rows.fail(no_vertex(corner, vertices));
+          in_strip = corner < 0 ? 0 : in_strip + 1;
+          corners = {corners[1], corners[2], corner};
+          if (in_strip < 3 || corners[0] == corners[1] || corners[1] == corners[2] ||
+              corners[0] == corners[2])
+            continue;  // a corner that stands twice joins strips
+          const bool is_turned = in_strip % 2 == 0;
+          shape.add_polygon(std::array{corners[is_turned], corners[!is_turned], corners[2]});
+        }
+        return true;
+      },
+      [] {});
+}
+
+template <typename Rows>
+void read_polygons(Rows& rows, const PlyElement& element, Index vertices, ShapeBuilder& shape) {
   std::vector<Index> corners;
   each_row(
       rows, element,
       [&](std::size_t p) {
         const PlyProperty& property = element.properties[p];
-        if (!property.length_type ||
-            (property.name != "vertex_indices" && property.name != "vertex_index"))
-          return false;
+        if (!is_polygon(property)) return false;
         const Index length = list_length(rows, property);
         corners.clear();
         for (Index i = 0; i < length; ++i) {
@@ -101,7 +130,19 @@ void read_faces(Rows& rows, const PlyElement& element, Index vertices, ShapeBuil
         }
         return true;
       },
-      [&] { shape.add_polygon(corners); });
+      [&] {
+        shape.add_polygon(corners);
+        corners.clear();
+      });
+}
+
+// That nothing of the surface is dropped.
+void require_corners(const PlyElement& element) {
+  const bool is_surface = element.name == "face" || element.name == "tristrips";
+  if (is_surface && element.count > 0 &&
+      std::none_of(element.properties.begin(), element.properties.end(), is_polygon))
+    throw InvalidInput("the element " + in_quotes(element.name) +
+                       " lacks the list vertex_indices or vertex_index");
 }
 
 template <typename Rows>
@@ -111,13 +152,13 @@ Shape read_elements(Rows rows, const PlyHeader& header) {
     if (element.name == "vertex") vertices = element.count;
   ShapeBuilder shape;
   for (const PlyElement& element : header.elements) {
+    require_corners(element);
     if (element.name == "vertex")
       read_vertices(rows, element, shape);
-    else if (element.name == "face")
-      read_faces(rows, element, vertices, shape);
+    else if (element.name == "tristrips")
+      read_strips(rows, element, vertices, shape);
     else
-      each_row(
-          rows, element, [](std::size_t) { return false; }, [] {});
+      read_polygons(rows, element, vertices, shape);
   }
   return shape.build();
 }

@@ -34,6 +34,8 @@ std::size_t size_of(PlyType type) {
 
 void PlyTextRows::begin(const PlyElement& element, Index row) {
   if (!text_.next_line()) throw InvalidInput(truncated(element, row));
+  is_vertex_ = element.name == "vertex";
+  first_line_ = text_.line_number();
 }
 
 const char* PlyBinaryRows::take(PlyType type) {

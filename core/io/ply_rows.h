@@ -16,23 +16,27 @@ namespace symsurf {
 //   end()                the row is done
 //   fail(reason)         throws InvalidInput, saying where
 
-/// A row a line.
+/// A row a line, or over several. A vertex may have more numbers in its line than the header names.
 class PlyTextRows {
  public:
-  explicit PlyTextRows(TextScanner& text) : text_(text) {}
+  explicit PlyTextRows(TextScanner& text) : text_(text) { text_.wrap_lines(); }
 
   void begin(const PlyElement& element, Index row);
   double number(const PlyProperty& property, PlyType) { return text_.number(property.name); }
   void skip(const PlyProperty& property, PlyType) {
+    if (text_.line_ends()) text_.next_line();
     if (text_.word().empty()) fail(property.name + " is missing");
   }
   void end() {
-    if (!text_.line_ends()) fail("the row is longer than the header says");
+    if (!text_.line_ends() && (!is_vertex_ || text_.line_number() != first_line_))
+      fail("the row is longer than the header says");
   }
   [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
 
  private:
   TextScanner& text_;
+  bool is_vertex_ = false;
+  Index first_line_ = 0;
 };
 
 /// Numbers of fixed size, one after the other.

@@ -21,13 +21,14 @@ struct Format {
   Shape (*read)(std::string_view content);
 };
 
-constexpr std::array<Format, 7> formats{{{".ply", read_ply},
+constexpr std::array<Format, 8> formats{{{".ply", read_ply},
                                          {".obj", read_obj},
                                          {".off", read_off},
                                          {".stl", read_stl},
                                          {".xyz", read_columns},
                                          {".csv", read_columns},
-                                         {".txt", read_columns}}};
+                                         {".txt", read_columns},
+                                         {".fcsv", read_columns}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string suffix = path.extension().string(), known;

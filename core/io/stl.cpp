@@ -1,7 +1,9 @@
 #include <symsurf/errors.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <string>
 
@@ -55,11 +57,17 @@ Shape read_binary(std::string_view content, std::size_t triangles) {
   return shape.build();
 }
 
+// STL does not distinguish capitals.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == b; });
+}
+
 void expect(TextScanner& text, std::string_view keyword) {
   if (!text.next_line())
     throw InvalidInput("the file is truncated: '" + std::string(keyword) + "' is missing");
   const std::string_view found = text.word();
-  if (found != keyword)
+  if (!is_keyword(found, keyword))
     text.fail(in_quotes(found) + " stands where '" + std::string(keyword) + "' should");
 }
 
@@ -67,12 +75,13 @@ Shape read_text(std::string_view content) {
   Triangulation shape;
   TextScanner text(content);
   while (text.next_line()) {
-    if (text.word() != "solid") text.fail("'solid' is missing");
+    if (!is_keyword(text.word(), "solid")) text.fail("'solid' is missing");
     for (;;) {
       if (!text.next_line()) throw InvalidInput("the file is truncated: 'endsolid' is missing");
       const std::string_view keyword = text.word();
-      if (keyword == "endsolid") break;
-      if (keyword != "facet") text.fail(in_quotes(keyword) + " stands where 'facet' should");
+      if (is_keyword(keyword, "endsolid")) break;
+      if (!is_keyword(keyword, "facet"))
+        text.fail(in_quotes(keyword) + " stands where 'facet' should");
       expect(text, "outer");
       for (int corner = 0; corner < 3; ++corner) {
         expect(text, "vertex");
@@ -88,12 +97,15 @@ Shape read_text(std::string_view content) {
 }  // namespace
 
 Shape read_stl(std::string_view content) {
-  // Binary files may start with "solid" too: their size is the surer sign.
+  // Binary files may start with "solid" too: their size and their zeros are the surer signs.
   const bool has_header = content.size() >= header_bytes;
   const std::size_t triangles =
       has_header ? number_at<std::uint32_t>(content.data() + count_at) : std::size_t{0};
   const std::size_t bytes = header_bytes + triangles * triangle_bytes;
-  if (content.starts_with("solid") && content.size() != bytes) return read_text(content);
+  TextScanner text(content);
+  const bool is_solid = text.next_line() && is_keyword(text.word(), "solid");
+  const bool has_zero = content.substr(0, header_bytes + triangle_bytes).find('\0') != content.npos;
+  if (is_solid && content.size() != bytes && !has_zero) return read_text(content);
   if (!has_header)
     throw InvalidInput("this is no STL file: neither text nor as long as a binary header");
   if (content.size() < bytes)

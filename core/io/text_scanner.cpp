@@ -56,39 +56,70 @@ std::string in_quotes(std::string_view word) {
 TextScanner::TextScanner(std::string_view text) : text_(text) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) position_ = byte_order_mark.size();
+  const std::size_t end = text.find_first_of("\r\n");
+  if (end != text.npos && text[end] == '\r' && text.substr(end, 2) != "\r\n") line_end_ = '\r';
 }
 
 bool TextScanner::next_line() {
+  bool goes_on = false;
   while (position_ < text_.size()) {
-    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
-    line_ = trimmed(text_.substr(position_, end - position_));
+    const std::size_t end = std::min(text_.find(line_end_, position_), text_.size());
+    line_ = text_.substr(position_, end - position_);
+    if (cut_mark_) line_ = line_.substr(0, line_.find(cut_mark_));
+    line_ = trimmed(line_);
     position_ = std::min(end + 1, text_.size());
     ++line_number_;
+    if (join_mark_ && line_.ends_with(join_mark_)) {
+      if (!goes_on) joined_.clear();
+      joined_.append(line_.substr(0, line_.size() - 1)) += ' ';
+      goes_on = true;
+      continue;
+    }
+    if (goes_on) line_ = joined_.append(line_);
+    goes_on = false;
     const auto starts_line = [&](std::string_view mark) { return line_.starts_with(mark); };
     if (line_.empty() || std::any_of(comment_marks_.begin(), comment_marks_.end(), starts_line))
       continue;
     rest_ = line_;
     return true;
   }
-  line_ = rest_ = {};
-  return false;
+  line_ = rest_ = goes_on ? std::string_view(joined_) : std::string_view();
+  return goes_on;
+}
+
+Index TextScanner::count_lines() const {
+  TextScanner rest = *this;
+  Index count = 0;
+  while (rest.next_line()) ++count;
+  return count;
 }
 
 std::string_view TextScanner::word() {
   const auto is_end = [&](char c) { return separator_ == ' ' ? is_blank(c) : c == separator_; };
   std::size_t length = 0;
+  if (is_table_ && rest_.starts_with('"')) length = std::min(rest_.find('"', 1), rest_.size());
   while (length < rest_.size() && !is_end(rest_[length])) ++length;
-  const std::string_view found = rest_.substr(0, length);
+  std::string_view found = trimmed(rest_.substr(0, length));
   rest_.remove_prefix(std::min(length + 1, rest_.size()));
   while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
-  return separator_ == ' ' ? found : trimmed(found);
+  if (is_table_ && found.size() > 1 && found.front() == '"' && found.back() == '"')
+    found = trimmed(found.substr(1, found.size() - 2));
+  return found;
+}
+
+std::string_view TextScanner::next_number() {
+  if (wraps_ && rest_.empty()) next_line();
+  return word();
 }
 
 double TextScanner::number(std::string_view what) {
-  const std::string_view text = word();
+  const std::string_view text = next_number();
   double value = 0;
   if (text.empty()) fail(std::string(what) + " is missing");
-  if (!parse(text, value)) fail(std::string(what) + " is " + in_quotes(text) + ", not a number");
+  std::string plain(text);
+  if (is_table_ && separator_ != ',' && std::count(text.begin(), text.end(), ',') == 1)
+    std::replace(plain.begin(), plain.end(), ',', '.');
+  if (!parse(plain, value)) fail(std::string(what) + " is " + in_quotes(text) + ", not a number");
   return value;
 }
 
@@ -98,7 +129,7 @@ Vector3 TextScanner::vector(std::string_view what) {
 }
 
 Index TextScanner::integer(std::string_view what) {
-  const std::string_view text = word();
+  const std::string_view text = next_number();
   Index value = 0;
   if (text.empty()) fail(std::string(what) + " is missing");
   if (!parse(text, value)) fail(std::string(what) + " is " + in_quotes(text) + ", not an integer");

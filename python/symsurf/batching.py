@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._core import InvalidParameter
 from .file_task import DETECT, FileTask, Record, failed, perform
+from .own_process import ProcessDied, call
 from .reading import files_in
 from .result_table import row_of
 from .saving.output_files import output_files
@@ -36,6 +37,7 @@ def batch(
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
     threshold: float | None = None,
+    label: int | str | None = None,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
     """Finds the mirror of each of many files, and does the operation with it.
@@ -59,14 +61,15 @@ def batch(
             in PLY where that cannot hold what the operation gives each point; of "detect" a small
             JSON file each.
         unit: of the coordinates, such as "mm": a label for the rows.
-        threshold: of masks and images; see ``read``.
+        threshold, label: of masks and images; see ``read``.
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
         A row a file, in the order of the files, each as soon as it and those before it are done.
         A row is what ``symsurf OPERATION --table`` writes, by the name of the column. A file that
-        fails has the reason in "error", which is "" for the others. Closing the iterator drops what
-        was not begun.
+        fails, or whose worker dies, has the reason in "error", which is "" for the others. What a
+        broken executor leaves is done by a process for each file. Closing the iterator drops what was
+        not begun.
 
     Raises:
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
@@ -93,6 +96,7 @@ def batch(
             threads=each,
             unit=unit,
             threshold=threshold,
+            label=label,
             outputs=tuple(outputs.get(path, ())),
         )
         for path in paths
@@ -133,12 +137,34 @@ def records(
 
 
 def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
-    futures = deque(executor.submit(perform, task) for task in tasks)
+    left = deque(tasks)
+    try:
+        for record in _submitted(tuple(left), executor):
+            left.popleft()
+            yield record
+    except BrokenExecutor:
+        yield from map(_by_itself, left)
+
+
+def _submitted(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
+    """Whatever an executor says of a worker that died is the error of the file. Raises
+    BrokenExecutor, of an executor that can do no more, and what is wrong with all files."""
+    futures = deque((task, executor.submit(perform, task)) for task in tasks)
     try:
         while futures:
-            yield futures.popleft().result()
+            task, future = futures.popleft()
+            try:
+                record = future.result()
+            except (BrokenExecutor, InvalidParameter, ImportError):
+                raise
+            except Exception as error:  # noqa: BLE001 - each executor has its own
+                reason = f"{type(error).__name__}: {error}"
+                record = failed(
+                    task, f"the executor did not finish it ({' '.join(reason.split())})"
+                )
+            yield record
     finally:
-        for future in futures:
+        for _, future in futures:
             future.cancel()
 
 
@@ -149,7 +175,7 @@ def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Record]:
     while left:
         try:
             with _pool(min(jobs, len(left))) as pool:
-                for record in _by_executor(tuple(left), pool):
+                for record in _submitted(tuple(left), pool):
                     left.popleft()
                     yield record
         except BrokenExecutor:
@@ -158,9 +184,8 @@ def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Record]:
 
 def _by_itself(task: FileTask) -> Record:
     try:
-        with _pool(1) as pool:
-            return pool.submit(perform, task).result()
-    except BrokenExecutor:
+        return call(perform.__module__, perform.__name__, task)
+    except ProcessDied:
         return failed(task, "the process that worked on it died, perhaps for want of memory")
 
 

@@ -26,7 +26,7 @@ def bend(points: ArrayLike, mirror: Result | Mirror, back: bool = False) -> NDAr
         back: False: from the mirror to its plane; True: from the plane to the mirror.
 
     Returns:
-        (n, 3), in input units; rows without a foot are NaN.
+        (n, 3), in input units; rows without a foot go rigidly with the nearest that has one.
 
     Raises:
         InvalidInput: no point has a foot; a result without a mirror; points as ``detect`` refuses

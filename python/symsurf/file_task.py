@@ -68,6 +68,8 @@ class FileTask:
     """What is read in place of a file, such as standard input; it needs ``input_format``."""
     threshold: float | None = None
     """Of a mask or an image."""
+    label: int | str | None = None
+    """Of a map of labels."""
     unit: str = ""
     """Of the coordinates: a label."""
     outputs: tuple[Path, ...] = ()
@@ -96,8 +98,12 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", InputWarning)  # it is told in the record
             _perform(task, record, progress)
+    except (InvalidParameter, ImportError):
+        raise
     except (InvalidInput, OSError, MemoryError) as error:
         record["error"] = _one_line(task.file, error)
+    except Exception as error:  # noqa: BLE001 - nobody foresaw it, and other files are not to be lost
+        record["error"] = _one_line(task.file, Exception(f"{type(error).__name__}: {error}"))
     record["seconds_in_all"] = time.perf_counter() - started
     return record
 
@@ -117,7 +123,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     notices: list[str] = []
     record["notices"] = notices
     given = task.file if task.content is None else _Content(task.content, str(task.file))
-    shape = read(given, task.input_format, threshold=task.threshold)
+    shape = read(given, task.input_format, threshold=task.threshold, label=task.label)
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     if task.use_normals and shape.normals is None:
@@ -266,7 +272,8 @@ def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
         if not finite.all():
             notices.append(nonfinite_message(int(np.count_nonzero(~finite))))
             points = points[finite]
-    return Shape(downsample(points, math.ceil(len(points) / task.downsample)))
+    thinned = downsample(points, math.ceil(len(points) / task.downsample))
+    return Shape(thinned, space=shape.space)
 
 
 def _one_line(file: Path, error: BaseException) -> str:

@@ -11,7 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
 from ._core import InvalidInput
-from .thresholds import above
+from .thresholds import Choice, chosen_by
 
 _FLAT_CELLS = {
     int(kind)
@@ -159,18 +159,14 @@ def is_grid(data: pyvista.DataSet) -> bool:
     return isinstance(data, pyvista.StructuredGrid) and _is_regular(data)
 
 
-def points_above(
-    grid: pyvista.DataSet, threshold: float | None, scalars: str | None
-) -> NDArray[np.float64]:
-    """The grid's points, or centres of cells, whose scalar is above the threshold; of a mask, which
-    holds two values, those with the greater one.
+def chosen_points(grid: pyvista.DataSet, choice: Choice) -> NDArray[np.float64]:
+    """The grid's points, or centres of cells, that ``chosen_by`` says.
 
-    Raises InvalidInput for a grid without scalars, an image without a threshold, or where none is
-    above; InvalidParameter for a threshold that is no number.
+    Raises InvalidInput for a grid without scalars, and what ``chosen_by`` raises.
     """
     kind = type(grid).__name__
-    values, of_cells = _scalars(grid, scalars, kind)
-    chosen = above(values, threshold, kind)
+    values, of_cells = _scalars(grid, choice.scalars, kind)
+    chosen = chosen_by(values, choice, kind)
     numbers = np.flatnonzero(chosen)
     if isinstance(grid, pyvista.StructuredGrid):
         all_ = grid.cell_centers().points if of_cells else grid.points

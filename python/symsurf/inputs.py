@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._core import InvalidInput, InvalidParameter
 from .reading import read
+from .shape import Shape
+from .thresholds import Choice
 
 
 class InputWarning(UserWarning):
@@ -29,6 +31,8 @@ class Input:
     """What the core reads as (n, 3) numbers."""
     faces: NDArray[np.int64] | None
     """(m, 3) indices of points; None for a bare cloud."""
+    space: str | None = None
+    """Of the axes; see ``Shape``."""
 
 
 def as_input(
@@ -57,7 +61,7 @@ def as_input(
         if grids.is_grid(given):
             if faces is not None:
                 raise InvalidInput("faces are given with a grid, which has none; leave them out")
-            return Input(grids.points_above(given, threshold, scalars), None)
+            return Input(grids.chosen_points(given, Choice(threshold, scalars=scalars)), None)
     for name, value in (("threshold", threshold), ("scalars", scalars)):
         if value is not None:
             raise InvalidParameter(
@@ -72,7 +76,8 @@ def as_input(
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
     own = _first_of(given, "faces", "triangles")
-    return Input(_points(given), None if own is None or not len(own) else triangles(own))
+    found = None if own is None or not len(own) else triangles(own)
+    return Input(_points(given), found, given.space if isinstance(given, Shape) else None)
 
 
 def triangles(faces: ArrayLike) -> NDArray[np.int64]:

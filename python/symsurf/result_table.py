@@ -30,6 +30,8 @@ _STATISTICS = {
     "matrix": "matrix",
 }
 _MEASURED = tuple(_STATISTICS.values())
+# What begins one, by OWASP's page on CSV injection.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _LARGEST = 16  # numbers in a cell: a matrix, not the net of a surface
 
 
@@ -94,7 +96,10 @@ def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _written(value: Any) -> Any:
-    """Every digit of a number, those of a matrix row by row; nothing for what is no number."""
+    """Every digit of a number, those of a matrix row by row; nothing for what is no number. A text
+    that a spreadsheet would take for a formula begins with an apostrophe."""
     if isinstance(value, float) and math.isnan(value):
         return ""
+    if isinstance(value, str) and value.startswith(_FORMULA):
+        return f"'{value}"
     return " ".join(map(repr, value)) if isinstance(value, tuple) else value

@@ -24,6 +24,8 @@ class Shape:
     """(m, 3) indices of points, polygons as fans of triangles; None for a bare cloud."""
     normals: NDArray[np.float64] | None = None
     """(n, 3) as the file gives them; None where it gives none."""
+    space: str | None = None
+    """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
 
     def __repr__(self) -> str:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"

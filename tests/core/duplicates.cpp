@@ -2,6 +2,8 @@
 #include <symsurf/damage.h>
 #include <symsurf/detect.h>
 #include <symsurf/errors.h>
+#include <symsurf/match.h>
+#include <symsurf/operation.h>
 #include <symsurf/plane.h>
 
 #include <cmath>
@@ -139,6 +141,33 @@ TEST(Duplicates, OfSomePointsHardlyChangeWhatIsExplained) {
     };
     for (const char* method : {"plane", "quadric", "fixed_direction", "perpendicular"})
       EXPECT_NEAR(support(some, method), support(points, method), 0.1) << method << ' ' << seed;
+  }
+}
+
+// A quarter of a million copies of few points: whoever visits all copies of a neighbour takes
+// hours.
+TEST(Duplicates, CostNoMoreThanOtherPoints) {
+  const Points half = RandomCloud(4).box(6);
+  Points few(12, 3);
+  few << half, half * Vector3(-1, 1, 1).asDiagonal();
+  const Points many = repeated(few, 20'000);
+  const Result one = detect(few, {.method = "plane"}), all = detect(many, {.method = "plane"});
+  EXPECT_EQ(all.score, one.score);
+  EXPECT_EQ(all.mirror->numbers(), one.mirror->numbers());
+  EXPECT_EQ(all.statistics.count("outliers"), one.statistics.count("outliers"));
+  const Result known = match(many, *one.mirror, 0.01);
+  EXPECT_EQ(known.pairs.rows(), many.rows());
+  const OperationResult pairs =
+      operate("correspondences", {many}, *one.mirror, {{"one_to_one", true}});
+  EXPECT_EQ(std::get<double>(pairs.statistics.at("paired_share")), 1);
+}
+
+TEST(Duplicates, AreMatchedAsTheyAreFound) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Points points = surfaces(seed, 800);
+    const Result one = detect(points, {.method = "plane"});
+    const double score = match(points, *one.mirror, 0.01).score;
+    EXPECT_EQ(match(repeated(points, 3), *one.mirror, 0.01).score, score) << seed;
   }
 }
 

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 #include <symsurf/analysis.h>
+#include <symsurf/errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "limbed_body.h"
+#include "random_cloud.h"
 #include "symmetries/intrinsic/connected_surface.h"
 
 namespace symsurf {
@@ -185,6 +188,21 @@ TEST(IntrinsicSymmetry, AnswersForFewPoints) {
     const AnalysisResult result = analyse("intrinsic_symmetry", points);
     EXPECT_TRUE(result.arrays.at("confidence").allFinite());
     EXPECT_LT(result.arrays.at("image").maxCoeff(), static_cast<double>(count));
+  }
+}
+
+// Most of the points lie nearer to each other than the numbers of the others resolve.
+TEST(IntrinsicSymmetry, TakesPointsThatCrowd) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    RandomCloud random(seed);
+    Points points(20 + static_cast<Index>(seed), 3);
+    for (double& x : points.reshaped()) x = std::pow(10.0, random.uniform(-30, 0));
+    try {
+      const AnalysisResult result = analyse("intrinsic_symmetry", points, {});
+      for (const auto& [name, array] : result.arrays) EXPECT_TRUE(array.allFinite()) << name;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("area"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -115,6 +115,22 @@ TEST(Outliers, OfOutliers) {
   EXPECT_EQ(without_outliers(all), points);
 }
 
+// However often each point is given, the same are outliers.
+TEST(Outliers, AreTheSameOfCopies) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Points& points :
+         {random.box(12), mixed(ball(random, 400), 300 * random.sphere(5))}) {
+      const Points once = without_outliers(points);
+      for (const Index times : {2, 3, 30}) {
+        const Points all = points.replicate(times, 1);
+        EXPECT_EQ(without_outliers(all), Points(once.replicate(once.rows() > 0 ? times : 1, 1)))
+            << seed << ' ' << times;
+      }
+    }
+  }
+}
+
 // However many: often more than the object's.
 TEST(Outliers, ArePixelsWithoutDepth) {
   RandomCloud random(0);

@@ -65,6 +65,19 @@ TEST(ReadObj, NormalsOfBareClouds) {
   EXPECT_EQ(read_content("a.obj", two + "vn 0 0 1\nvn 0 0 0\n").normals.rows(), 0);
 }
 
+TEST(ReadObj, CommentsBehindDataAndLinesThatGoOn) {
+  const Shape shape = read_content("a.obj",
+                                   "v 0 0 \\\n0 # first\nv 1 0 0# second\nv 0 \\\r\n1 \\\r\n0\n"
+                                   "vn 0 0 1 # up\nf 1//1 \\\n2//1\\\n3//1 # all\n");
+  EXPECT_EQ(shape.points, rows({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(shape.faces, triangles({{0, 1, 2}}));
+  EXPECT_EQ(shape.normals.rows(), 3);
+}
+
+TEST(ReadObj, FacesOfTwoCornersAreEdges) {
+  EXPECT_EQ(read_content("a.obj", square + "f 1 2\nf 1\nf 1 2 3\n").faces, triangles({{0, 1, 2}}));
+}
+
 TEST(ReadObj, SaysWhatIsBroken) {
   const auto expect = [](const std::string& content, const std::string& reason) {
     expect_unreadable("a.obj", content, reason);
@@ -73,8 +86,6 @@ TEST(ReadObj, SaysWhatIsBroken) {
   expect("v 1 2\n", "line 1: a coordinate is missing");
   expect("v 1 2 x\n", "line 1: a coordinate is 'x', not a number");
   expect(square + "vn 0 0\n", "line 5: a coordinate of the normal is missing");
-  expect(square + "f 1 2\n", "line 5: a face needs at least 3 corners");
-  expect(square + "f\n", "line 5: a face needs at least 3 corners");
   expect(square + "f 1 2 0\n", "line 5: a corner names vertex '0'; there are 4 so far");
   expect(square + "f 1 2 x\n", "line 5: a corner names vertex 'x'");
   expect(square + "f 1 2 /3\n", "line 5: a corner names vertex ''");

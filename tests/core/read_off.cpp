@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "temporary_file.h"
 
 namespace symsurf {
@@ -40,16 +42,36 @@ TEST(ReadOff, NormalsAndColours) {
   }
 }
 
+TEST(ReadOff, EveryWayToBegin) {
+  const std::string rest = square + "3 0 1 2\n";
+  for (const char* start : {"OFF\n4 1 0\n", "OFF4 1 0\n", "OFF 4 1\n", "4 1 0\n", "off\n4 1 5\n",
+                            "# by hand\nOFF # so\n4 1 0 # edges\n", "\nOFF\n\n4 1 0\n\n"}) {
+    const Shape shape = read_content("a.off", start + rest);
+    EXPECT_EQ(shape.points, corners) << start;
+    EXPECT_EQ(shape.faces, triangles({{0, 1, 2}})) << start;
+  }
+}
+
+TEST(ReadOff, NumbersOverLinesAndInOne) {
+  const std::string one_line = "OFF 4 1 0 0 0 0 4000000.001 0 0 1 1 0 0 1 0 3 0 1 2";
+  std::string a_line_each = one_line;
+  std::replace(a_line_each.begin(), a_line_each.end(), ' ', '\n');
+  for (const std::string& content : {one_line, a_line_each}) {
+    const Shape shape = read_content("a.off", content);
+    EXPECT_EQ(shape.points, corners);
+    EXPECT_EQ(shape.faces, triangles({{0, 1, 2}}));
+  }
+}
+
 TEST(ReadOff, SaysWhatIsBroken) {
   const auto expect = [](const std::string& content, const std::string& reason) {
     expect_unreadable("a.off", content, reason);
   };
   expect("# nothing\n", "the file holds only comments");
-  expect("4 2 0\n" + square, "line 1: the file starts with '4'");
   expect("4OFF\n4 2 0\n" + square, "line 1: the file starts with '4OFF'");
-  expect("OFF BINARY\n", "line 1: the number of vertices is 'BINARY', not an integer");
+  expect("OFF BINARY\n", "line 1: binary OFF cannot be read; text can");
   expect("OFF\n", "the file is truncated: the numbers of vertices and faces are missing");
-  expect("OFF\n4\n" + square, "line 2: the number of faces is missing");
+  expect("OFF\n4\n", "line 2: the number of faces is missing");
   expect("OFF\n-4 0 0\n" + square, "line 2: the number of vertices is below 0");
   expect("OFF\n0 0 0\n", "the file holds no points");
   expect("OFF\n5 0 0\n" + square, "the file is truncated: it ends at vertex 4 of 5");

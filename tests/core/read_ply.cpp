@@ -158,8 +158,7 @@ TEST(ReadPly, SaysWhatIsBrokenInTheText) {
   expect("0 0 0\n1 0 0\n",
          "the file is truncated: it ends at row 2 of the 3 of the element 'vertex'");
   expect(vertices, "the file is truncated: it ends at row 0 of the 1 of the element 'face'");
-  expect("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 11: z is missing");
-  expect("0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n", "line 11: the row is longer than the header says");
+  expect("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 12: the row is longer than the header says");
   expect("0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n", "line 11: y is 'zero', not a number");
   expect("0 0 0\n1 0x1 0\n0 1 0\n3 0 1 2\n", "line 11: y is '0x1', not a number");
   expect(vertices + "3 0 1 3\n", "line 13: a face names vertex 3; there are 3, counted from 0");
@@ -197,6 +196,49 @@ TEST(ReadPly, DoesNotTrustCounts) {
   const std::string lists = "element vertex 1\nproperty list uint int extra\n" + xyz;
   expect_unreadable("a.ply", header("binary_little_endian", lists) + "\xff\xff\xff\xff",
                     "the file is truncated");
+}
+
+// Each line starts a row; a vertex may have more numbers there than the header names.
+TEST(ReadPly, TextRowsOverLinesAndLongerOnes) {
+  const std::string head = header("ascii", "element vertex 3\n" + xyz + "element face 1\n" + faces);
+  const Points corners = rows({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const char* body : {"0\n0\n0\n1 0\n0\n0 1 0\n3\n0 1\n2\n",
+                           "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n"}) {
+    const Shape shape = read_content("a.ply", head + body);
+    EXPECT_EQ(shape.points, corners) << body;
+    EXPECT_EQ(shape.faces, triangles({{0, 1, 2}})) << body;
+  }
+}
+
+TEST(ReadPly, OldLineEnds) {
+  std::string text = header("ascii", "element vertex 1\n" + xyz) + "1 2 3\n";
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  EXPECT_EQ(read_content("a.ply", text).points, rows({{1, 2, 3}}));
+}
+
+// Every second triangle of a strip is wound the other way round, so that all face one way.
+TEST(ReadPly, TriangleStrips) {
+  const std::string vertices = "element vertex 6\n" + xyz,
+                    points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n";
+  const std::string strips =
+      vertices + "element tristrips 1\nproperty list int int vertex_indices\n";
+  EXPECT_EQ(read_content("a.ply", header("ascii", strips) + points + "6 0 1 2 3 4 5\n").faces,
+            triangles({{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+  EXPECT_EQ(read_content("a.ply", header("ascii", strips) + points + "8 0 1 2 3 -1 3 4 5\n").faces,
+            triangles({{0, 1, 2}, {2, 1, 3}, {3, 4, 5}}));
+  expect_unreadable("a.ply", header("ascii", strips) + points + "4 0 1 2 -2\n",
+                    "line 16: a face names vertex -2");
+}
+
+TEST(ReadPly, DropsNoSurfaceWithoutAWord) {
+  const std::string points = "element vertex 3\n" + xyz;
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_content("a.ply", header("ascii", points + "element polygon 1\n" + faces) + body)
+                .faces.rows(),
+            1);
+  expect_unreadable(
+      "a.ply", header("ascii", points + "element face 1\nproperty list uchar int corners\n") + body,
+      "the element 'face' lacks the list vertex_indices or vertex_index");
 }
 
 // The sum of such counts is more than an index holds.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +49,13 @@ TEST(ReadStl, MergesEqualCorners) {
     EXPECT_EQ(shape.faces, shared);
     EXPECT_EQ(shape.normals.rows(), 0);
   }
+}
+
+TEST(ReadStl, DoesNotDistinguishCapitals) {
+  std::string content = "\n  " + text(corners);
+  for (char& c : content) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(read_content("a.stl", content).points, merged);
+  EXPECT_EQ(read_content("a.stl", binary(corners, "SOLID thing") + "trailing").faces, shared);
 }
 
 TEST(ReadStl, KeepsTheDigitsOfText) {

@@ -226,5 +226,25 @@ TEST(SphereThesis, RefusesRadiiOutOfOrder) {
                                  [&] { detect(trial(1).points, options); });
 }
 
+// Few points in clusters of a thousandth of their distance: parts of the cloud have no extent.
+TEST(SphereMethod, TakesClusters) {
+  int answered = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    RandomCloud random(seed);
+    const Index clusters = 2 + static_cast<Index>(seed % 4);
+    const Points middles = random.box(clusters), around = 1e-3 * random.box(15);
+    Points points(15, 3);
+    for (Index i = 0; i < points.rows(); ++i)
+      points.row(i) = middles.row(i % clusters) + around.row(i);
+    try {
+      const Result result = detect(points, {.method = "sphere"});
+      EXPECT_TRUE(std::isfinite(result.score)) << seed;
+      ++answered;
+    } catch (const InvalidInput&) {
+    }
+  }
+  EXPECT_GT(answered, 0);
+}
+
 }  // namespace
 }  // namespace symsurf

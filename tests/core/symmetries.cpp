@@ -2,6 +2,10 @@
 #include <symsurf/errors.h>
 #include <symsurf/symmetries.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "random_cloud.h"
@@ -66,6 +70,163 @@ TEST(Symmetries, OfABoxAreThoseOfItsPlanes) {
     for (const Plane& plane : found.planes)
       EXPECT_GT((rotation.transpose() * plane.normal()).cwiseAbs().maxCoeff(), 1 - 1e-6);
   }
+}
+
+// Some points in general position and all their images, turned, shifted and shuffled.
+Points orbits_of(const PointGroup& group, Index count, RandomCloud& random) {
+  const Matrix3 rotation = random.rotation();
+  const Vector3 shift = 3 * random.in_box();
+  const Points seeds = random.box(count);
+  std::vector<Vector3> rows;
+  for (const Vector3 seed : seeds.rowwise())
+    for (const Matrix3& element : group.elements)
+      rows.insert(rows.begin() + random.below(static_cast<Index>(rows.size()) + 1),
+                  rotation * (element * seed) + shift);
+  Points points(static_cast<Index>(rows.size()), 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) = rows[i].transpose();
+  return points;
+}
+
+TEST(Symmetries, OfSmallSetsAreExact) {
+  std::vector<PointGroup> groups{axial_group(1, {}), reflection_group(), inversion_group()};
+  for (const Index order : {2, 3, 4, 5, 6, 7, 12})
+    for (const AxialElements& has : std::vector<AxialElements>{{},
+                                                               {.across = true},
+                                                               {.rotary = true},
+                                                               {.vertical = true},
+                                                               {.twofold = true},
+                                                               {.across = true, .vertical = true},
+                                                               {.rotary = true, .vertical = true}})
+      groups.push_back(axial_group(order, has));
+  for (const Index highest : {3, 4, 5})
+    for (const bool inversion : {false, true})
+      groups.push_back(polyhedral_group(highest, inversion, inversion));
+  groups.push_back(polyhedral_group(3, false, true));
+  for (std::uint64_t seed = 0; seed < 3; ++seed)
+    for (const PointGroup& group : groups)
+      for (const Index count : {3, 7}) {
+        RandomCloud random(seed);
+        const Points points =
+            orbits_of(group, std::max<Index>(count, group.name == "C1" ? 9 : 3), random);
+        const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+        const Symmetries found = find_symmetries(points);
+        EXPECT_EQ(found.group, group.name) << seed << ' ' << points.rows();
+        EXPECT_EQ(found.elements.size(), group.elements.size()) << group.name;
+        EXPECT_EQ(found.planes.size(), group.plane_normals().size()) << group.name;
+        EXPECT_EQ(found.axes.size(), group.axes().size()) << group.name;
+        EXPECT_EQ(found.score, 1);
+        for (const Matrix4& element : found.elements)
+          for (const Vector3 x : points.rowwise()) {
+            const Vector3 image = (element * x.homogeneous()).head<3>();
+            EXPECT_LT((points.rowwise() - image.transpose()).rowwise().norm().minCoeff(),
+                      1e-9 * size)
+                << group.name;
+          }
+      }
+}
+
+// Eight corners, in single precision; the atoms of a flat molecule, whose plane is a mirror.
+TEST(Symmetries, OfMolecules) {
+  RandomCloud random(1);
+  const Matrix3 rotation = random.rotation();
+  Points cube(8, 3), ring(12, 3);
+  for (Index i = 0; i < 8; ++i) cube.row(i) << (i & 1 ? 1 : -1), (i & 2 ? 1 : -1), (i & 4 ? 1 : -1);
+  for (Index i = 0; i < 12; ++i) {
+    const double angle = std::numbers::pi / 3 * static_cast<double>(i % 6);
+    ring.row(i) = (i < 6 ? 1.39 : 2.48) * Vector3(std::cos(angle), std::sin(angle), 0).transpose();
+  }
+  cube = (cube * rotation.transpose()).cast<float>().cast<double>().eval();
+  ring = (ring * rotation.transpose()).cast<float>().cast<double>().eval();
+  EXPECT_EQ(find_symmetries(cube).group, "Oh");
+  EXPECT_EQ(find_symmetries(ring).group, "D6h");
+}
+
+// Drawn evenly over a box, about its middle.
+Points on_box(const Vector3& size, Index count, RandomCloud& random) {
+  const Vector3 areas(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
+  Points points = random.box(count);
+  for (Index i = 0; i < count; ++i) {
+    double at = random.uniform(0, areas.sum());
+    int axis = 0;
+    while (axis < 2 && at >= areas[axis]) at -= areas[axis++];
+    points(i, axis) = points(i, axis) < 0 ? -1 : 1;
+    points.row(i) = points.row(i).cwiseProduct(size.transpose() / 2);
+  }
+  return points;
+}
+
+// Drawn evenly over a cone or a part of one about z.
+Points on_cone(double from, double to, double from_radius, double to_radius, Index count,
+               RandomCloud& random) {
+  const double widest = std::max(from_radius, to_radius);
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i) {
+    double share = 0, radius = 0;
+    do {
+      share = random.uniform(0, 1);
+      radius = from_radius + share * (to_radius - from_radius);
+    } while (random.uniform(0, widest) > radius);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), from + share * (to - from);
+  }
+  return points;
+}
+
+Points joined(const std::vector<Points>& parts) {
+  Index count = 0;
+  for (const Points& part : parts) count += part.rows();
+  Points all(count, 3);
+  count = 0;
+  for (const Points& part : parts) {
+    all.middleRows(count, part.rows()) = part;
+    count += part.rows();
+  }
+  return all;
+}
+
+// Slanted blades and a hub alone have half turns across the axis. A nose on one side of the hub, a
+// twentieth of the area, has none.
+TEST(Symmetries, HoldForSmallPartsToo) {
+  for (const Index blades : {3, 4, 5}) {
+    RandomCloud random(static_cast<std::uint64_t>(blades));
+    std::vector<Points> parts;
+    for (Index k = 0; k < blades; ++k) {
+      const double angle =
+          2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(blades);
+      const Points blade =
+          on_box({90, 22, 4}, 3000, random) * turn(Vector3::UnitX(), 0.6).transpose();
+      parts.push_back((blade.rowwise() + Eigen::RowVector3d(60, 0, 0)) *
+                      turn(Vector3::UnitZ(), angle).transpose());
+    }
+    parts.push_back(on_cone(-12, 12, 16, 16, 1500, random));
+    const Points hub = joined(parts);
+    parts.push_back(on_cone(12, 30, 16, 2, 150 * blades + 300, random));
+    const Matrix3 rotation = random.rotation();
+    const std::string turns = std::to_string(blades);
+    EXPECT_EQ(find_symmetries(Points(hub * rotation)).group, "D" + turns);
+    EXPECT_EQ(find_symmetries(Points(joined(parts) * rotation)).group, "C" + turns);
+  }
+}
+
+// A set whose points mirror each other, then one of them moved.
+TEST(Symmetries, SayHowFarTheyAreOff) {
+  RandomCloud random(3);
+  const Points half = random.box(300);
+  Points points(600, 3);
+  points << half, half * Vector3(-1, 1, 1).asDiagonal();
+  points *= 10;
+  const Symmetries exact = find_symmetries(points);
+  ASSERT_EQ(exact.group, "Cs");
+  ASSERT_EQ(exact.max_deviations.size(), 2u);
+  EXPECT_EQ(exact.max_deviations[0], 0);
+  EXPECT_LT(exact.max_deviations[1], 1e-12);
+  Points moved = points;
+  moved.row(0) += Eigen::RowVector3d(0, 1e-5, 0);  // within the rounding of single precision
+  const Symmetries found = find_symmetries(moved, {.tolerance = 1e-4});
+  ASSERT_EQ(found.group, "Cs");
+  EXPECT_NEAR(found.max_deviations[1], 1e-5, 1e-7);
+  EXPECT_EQ(find_symmetries(moved, {.tolerance = 1e-6}).group, "C1");
+  EXPECT_THROW(find_symmetries(points, {.tolerance = -1}), InvalidParameter);
 }
 
 TEST(Symmetries, RefusesScoresThatThereAreNot) {

@@ -7,8 +7,9 @@ import io
 import json
 import multiprocessing
 import os
+import signal
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from itertools import islice
 
 import numpy as np
@@ -101,6 +102,45 @@ def test_a_process_that_is_killed_costs_no_file(files):
     for process in multiprocessing.active_children():
         process.kill()
     assert told([first, *rows]) == expected
+
+
+def dies(task):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+class Poisoned(ProcessPoolExecutor):
+    """An executor of which one file kills the worker, and so all."""
+
+    def submit(self, work, task):
+        return super().submit(dies if task.file.stem == "shape3" else work, task)
+
+
+class WorkerLost(Exception):
+    """As a cluster says it of one file."""
+
+
+class Losing(ThreadPoolExecutor):
+    def submit(self, work, task):
+        def lost(task):
+            raise WorkerLost("three workers died")
+
+        return super().submit(lost if task.file.stem == "shape3" else work, task)
+
+
+def test_an_executor_that_breaks_costs_no_file(files):
+    with Poisoned(2) as executor:
+        assert told(symsurf.batch(files, executor=executor)) == told(symsurf.batch(files))
+
+
+def test_a_file_that_an_executor_loses_has_a_row(files):
+    expected = told(symsurf.batch(files))
+    with Losing(2) as executor:
+        rows = told(symsurf.batch(files, executor=executor))
+    lost = next(row for row in rows if "shape3" in row["file"])
+    assert "WorkerLost: three workers died" in lost["error"] and "shape3.xyz: " in lost["error"]
+    assert [row for row in rows if row is not lost] == [
+        row for row in expected if "shape3" not in row["file"]
+    ]
 
 
 def test_a_job_takes_no_more_processors_than_it_was_given(tmp_path):
@@ -224,6 +264,23 @@ def test_names_that_are_no_text(files, tmp_path):
     assert done.returncode == 1 and name in done.stdout and "gone" in done.stderr
     assert [row["file"] for row in rows_of(tmp_path / "t.csv")] == [name, gone]
     assert os.listdir(os.fsencode(tmp_path / "made")) == [b"shape\xff.summary.json"]
+
+
+@pytest.mark.parametrize("start", "=+-@")
+def test_no_cell_of_the_table_is_a_formula(start, tmp_path):
+    points, _ = mirrored_surface(300, 0)
+    name = f"{start}HYPERLINK(1).xyz"
+    np.savetxt(tmp_path / name, points)
+    (tmp_path / f"{start}2.xyz").write_text("")
+    words = (f"--unit={start}1", "--method", "plane", "--table", "t.csv")
+    run("detect", "--jobs", "1", *words, "--", name, f"{start}2.xyz", cwd=tmp_path)
+    rows = rows_of(tmp_path / "t.csv")
+    assert [row["file"] for row in rows] == [f"'{name}", f"'{start}2.xyz"]
+    for row in rows:
+        for text in row.values():
+            assert not text.startswith(("=", "+", "@"))
+            assert not text.startswith("-") or float(text) < 0
+    assert rows[0]["unit"] == f"'{start}1"
 
 
 @pytest.mark.parametrize(

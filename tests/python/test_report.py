@@ -159,9 +159,43 @@ def test_pages_of_many(ball, browse, tmp_path):
     assert (tmp_path / "t.csv").read_text().count("\n") == 7
 
 
+def test_names_and_contents_of_files_are_no_code(ball, tmp_path):
+    names = ["<script>alert(1)<", '<img src=x onerror="alert(1)">.ply', "<b>good<.ply", "a&b.ply"]
+    for name in names[:2]:
+        (tmp_path / name).write_text("ply\n<svg/onload=alert(1)>\n")
+    for name in names[2:]:
+        (tmp_path / name).write_bytes(ball.read_bytes())
+    words = ("--input-format", "ply", "--unit", "<i>mm", "--method", "plane")
+    done = run("report", *names, "--output", "<u>all.html", *words, cwd=tmp_path)
+    assert done.returncode == 1
+    pages = [tmp_path / "<u>all.html", *(tmp_path / "<u>all_files").iterdir()]
+    assert len(pages) == 3
+    for page in pages:
+        text = told(page.read_text())
+        assert not re.search(r"<(script|img|svg/|b>|i>|u>)", text)
+        policy = re.search(r'Security-Policy" content="([^"]*)"', text)[1]
+        scripts = re.search(r"script-src ([^;]*)", policy)[1]
+        assert "unsafe-inline" not in scripts and "default-src 'none'" in policy
+        if page == pages[0]:
+            assert scripts == "'none'"
+    assert "&lt;b&gt;good&lt;.ply" in pages[0].read_text()
+
+
+def test_a_script_that_was_smuggled_in_does_not_run(ball, browse, tmp_path):
+    """Whatever escapes escaping: the policy stops it."""
+    page = tmp_path / "report.html"
+    assert run("report", ball, "--output", page, "--method", "plane").returncode == 0
+    before = browse(page)
+    red = "<script>document.body.innerHTML = ''</script><img src=x onerror=document.body.remove()>"
+    page.write_text(page.read_text().replace("<h1>", red + "<h1>"))
+    assert coloured(browse(page)) > coloured(before) / 2
+
+
 @pytest.mark.parametrize(
     ("line", "says"),
     [
+        ("report ball.ply --input-format ply --output ball.ply", "allowed is the suffix .html"),
+        ("report ball.html --input-format ply --output ball.html", "would overwrite an input"),
         ("report ball.ply --output report.pdf", "allowed is the suffix .html"),
         ("report ball.ply --output report.html --max-angle 1000", "max_angle"),
         ("report ball.ply folder/ball.ply --output r.html", "both be written as ball.html"),

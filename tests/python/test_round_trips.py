@@ -233,6 +233,55 @@ def test_figures_of_a_result_are_numbers(field, value, tmp_path):
         symsurf.Result.load(path)
 
 
+def changed(record, path, value):
+    """A copy with another value at the path; nothing at it where the value is ``del``."""
+    copy_ = json.loads(json.dumps(record))
+    inner = copy_
+    for step in path[:-1]:
+        inner = inner[step]
+    if value == "del":
+        del inner[path[-1]]
+    else:
+        inner[path[-1]] = value
+    return copy_
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        (("mirror", "radius"), 1e300),
+        (("mirror", "radius"), None),
+        (("mirror", "centre", 1), 77.0),
+        (("mirror", "centre"), [None] * 3),
+        (("candidates", 0, "mirror", "centre"), [1e200, 0, 0]),
+        (("residuals",), []),
+        (("residuals",), 4.0),
+        (("residuals", 3), None),
+        (("residuals", 3), -1.0),
+        (("surface_points", 2, 0), None),
+        (("surface_points", 2), "del"),
+        (("pairs", 0, 1), -1),
+        (("pairs", 0), "del"),
+        (("score",), None),
+        (("score",), 1.5),
+        (("candidates", 0, "score"), -1),
+        (("seconds",), None),
+    ],
+)
+def test_a_result_that_was_damaged_is_no_result(path, value, tmp_path):
+    points, mirror = mirrored_surface(200, 0)
+    sphere = symsurf.Sphere(1000 * mirror.normal, 1000 - mirror.offset)
+    other = symsurf.match(points, symsurf.Sphere(900 * mirror.normal, 900 - mirror.offset))
+    result = dataclasses.replace(symsurf.match(points, sphere), candidates=[other])
+    file = tmp_path / "result.json"
+    result.save(file)
+    record = json.loads(file.read_text())
+    assert symsurf.Result.load(file).mirror == sphere
+    file.write_text(json.dumps(changed(record, path, value)))
+    with pytest.raises(symsurf.InvalidInput, match=r"result.json: no result that was saved \("):
+        symsurf.Result.load(file)
+
+
 @pytest.mark.parametrize("name", symsurf.operations())
 def test_what_operations_give_comes_back(name):
     points, mirror = mirrored_surface(400, 0)

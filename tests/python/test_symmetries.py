@@ -119,7 +119,8 @@ def test_a_mesh_is_its_surface():
 def test_bop_has_the_rotations_and_no_reflections():
     box = symsurf.symmetries(posed(PARTS["box"])[0])
     entry = box.to_bop()
-    assert list(entry) == ["symmetries_discrete"]
+    assert list(entry) == ["symmetries_discrete", "max_deviation"]
+    assert len(entry["max_deviation"]) == 3
     matrices = np.reshape(entry["symmetries_discrete"], (-1, 4, 4))
     assert len(matrices) == 3  # three half turns
     assert np.allclose(np.linalg.det(matrices), 1)

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -239,3 +240,21 @@ def test_pictures_are_png(result, tmp_path):
     with pytest.raises(symsurf.InvalidParameter, match=r"result\.jpg.*allowed is the suffix \.png"):
         result.plot(tmp_path / "result.jpg")
     assert not list(tmp_path.iterdir())
+
+
+def test_two_who_save_one_file_leave_a_whole_one(result, tmp_path):
+    path = tmp_path / "same.json"
+    result.save(path)
+    whole = path.read_bytes()
+    torn = []
+
+    def work():
+        for _ in range(30):
+            result.save(path)
+            if path.read_bytes() != whole:
+                torn.append(path)
+
+    threads = [ThreadPoolExecutor(1) for _ in range(4)]
+    for each in [thread.submit(work) for thread in threads]:
+        each.result()  # raises what it raised
+    assert not torn and [file.name for file in tmp_path.iterdir()] == ["same.json"]

@@ -124,6 +124,7 @@ def test_types_and_licences_come_along(wheel):
         "licenses/OpenMesh.txt",
         "licenses/nanoflann.txt",
         "licenses/Spectra.txt",
+        "licenses/pybind11.txt",
     ):
         assert any(name.endswith(f".dist-info/licenses/{licence}") for name in names)
 

@@ -16,12 +16,14 @@ struct Shape {
 /// Reads PLY, OBJ, OFF, STL, XYZ, CSV or TXT, distinguished by suffix. Coordinates keep every digit
 /// a double holds.
 ///
-/// XYZ, CSV and TXT hold rows of numbers, separated by blanks and tabs, by commas or by semicolons;
-/// comments start with # or //. A first row of names says which columns are x, y, z and, if it
-/// names them, nx, ny, nz (or Points:0, Normals:0, ..., as ParaView writes them); capitals do not
-/// count. Without names the first three columns are the point, the next three its normal if there
-/// are exactly six, unless they are colours: whole numbers from 0 to 255, some above 1. Other
-/// columns are ignored.
+/// XYZ, CSV and TXT hold rows of numbers, separated by blanks and tabs, by commas or by semicolons,
+/// with decimal commas where these do not separate; comments start with # or //. A first row of
+/// names, or a comment such as "# columns = id,x,y,z", says which columns are x, y, z and, if it
+/// names them, nx, ny, nz (or Points:0, Normals:0, ..., as ParaView writes them); capitals and units
+/// in brackets do not count. The first row may be the number of rows. Without names the first three
+/// columns are the point, the next three its normal if there are exactly six, unless they are
+/// colours: whole numbers from 0 to 255, some above 1. Other columns are ignored. Four or more
+/// without names, the first of which counts the rows, are refused.
 ///
 /// Throws InvalidInput naming the file and the reason, in text files with the line:
 /// unknown suffix, not readable, empty, larger than half of the memory, broken, truncated, no

@@ -38,7 +38,7 @@ MethodImplementation matching(const Mirror& mirror, double pair_distance) {
   method.name = "match";
   method.minimum_points = 1;
   method.preprocessing = Preprocessing::none();
-  method.preprocessing.remove_outliers = true;
+  method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates = true;
   method.run = [&mirror, pair_distance](const Cloud& cloud, const ParameterValues&,
                                         const Context& context) {
     Result result;

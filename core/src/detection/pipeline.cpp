@@ -1,5 +1,6 @@
 #include "detection/pipeline.h"
 
+#include "base/finite_values.h"
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
 
@@ -78,6 +79,8 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   for (auto stage = applied.rbegin(); stage != applied.rend(); ++stage)
     (*stage)->map_back(result, pair_distance, after_run);
   if (result.mirror) report_pairs(result, finder, input);
+  drop_nonfinite(result.statistics);
+  for (Result& candidate : result.candidates) drop_nonfinite(candidate.statistics);
   return result;
 }
 

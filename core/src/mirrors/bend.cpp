@@ -9,11 +9,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
+#include "spatial/point_tree.h"
 
 namespace symsurf {
 
@@ -285,13 +287,54 @@ Vector3 restored(const Vector3& x, const Chart& chart) {
   return foot + at.z() * normal;
 }
 
+// Columns: the chart's directions, laid along the mirror with this normal, and the normal.
+Matrix3 along_mirror(const Chart& chart, const Vector3& normal) {
+  Matrix3 axes;
+  const Vector3 first = chart.axes().col(0);
+  const Vector3 along = first - first.dot(normal) * normal;
+  axes.col(0) = along.norm() > 1e-6 ? Vector3(along.normalized()) : normal.unitOrthogonal();
+  axes.col(1) = normal.cross(axes.col(0));
+  axes.col(2) = normal;
+  return axes;
+}
+
+// Points beyond the mirror, which have no place, go rigidly with the nearest that has one.
+Index carry_unplaced(Points& out, PointsView points, Bend way, const Workplace& position,
+                     const Context& context) {
+  std::vector<Index> placed, unplaced;
+  for (Index i = 0; i < points.size(); ++i)
+    if (points[i].allFinite()) (out.row(i).allFinite() ? placed : unplaced).push_back(i);
+  if (unplaced.empty()) return 0;
+  if (placed.empty())
+    throw InvalidInput("none of the " + std::to_string(unplaced.size()) +
+                       " points has a foot on this " + std::string(position.mirror().kind()));
+  const Points from = chosen_rows(points, placed);
+  const PointTree tree(from, context);
+  parallel_for(context, static_cast<Index>(unplaced.size()), chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const Index i = unplaced[k], near = placed[tree.nearest(points[i]).index];
+      const Vector3 there = out.row(near).transpose();
+      const Vector3 on_body = way == Bend::Straighten ? points[near] : there;
+      Vector3 foot, normal;
+      Matrix3 turn = Matrix3::Identity();
+      if (foot_and_normal(position.mirror(), position.to_frame(on_body), foot, normal))
+        turn = position.chart().axes() *
+               along_mirror(position.chart(), normal.normalized()).transpose();
+      if (way == Bend::Restore) turn.transposeInPlace();
+      out.row(i) = (there + turn * (points[i] - points[near])).transpose();
+    }
+  });
+  return static_cast<Index>(unplaced.size());
+}
+
 }  // namespace
 
-Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& context) {
+Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& context,
+            Index* unplaced) {
   context.report(0);
   const Workplace position(mirror, points, context);
   Points out(points.size(), 3);
-  parallel_for(context, points.size(), chunk, [&](Index begin, Index end) {
+  parallel_for(context.stage(0, 0.9), points.size(), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Vector3 x = position.to_frame(points[i]);
       const Vector3 carried = way == Bend::Straighten
@@ -300,6 +343,8 @@ Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& co
       out.row(i) = position.from_frame(carried).transpose();
     }
   });
+  const Index count = carry_unplaced(out, points, way, position, context.stage(0.9, 1));
+  if (unplaced) *unplaced = count;
   return out;
 }
 

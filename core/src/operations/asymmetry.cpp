@@ -85,6 +85,7 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   Values& statistics = result.statistics;
   statistics["matched_share"] =
       static_cast<double>(counterparts.matched()) / static_cast<double>(count);
+  counterparts.report_unmatched(statistics);
   statistics["diagonal"] = diagonal;
   report_distances(statistics, distance, outward, diagonal, context);
   if (!input.faces.empty())

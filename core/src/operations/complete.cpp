@@ -200,6 +200,7 @@ void run_complete(const OperationInput& input, const Mirror& mirror, const Param
       if (joined[i]) origin[i] = at_seam;
   }
   result.arrays = {{"origin", origin}};
+  counterparts.report_unmatched(result.statistics);
   result.statistics["added_points"] = result.points.rows() - points;
   result.statistics["added_faces"] = patch;
   result.statistics["seam_faces"] = result.faces.rows() - faces - patch;

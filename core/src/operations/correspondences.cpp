@@ -40,8 +40,9 @@ void run_correspondences(const OperationInput& input, const Mirror& mirror,
         confidence[i] = 0;
       }
   }
-  result.statistics["paired_share"] =
-      static_cast<double>((index.array() >= 0).count()) / static_cast<double>(count);
+  const auto paired = static_cast<double>((index.array() >= 0).count());
+  result.statistics["paired_share"] = paired / static_cast<double>(count);
+  counterparts.report_unmatched(result.statistics);
   result.arrays = {{"index", index}, {"confidence", confidence}};
   if (!input.faces.empty()) {
     result.arrays["face"] = face;

@@ -8,12 +8,15 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "base/parallel.h"
+#include "cloud/distinct_points.h"
 #include "cloud/normals.h"
 #include "cloud/surface_spacing.h"
 #include "mesh/closest_point_on_mesh.h"
+#include "operations/copy_pairs.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -25,6 +28,7 @@ constexpr double corner = 1e-9;       // a barycentric weight below this is roun
 constexpr double rim_of_mesh = 0.1;   // of the face's longest edge: how far past it is on it still
 constexpr double rim_of_cloud = 1.5;  // spacings: inside a surface the nearest point is nearer
 constexpr Index neighbours = 10;      // that a cloud's normals are estimated from
+constexpr double exact = 1e-6;        // diagonals between a point and an image: single precision
 
 void require_images(const Points& images, std::string_view kind) {
   const Index count = images.rowwise().sum().array().isFinite().count();
@@ -50,6 +54,30 @@ double volume_of(PointsView points, TrianglesView faces) {
   return volume;
 }
 
+// One a point: whether most of the connected part of the mesh that it belongs to faces the other
+// way than what it is the image of. A side is wound so that was mirrored without turning its faces.
+std::vector<bool> wound_against_their_images(PointsView points, TrianglesView faces,
+                                             const std::vector<signed char>& faces_alike) {
+  const DistinctPoints distinct = distinct_points(points, Context());
+  std::vector<std::int32_t> part(distinct.first.size());
+  std::iota(part.begin(), part.end(), 0);
+  const auto part_of = [&](Index i) {
+    std::int32_t root = distinct.number[i];
+    while (part[root] != root) root = part[root] = part[part[root]];
+    return root;
+  };
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 2; ++c) {
+      const std::int32_t one = part_of(faces[f][c]), other = part_of(faces[f][c + 1]);
+      part[std::max(one, other)] = std::min(one, other);
+    }
+  std::vector<Index> balance(part.size(), 0);
+  for (Index i = 0; i < points.size(); ++i) balance[part_of(i)] += faces_alike[i];
+  std::vector<bool> against(points.size());
+  for (Index i = 0; i < points.size(); ++i) against[i] = balance[part_of(i)] < 0;
+  return against;
+}
+
 // How the mirror turns a normal at x: by what it does to two tangents, as it need not be an
 // isometry.
 Vector3 mirrored_normal(const Mirror& mirror, const Vector3& x, const Vector3& image,
@@ -64,38 +92,67 @@ Vector3 mirrored_normal(const Mirror& mirror, const Vector3& x, const Vector3& i
 
 Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
                            const Context& context)
-    : all_(input.points.size()), images_(mirror.reflect(input.points, context.stage(0, 0.3))) {
+    : limits_(limits),
+      all_(input.points.size()),
+      images_(mirror.reflect(input.points, context.stage(0, 0.3))) {
   require_images(images_, mirror.kind());
   const Context rest = context.stage(0.3, 1);
   if (input.faces.empty())
-    match_cloud(input, mirror, limits, rest);
+    match_cloud(input, mirror, rest);
   else
-    match_mesh(input, limits, rest);
+    match_mesh(input, rest);
+  std::vector<Index> nearest;
+  for (const Counterpart& c : all_) nearest.push_back(c.nearest);
+  pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
+  for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
 
-void Counterparts::settle(Index i, const Limits& limits, double cosine) {
+void Counterparts::settle(Index i, double cosine) {
   Counterpart& c = all_[i];
   c.agreement = std::isfinite(cosine) ? std::clamp(cosine, 0.0, 1.0) : 1;
-  c.matched = !c.past_rim && c.gap <= limits.distance && c.agreement >= limits.cosine;
+  c.matched = !c.past_rim && c.gap <= limits_.distance && c.agreement >= limits_.cosine;
 }
 
-void Counterparts::match_mesh(const OperationInput& input, const Limits& limits,
-                              const Context& context) {
-  const TriangleMesh& mesh = mesh_.emplace(input.points, input.faces, context.stage(0, 0));
+void Counterparts::report_unmatched(Values& statistics) const {
+  const auto share = [&](const auto& is_so) {
+    const auto count = std::count_if(all_.begin(), all_.end(),
+                                     [&](const Counterpart& c) { return !c.matched && is_so(c); });
+    return static_cast<double>(count) / static_cast<double>(all_.size());
+  };
+  const auto has_none = [](const Counterpart& c) { return c.nearest < 0; };
+  const auto is_far = [&](const Counterpart& c) {
+    return c.nearest >= 0 && !c.past_rim && c.gap > limits_.distance;
+  };
+  const auto is_turned = [&](const Counterpart& c) {
+    return c.nearest >= 0 && !c.past_rim && c.gap <= limits_.distance;
+  };
+  statistics["unmatched_share"] = share([](const Counterpart&) { return true; });
+  statistics["unmatched_without_image"] = share(has_none);
+  statistics["unmatched_past_rim"] = share([](const Counterpart& c) { return c.past_rim; });
+  statistics["unmatched_too_far"] = share(is_far);
+  statistics["unmatched_turned"] = share(is_turned);
+}
+
+void Counterparts::match_mesh(const OperationInput& input, const Context& context) {
+  const PointsView points = input.points;
+  const TriangleMesh& mesh = mesh_.emplace(points, input.faces, context.stage(0, 0));
   const std::vector<bool> is_boundary = mesh.is_boundary();
   normals_ = mesh.vertex_normals();
   // A mirror turns the winding round.
   const Points image_normals = -mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
   const bool is_closed = std::none_of(is_boundary.begin(), is_boundary.end(), std::identity());
   is_watertight_ = is_closed && mesh.refused().total() == 0;
-  const double outwards = is_closed && volume_of(input.points, input.faces) < 0 ? -1 : 1;
+  const double outwards = is_closed && volume_of(points, input.faces) < 0 ? -1 : 1;
+  std::vector<Index> face_at(points.size(), -1);
+  for (Index f = input.faces.size() - 1; f >= 0; --f)
+    for (int c = 0; c < 3; ++c) face_at[input.faces[f][c]] = f;
 
   const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
-  const auto settle_at = [&](Index i, const ClosestPoint& closest) {
+  const auto settle_at = [&](Index i, const ClosestPoint& closest, bool by_lines) {
     Counterpart& c = all_[i];
-    const Vector3 x = input.points[i];
+    const Vector3 x = points[i];
     const Index* corners = input.faces[closest.face];
     c.face = closest.face;
     c.weights = closest.weights;
@@ -107,7 +164,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Limits& limits,
     double longest = 0, nearest = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
       const Vector3 y = image(corners[k]);
-      c.on_surface += closest.weights[k] * input.points[corners[k]];
+      c.on_surface += closest.weights[k] * points[corners[k]];
       normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
       c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
       longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
@@ -120,27 +177,65 @@ void Counterparts::match_mesh(const OperationInput& input, const Limits& limits,
     normal.stableNormalize();
     const Vector3 gap = x - closest.point;
     c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
-    settle(i, limits, cosine_between(normal, normals_.row(i).transpose()));
+    const double cosine = cosine_between(normal, normals_.row(i).transpose());
+    settle(i, by_lines ? std::abs(cosine) : cosine);
+    return cosine;
   };
-  parallel_for(context.stage(0.2, 1), input.points.size(), grain, [&](Index begin, Index end) {
+  // A point that is the image of another, whatever the faces around the two.
+  const auto settle_at_point = [&](Index i, Index partner) {
+    Counterpart& c = all_[i];
+    c.nearest = partner;
+    c.face = face_at[partner];
+    for (int k = 0; k < 3; ++k) c.weights[k] = input.faces[c.face][k] == partner ? 1 : 0;
+    c.place = image(partner);
+    c.on_surface = points[partner];
+    c.gap = (c.place - points[i]).norm();
+    c.on_rim = is_boundary[partner];
+    const double cosine =
+        cosine_between(image_normals.row(partner).transpose(), normals_.row(i).transpose());
+    settle(i, std::abs(cosine));
+    c.matched = true;
+    return cosine;
+  };
+
+  const PointTree images(images_, context.stage(0.2, 0.3));
+  const double exact_reach = exact * diagonal_of(points);
+  // Whether the closest place faces the way the point does: 1 or -1; 0: neither, or not known.
+  std::vector<signed char> faces_alike(points.size(), 0);
+  parallel_for(context.stage(0.3, 0.9), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const ClosestPoint closest = mirrored(input.points[i]);
+      const Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
+      const auto look = [&](double cosine) {
+        if (std::abs(cosine) >= limits_.cosine) faces_alike[i] = cosine < 0 ? -1 : 1;
+      };
+      if (partner >= 0 && face_at[partner] >= 0) {
+        look(settle_at_point(i, partner));
+        continue;
+      }
+      const ClosestPoint closest = mirrored(points[i]);
       if (closest.face < 0) continue;
-      settle_at(i, closest);
-      if (all_[i].agreement >= limits.cosine) continue;
-      // Where the sides of a thin part differ, the closest layer is the wrong one.
-      const ClosestPoint facing = mirrored.facing(input.points[i], -normals_.row(i).transpose(),
-                                                  limits.cosine, limits.distance * limits.distance);
-      if (facing.face >= 0) settle_at(i, facing);
+      const double cosine = settle_at(i, closest, false);
+      if (all_[i].agreement < limits_.cosine) {
+        // Where the sides of a thin part differ, the closest layer is the wrong one.
+        const ClosestPoint facing =
+            mirrored.facing(points[i], -normals_.row(i).transpose(), limits_.cosine,
+                            limits_.distance * limits_.distance);
+        if (facing.face >= 0) settle_at(i, facing, false);
+      }
+      if (!all_[i].past_rim && all_[i].gap <= limits_.distance) look(all_[i].matched ? 1 : cosine);
     }
   });
+  const std::vector<bool> by_lines = wound_against_their_images(points, input.faces, faces_alike);
+  parallel_for(context.stage(0.9, 1), points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      if (by_lines[i] && all_[i].gap > exact_reach) settle_at(i, mirrored(points[i]), true);
+  });
   normals_ *= outwards;
-  spacing_ =
-      std::sqrt(surface_area(input.points, input.faces) / static_cast<double>(input.points.size()));
+  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
 }
 
 void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror,
-                               const Limits& limits, const Context& context) {
+                               const Context& context) {
   const PointsView points = input.points;
   const PointTree tree(points, context.stage(0, 0.1));
   normals_ = estimate_normals(points, tree, std::min(neighbours, points.size()), "pca",
@@ -149,7 +244,7 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
   for (Index i = 0; i < points.size(); ++i)
     if ((points[i] - centroid).dot(normals_.row(i).transpose()) < 0) normals_.row(i) *= -1;
   spacing_ = surface_spacing(points, tree);
-  const double step = 1e-2 * spacing_;
+  const double step = 1e-2 * spacing_, exact_reach = exact * diagonal_of(points);
 
   const PointTree mirrored(images_, context.stage(0.3, 0.4));
   parallel_for(context.stage(0.4, 1), points.size(), grain, [&](Index begin, Index end) {
@@ -171,7 +266,8 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
       c.gap = std::abs(gap.dot(normal));
       c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
-      settle(i, limits, std::abs(normal.dot(normals_.row(i).transpose())));
+      settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
+      c.matched = c.matched || gap.norm() <= exact_reach;
     }
   });
 }

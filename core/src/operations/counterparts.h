@@ -24,7 +24,8 @@ struct Counterpart {
   double agreement = 0;               ///< cosine between the normals there, 0 to 1
   bool on_rim = false;                ///< the place is on a boundary of the mirrored mesh
   bool past_rim = false;              ///< the point lies beside the mirrored surface, not above it
-  /// Not past a rim, nor farther away or turned by more than allowed.
+  /// Whose image is a point, or which is not past a rim, nor farther away or turned by more than
+  /// allowed.
   bool matched = false;
 
   static inline const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -45,6 +46,9 @@ class Counterparts {
   const Counterpart& operator[](Index i) const { return all_[i]; }
   Index matched() const { return matched_; }
 
+  /// Of all points the share without a counterpart, and what of it is so for which reason.
+  void report_unmatched(Values& statistics) const;
+
   /// Of a point, NaN where it has none.
   Vector3 image(Index i) const { return images_.row(i).transpose(); }
 
@@ -63,11 +67,11 @@ class Counterparts {
   bool is_watertight() const { return is_watertight_; }
 
  private:
-  void match_mesh(const OperationInput& input, const Limits& limits, const Context& context);
-  void match_cloud(const OperationInput& input, const Mirror& mirror, const Limits& limits,
-                   const Context& context);
-  void settle(Index i, const Limits& limits, double cosine);
+  void match_mesh(const OperationInput& input, const Context& context);
+  void match_cloud(const OperationInput& input, const Mirror& mirror, const Context& context);
+  void settle(Index i, double cosine);
 
+  const Limits limits_;
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;
   Points images_, normals_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/find_named.h"
+#include "base/finite_values.h"
 #include "cloud/cloud.h"
 #include "mesh/triangle_mesh.h"
 #include "operations/counterparts.h"
@@ -75,6 +76,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   result.parameters = values.all();
   context.report(0);
   operation.run(input, mirror, values, context, result);
+  drop_nonfinite(result.statistics);
   context.report(1);
   return result;
 }

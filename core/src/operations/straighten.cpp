@@ -10,12 +10,13 @@ void run_straighten(const OperationInput& input, const Mirror& mirror,
                     const ParameterValues& values, const Context& context,
                     OperationResult& result) {
   const bool back = values.boolean("back");
-  result.points = bend(input.points, mirror, back ? Bend::Restore : Bend::Straighten, context);
+  Index unplaced = 0;
+  result.points =
+      bend(input.points, mirror, back ? Bend::Restore : Bend::Straighten, context, &unplaced);
   const Plane plane = straight_mirror(mirror, input.points);
   result.statistics["normal"] = plane.normal();
   result.statistics["offset"] = plane.offset();
-  result.statistics["unplaced_points"] =
-      Index{(!result.points.rowwise().sum().array().isFinite()).count()};
+  result.statistics["unplaced_points"] = unplaced;
 }
 
 }  // namespace

@@ -40,6 +40,9 @@ class Symmetrization {
   /// 1 where a point had a counterpart at first, else 0.
   const Eigen::VectorXd& paired() const { return paired_; }
 
+  /// What Counterparts::report_unmatched() said at first.
+  const Values& unmatched() const { return unmatched_; }
+
  private:
   static constexpr Index grain = 512;  // points; ten microseconds each over a free-form mirror
 
@@ -61,7 +64,10 @@ class Symmetrization {
       paired[i] = 1;
       mutual += is_mutual(found, i);
     }
-    if (paired_.size() == 0) paired_ = paired;
+    if (paired_.size() == 0) {
+      paired_ = paired;
+      found.report_unmatched(unmatched_);
+    }
     const bool keep_pairs =
         static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(found.matched());
     Points points = from.matrix();
@@ -87,6 +93,7 @@ class Symmetrization {
   const Counterparts::Limits limits_;
   double on_mirror_;
   Eigen::VectorXd paired_;
+  Values unmatched_;
 };
 
 void run_symmetrize(const OperationInput& input, const Mirror& mirror,
@@ -111,6 +118,7 @@ void run_symmetrize(const OperationInput& input, const Mirror& mirror,
       result.points.row(i) += share * (target.row(i) - result.points.row(i));
   }
   result.arrays = {{"paired", symmetrization.paired()}};
+  result.statistics = symmetrization.unmatched();
   result.statistics["paired_share"] = symmetrization.paired().mean();
 }
 

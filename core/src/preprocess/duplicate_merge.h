@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
+#include "cloud/distinct_points.h"
 #include "preprocess/preprocessing.h"
 
 namespace symsurf {
@@ -18,11 +16,8 @@ class DuplicateMerge : public Stage {
   void map_back(Result& result, double pair_distance, const Context& context) const override;
 
  private:
-  void find_distinct(PointsView points, const Context& context);
-
   Index minimum_points_;
-  std::vector<std::int32_t> first_;     // of each distinct point, the first of its duplicates
-  std::vector<std::int32_t> distinct_;  // of each point, its index among the distinct ones
+  DistinctPoints distinct_;
 };
 
 }  // namespace symsurf

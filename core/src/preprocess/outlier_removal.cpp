@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "cloud/distinct_points.h"
 #include "mesh/triangle_mesh.h"
 #include "spatial/voxel_grid.h"
 
@@ -125,7 +126,28 @@ bool fills_area(const PrincipalFrame& frame) {
 }  // namespace
 
 bool OutlierRemoval::apply(Cloud& cloud, const Context& context) {
-  Body body(cloud.points, cloud.partition, cloud.frame, context);
+  const bool merge = cloud.partition.sum(Index{has_many_duplicates(cloud.points, context)}) > 0;
+  const DistinctPoints distinct = merge ? distinct_points(cloud.points, context) : DistinctPoints();
+  const Points positions = merge ? chosen_rows(cloud.points, distinct.first) : Points(0, 3);
+  const PointsView points = merge ? PointsView(positions) : cloud.points;
+  std::vector<Index> own = outliers_of(points, cloud, context);
+  if (merge) {
+    std::vector<bool> is_outlier(distinct.first.size(), false);
+    for (const Index i : own) is_outlier[i] = true;
+    own.clear();
+    for (std::size_t i = 0; i < distinct.number.size(); ++i)
+      if (is_outlier[distinct.number[i]]) own.push_back(static_cast<Index>(i));
+  }
+  if (!own.empty() && !cloud.faces.empty() && hold_surface(own, cloud)) return false;
+  return remove(cloud, own);
+}
+
+// Of these points of the cloud, ascending.
+std::vector<Index> OutlierRemoval::outliers_of(PointsView points, const Cloud& cloud,
+                                               const Context& context) const {
+  const Partition whole = cloud.partition.resized(points.size());
+  const bool merged = whole.total() < cloud.partition.total();
+  Body body(points, whole, merged ? principal_frame(points, whole, context) : cloud.frame, context);
   const double share = least_share * static_cast<double>(body.total());
   const Index least = std::max(minimum_points_, static_cast<Index>(std::ceil(share)));
   std::vector<Index> own;
@@ -133,22 +155,18 @@ bool OutlierRemoval::apply(Cloud& cloud, const Context& context) {
     const std::vector<Index> known = own;
     own.clear();
     auto next = known.begin();
-    interruptible_for(context, cloud.points.size(), [&](Index i) {
+    interruptible_for(context, points.size(), [&](Index i) {
       const bool is_known = next != known.end() && *next == i;
       if (is_known) ++next;
-      if (is_known || !body.holds(cloud.points[i])) own.push_back(i);
+      if (is_known || !body.holds(points[i])) own.push_back(i);
     });
-    const Points left = without(cloud.points, own);
-    const Partition partition = cloud.partition.resized(left.rows());
+    const Points left = without(points, own);
+    const Partition partition = whole.resized(left.rows());
     const PrincipalFrame frame = principal_frame(left, partition, context);
-    if (!fills_area(frame)) {
-      own = known;
-      break;
-    }
+    if (!fills_area(frame)) return known;
     body = Body(left, partition, frame, context);
   }
-  if (!own.empty() && !cloud.faces.empty() && hold_surface(own, cloud)) return false;
-  return remove(cloud, own);
+  return own;
 }
 
 bool OutlierRemoval::hold_surface(const std::vector<Index>& own, const Cloud& cloud) {

@@ -17,7 +17,8 @@ double wendland_slope(double u) {
 
 SymmetryMeasure::SymmetryMeasure(const Points& points) {
   const Eigen::RowVector3d centroid = points.colwise().mean();
-  alpha_ = 15 / (points.rowwise() - centroid).rowwise().norm().mean();
+  const double extent = (points.rowwise() - centroid).rowwise().norm().mean();
+  alpha_ = 15 / (extent > 0 ? extent : 1);  // of points at one position any will do
   support_ = 2.6 / alpha_;
   origin_ = points.colwise().minCoeff().transpose();
   const auto cell = [&](Index i) -> Eigen::Vector3i {

@@ -25,8 +25,9 @@ struct Neighbour {
 };
 
 /// A k-d tree of a cloud: exact nearest neighbours, ties broken by index. The points are stored
-/// along the Z-order curve, so that queries in that order stay in cache. Points that are not finite
-/// are never found.
+/// along the Z-order curve, so that queries in that order stay in cache. Copies of a point are one
+/// point of the tree: a search for few neighbours takes no longer however many there are. Points
+/// that are not finite are never found.
 class PointTree {
  public:
   explicit PointTree(PointsView points, const Context& context = {});
@@ -48,8 +49,9 @@ class PointTree {
   template <typename Visit>
   void within(const Vector3& query, double radius, const Visit& visit) const {
     const double limit = radius * radius;
-    search(query, limit, [&](const Neighbour& found) {
-      if (found.squared_distance <= limit) visit(found.index, found.squared_distance);
+    search(query, limit, [&](std::size_t begin, std::size_t end, double squared) {
+      if (squared <= limit)
+        for (std::size_t p = begin; p < end; ++p) visit(order_[p], squared);
       return limit;
     });
   }
@@ -62,27 +64,40 @@ class PointTree {
         [&](const Vector3& low, const Vector3& high) {
           return bound(Vector3(low + origin_), Vector3(high + origin_));
         },
-        limit, [&](std::uint32_t position) { return offer(Index{order_[position]}); });
+        limit,
+        [&](std::uint32_t node) {
+          double left = limit;
+          for (std::size_t p = begin(node); p < begin(node + 1); ++p)
+            left = offer(Index{order_[p]});
+          return left;
+        });
   }
 
  private:
   using Tree = KdTree<3>;
 
-  // Calls limit = offer(neighbour) for the points that may lie within the root of `limit`.
+  // In the order, where the copies of the tree's point begin.
+  std::size_t begin(std::size_t node) const { return begins_.empty() ? node : begins_[node]; }
+
+  // Calls limit = offer(begin, end, squared distance) for what may lie within the root of `limit`:
+  // positions in the order of a point and its copies, the lowest index first.
   template <typename Offer>
   void search(const Vector3& query, double limit, const Offer& offer) const {
     const Vector3 q = query - origin_;
     if (!tree_ || !q.allFinite()) return;
-    tree_->search(q, Tree::at_most(limit), [&](std::uint32_t position, double squared) {
-      return Tree::at_most(offer(Neighbour{order_[position], squared}));
+    tree_->search(q, Tree::at_most(limit), [&](std::uint32_t node, double squared) {
+      return Tree::at_most(offer(begin(node), begin(node + 1), squared));
     });
   }
 
   void sort(PointsView points, double extent, const Context& context);
+  void put_copies_together(PointsView points, const std::vector<std::uint64_t>& keys,
+                           const Context& context);
 
   Vector3 origin_ = Vector3::Zero();
   std::vector<std::int32_t> order_;
-  std::unique_ptr<const Tree> tree_;  // of the finite points from origin_, along the curve
+  std::vector<std::int32_t> begins_;  // of the tree's points and the end; empty: none has copies
+  std::unique_ptr<const Tree> tree_;  // of the distinct finite points from origin_, on the curve
 };
 
 }  // namespace symsurf

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/find_named.h"
+#include "base/finite_values.h"
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
 #include "preprocess/row_removal.h"
@@ -99,6 +100,7 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   result.analysis = analysis.name;
   context.report(0);
   analysis.run(cloud, values, context, result);
+  drop_nonfinite(result.statistics);
   result.footprint = std::make_shared<const Points>(footprint_of(cloud));
   for (Plane& plane : result.planes) plane.set_footprint(result.footprint);
   if (removed) {

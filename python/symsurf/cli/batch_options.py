@@ -42,6 +42,11 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         metavar="NUMBER",
         help="of images: the voxels above it are the points; a mask of two values needs none",
     )
+    parser.add_argument(
+        "--label",
+        metavar="NUMBER",
+        help="of maps of labels: the voxels with it are the points; of seg.nrrd also a segment's name",
+    )
 
 
 def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
@@ -52,6 +57,7 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
         Path(),
         input_format=input_format,
         threshold=None if arguments.threshold is None else number(arguments.threshold),
+        label=_label(arguments.label),
         unit=arguments.unit,
     )
     tasks = []
@@ -64,6 +70,10 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
             content = sys.stdin.buffer.read()
             tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
     return tasks
+
+
+def _label(text: str | None) -> int | str | None:
+    return int(text) if text is not None and text.lstrip("-").isdecimal() else text
 
 
 def add_batch_options(parser: argparse.ArgumentParser) -> None:

@@ -39,7 +39,9 @@ def operate(
     made = _core.operate(
         name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
-    return RESULTS[name].from_fields(made | {"given_faces": given.faces, "mirror": mirror})
+    return RESULTS[name].from_fields(
+        made | {"given_faces": given.faces, "space": given.space, "mirror": mirror}
+    )
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -40,9 +40,11 @@ class OperationResult(Summarised):
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
+        faces = made["faces"] if len(made["faces"]) else None
+        frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
         return cls(
-            given=Shape(made["given"], made["given_faces"]),
-            shape=Shape(made["points"], made["faces"] if len(made["faces"]) else None),
+            given=Shape(made["given"], made["given_faces"], space=made["space"]),
+            shape=Shape(made["points"], faces, space=frame or made["space"]),
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
@@ -121,7 +123,9 @@ class OperationResult(Summarised):
 class Asymmetry(OperationResult):
     """How far each point is from where the other side says it should be.
 
-    ``statistics``: "matched_share"; over the matched points "mean", "rms", "median", "p75", "p95",
+    ``statistics``: "matched_share" and "unmatched_share", of that "unmatched_without_image",
+    "unmatched_past_rim", "unmatched_too_far" and "unmatched_turned", all as shares of the points;
+    over the matched points "mean", "rms", "median", "p75", "p95",
     "p99" and "maximum" of the distances, "signed_mean" and "signed_deviation", in input units and,
     with "_of_diagonal" behind the name, as shares of the "diagonal"; of a mesh "positive_area" and
     "negative_area" with "area_index", (positive - negative) / (positive + negative); of a
@@ -145,7 +149,8 @@ class Asymmetry(OperationResult):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Correspondences(OperationResult):
-    """Which point mirrors which. ``statistics``: "paired_share"."""
+    """Which point mirrors which. ``statistics``: "paired_share", and why the others are unmatched,
+    as those of an asymmetry."""
 
     operation = "correspondences"
 
@@ -173,7 +178,8 @@ class Alignment(OperationResult):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Symmetrized(OperationResult):
-    """The shape made symmetric. ``statistics``: "paired_share"."""
+    """The shape made symmetric. ``statistics``: "paired_share", and why the others are unmatched,
+    as those of an asymmetry."""
 
     operation = "symmetrize"
 
@@ -184,7 +190,8 @@ class Symmetrized(OperationResult):
 @dataclass(frozen=True, eq=False, repr=False)
 class Straightened(OperationResult):
     """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
-    the mirror is then, and how many "unplaced_points" have no foot on it: they are NaN."""
+    the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
+    nearest that has one."""
 
     operation = "straighten"
 

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import BinaryIO, cast
 
 from .._core import InvalidInput, InvalidParameter
+from ..own_process import ProcessDied
 from ..shape import Shape
+from ..thresholds import Choice
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
 from .location import located
 
@@ -20,13 +22,13 @@ def read(
     format: str | None = None,
     *,
     threshold: float | None = None,
+    label: int | str | None = None,
     scalars: str | None = None,
 ) -> Shape:
     """Reads a mesh, a cloud, or the points of a mask.
 
-    PLY, OBJ, OFF, STL, XYZ, CSV and TXT; with ``symsurf[formats]`` VTP, VTU, VTK, VTI, GLB, GLTF,
-    3MF, LAS, LAZ, NRRD and NIfTI (NII); with ``symsurf[pcd]`` PCD; each also compressed, as ``.ply.gz``.
-    Coordinates keep every digit a double holds, in the unit and the axes of the file. Of masks and
+    PLY, OBJ, OFF, STL, XYZ, CSV, TXT, FCSV, GLB, GLTF, 3MF, LAS and PCD; with ``symsurf[formats]``
+    VTP, VTU, VTK, VTI, LAZ, NRRD and NIfTI (NII); each also compressed, as ``.ply.gz``. Coordinates keep every digit a double holds, in the unit and the axes of the file. Of masks and
     images they are the centres of voxels in world coordinates: RAS of NIfTI, the header's space
     (LPS of 3D Slicer) of NRRD.
 
@@ -36,26 +38,27 @@ def read(
             needs it.
         threshold: of an image, the number that the values of the voxels to take are above. A mask
             of two values needs none.
+        label: of a map of labels, the value of the voxels to take, in place of a threshold; of a
+            segmentation of 3D Slicer (seg.nrrd) also the name of a segment.
         scalars: of VTK's images, the name of the values; without it the active ones.
 
     Raises:
         InvalidInput: names the file and the reason: unknown suffix, an optional package that is not
             installed, not readable, larger than half of the memory, broken, truncated, no points.
-        InvalidParameter: an unknown format; a threshold for what is no image.
+        InvalidParameter: an unknown format; a threshold or a label for what is no image.
     """
+    choice = Choice(threshold, label, scalars)
     suffix = None if format is None else require_format(format)
     if hasattr(path, "read"):
         if suffix is None:
             raise InvalidParameter("format is None; an open file needs one, such as 'ply'")
         stream = cast(BinaryIO, path)
-        return _read(
-            str(getattr(stream, "name", "the open file")), suffix, stream, threshold, scalars
-        )
+        return _read(str(getattr(stream, "name", "the open file")), suffix, stream, choice)
     if not isinstance(path, (str, bytes, os.PathLike)) or "\0" in os.fsdecode(path):
         raise InvalidInput(f"path is {path!r}; allowed is the name of a file")
     name = os.fsdecode(path)
     _require_file(name)
-    return _read(name, suffix or suffix_of(Path(name)), None, threshold, scalars)
+    return _read(name, suffix or suffix_of(Path(name)), None, choice)
 
 
 def require_format(name: object) -> str:
@@ -93,14 +96,12 @@ def _require_file(name: str) -> None:
         )
 
 
-def _read(
-    name: str, suffix: str, stream: BinaryIO | None, threshold: float | None, scalars: str | None
-) -> Shape:
+def _read(name: str, suffix: str, stream: BinaryIO | None, choice: Choice) -> Shape:
     described = format_of(suffix)
     if described is None:
         raise InvalidInput(f"{name}: suffix '{suffix}' is none of {known_suffixes()}")
-    for option, value in (("threshold", threshold), ("scalars", scalars)):
-        if value is not None and not described.is_image:
+    for option, value in choice.given().items():
+        if not described.is_image:
             raise InvalidParameter(
                 f"{option} is {value!r}; allowed is None, as {name} is {described.name}, no image"
             )
@@ -111,9 +112,13 @@ def _read(
     try:
         with located(name, suffix, stream) as file:
             try:
-                shape = reader(file, threshold, scalars)
+                shape = reader(file.absolute(), choice)
             except InvalidInput as error:  # the core names the file
-                raise InvalidInput(str(error).removeprefix(f"{file}: ")) from error
+                raise InvalidInput(str(error).removeprefix(f"{file.absolute()}: ")) from error
+            except ProcessDied as error:
+                raise InvalidInput(
+                    f"broken {described.name} (its reader died, or took too much memory or time)"
+                ) from error
         _require_sound(shape)
     except InvalidInput as error:
         raise InvalidInput(f"{name}: {error}") from error

@@ -4,15 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
+from ..own_process import call
 from ..shape import Shape
+from ..thresholds import Choice
 
 PACKED = ".gz"
 
-Reader = Callable[[Path, "float | None", "str | None"], Shape]
-"""Takes a file, a threshold and the name of scalars."""
+Reader = Callable[[Path, Choice], Shape]
+
+
+# What a reader's own process may take: a packed mask unpacks to a thousand times its bytes, by zlib.
+_MEMORY, _MEMORY_A_BYTE = 2 << 30, 1000
+_SECONDS, _SECONDS_A_BYTE = 60, 1e-5
+
+
+def _elsewhere(module: str, path: Path, choice: Choice) -> Shape:
+    size = path.stat().st_size
+    return call(
+        module,
+        "read",
+        path,
+        choice,
+        memory=_MEMORY + _MEMORY_A_BYTE * size,
+        seconds=_SECONDS + _SECONDS_A_BYTE * size,
+    )
 
 
 @dataclass(frozen=True)
@@ -27,7 +47,9 @@ class Format:
     extra: str = ""
     """Of symsurf, which brings them."""
     is_image: bool = False
-    """Whether it may hold a mask or an image, of which a threshold chooses the points."""
+    """Whether it may hold a mask or an image, of which a threshold or a label chooses the points."""
+    may_die: bool = False
+    """Whether a damaged file may end the process of its reader, which then has one of its own."""
 
     @property
     def name(self) -> str:
@@ -36,34 +58,33 @@ class Format:
     def load(self) -> Reader:
         """The function that reads it. Raises ImportError, naming the extra, without a package."""
         for package in self.packages:
-            try:
-                import_module(package)
-            except ImportError as error:
+            if find_spec(package) is None:
                 raise ImportError(
                     f"{self.name} needs the package {package}, which is not installed: "
                     f"pip install 'symsurf[{self.extra}]'"
-                ) from error
-        return import_module(f".{self.reader}", __package__).read
+                )
+        module = f"{__package__}.{self.reader}"
+        return partial(_elsewhere, module) if self.may_die else import_module(module).read
 
 
-_OWN = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt")
+_CORE = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt", ".fcsv")
 
 FORMATS: dict[str, Format] = {
     each.suffix: each
     for each in (
-        *(Format(suffix, "own") for suffix in _OWN),
-        Format(".vtp", "vtk_data", ("pyvista",), "formats"),
-        Format(".vtu", "vtk_data", ("pyvista",), "formats"),
-        Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True),
-        Format(".vti", "vtk_data", ("pyvista",), "formats", is_image=True),
-        Format(".glb", "scene", ("trimesh",), "formats"),
-        Format(".gltf", "scene", ("trimesh",), "formats"),
-        Format(".3mf", "scene", ("trimesh", "networkx", "lxml"), "formats"),
-        Format(".las", "las", ("laspy",), "formats"),
-        Format(".laz", "las", ("laspy", "lazrs"), "formats"),
+        *(Format(suffix, "own") for suffix in _CORE),
+        Format(".glb", "gltf"),
+        Format(".gltf", "gltf"),
+        Format(".3mf", "threemf"),
+        Format(".las", "las"),
+        Format(".pcd", "pcd"),
+        Format(".vtp", "vtk_data", ("pyvista",), "formats", may_die=True),
+        Format(".vtu", "vtk_data", ("pyvista",), "formats", may_die=True),
+        Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True, may_die=True),
+        Format(".vti", "vtk_data", ("pyvista",), "formats", is_image=True, may_die=True),
+        Format(".laz", "laz", ("laspy", "lazrs"), "formats", may_die=True),
         Format(".nrrd", "nrrd_image", ("nrrd",), "formats", is_image=True),
         Format(".nii", "nifti_image", ("nibabel",), "formats", is_image=True),
-        Format(".pcd", "pcd", ("pypcd4",), "pcd"),
     )
 }
 

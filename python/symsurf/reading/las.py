@@ -1,16 +1,64 @@
-"""Laser scans, by laspy: LAS and LAZ."""
+"""Laser scans: LAS by its definition, version 1.0 to 1.4."""
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 
-import laspy
 import numpy as np
 
+from .._core import InvalidInput
 from ..shape import Shape
+from ..thresholds import Choice
+
+_HEADER = 227  # bytes of the shortest one
+_COUNT = 247  # where version 1.4 has the number of points, behind that of extended records
+_PACKED = 0xC0  # the bits of a point format that mark LAZ
+_RECORD = 54  # bytes of the header of a variable length record
 
 
-def read(path: Path, threshold: float | None, scalars: str | None) -> Shape:
+def read(path: Path, choice: Choice) -> Shape:
     """All points, with the file's scale and offset applied."""
-    scan = laspy.read(path)
-    return Shape(np.array(scan.xyz, dtype=np.float64))
+    content = np.memmap(path, np.uint8, "r")
+    start, length, count, is_packed = layout(path)
+    if is_packed:
+        raise InvalidInput("its points are packed; with input_format laz they can be read")
+    rows = content[start : start + count * length].reshape(count, length)
+    numbers = np.ascontiguousarray(rows[:, :12]).view("<i4")
+    scales, offsets = np.frombuffer(content[131:179].tobytes(), "<f8").reshape(2, 3)
+    return Shape(numbers * scales + offsets)
+
+
+def layout(path: Path) -> tuple[int, int, int, bool]:
+    """Where the points start, the bytes of one, how many there are, and whether they are packed.
+
+    Raises InvalidInput where the file holds less than the header promises.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        header = file.read(_COUNT + 8)
+    if not header.startswith(b"LASF"):
+        raise InvalidInput("this is no LAS file: it does not start with 'LASF'")
+    if len(header) < _HEADER:
+        raise InvalidInput(f"the header is truncated: it has {len(header)} bytes of {_HEADER}")
+    major, minor = header[24:26]
+    if major != 1:
+        raise InvalidInput(f"LAS's version is {major}.{minor}; 1.0 to 1.4 can be read")
+    extended = 0
+    start, records, kind, length, count = struct.unpack_from("<IIBHI", header, 96)
+    if minor >= 4 and len(header) == _COUNT + 8:
+        extended, long_count = struct.unpack_from("<IQ", header, _COUNT - 4)
+        count = long_count or count
+    if length < 12:
+        raise InvalidInput(f"a point has {length} bytes; x, y and z take 12")
+    if start > size or (records + extended) * _RECORD > size:
+        raise InvalidInput(
+            f"the file is truncated: it promises {records + extended} records beside the points from "
+            f"byte {start} on, and has {size} bytes"
+        )
+    is_packed = bool(kind & _PACKED)
+    if not is_packed and start + count * length > size:
+        raise InvalidInput(
+            f"the file is truncated: {count} points take {start + count * length} bytes, it has {size}"
+        )
+    return start, length, count, is_packed

@@ -28,6 +28,7 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
         _require_file(name)
     plain = suffix.removesuffix(PACKED)
     if stream is None and suffix == plain == Path(name).suffix.lower():
+        _require_own(Path(name))
         yield Path(name)
         return
     import gzip  # here: few files need them
@@ -42,7 +43,28 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
             file.symlink_to(os.path.abspath(name))
         else:
             copy_bounded(stream, file)
+        _require_own(file)
         yield file
+
+
+# How files begin that stand where another should, in small letters.
+_OTHERS = {
+    b"version https://git-lfs.github.com": "a pointer of Git LFS, not the file: `git lfs pull` brings it",
+    b"<!doctype html": "an HTML page, such as a download that failed",
+    b"<html": "an HTML page, such as a download that failed",
+    b"%pdf-": "a PDF document",
+    b"\x1f\x8b": "packed with gzip: its name should end with .gz",
+    b"\xff\xfe": "text in UTF-16; UTF-8 can be read",
+    b"\xfe\xff": "text in UTF-16; UTF-8 can be read",
+}
+
+
+def _require_own(file: Path) -> None:
+    with file.open("rb") as content:
+        start = content.read(256).removeprefix(b"\xef\xbb\xbf").lstrip().lower()
+    for beginning, what in _OTHERS.items():
+        if start.startswith(beginning):
+            raise InvalidInput(f"this is {what}")
 
 
 def _require_file(name: str) -> None:
@@ -54,15 +76,20 @@ def _require_file(name: str) -> None:
         raise InvalidInput("the file is empty")
 
 
+def require_memory(size: int) -> None:
+    """Raises InvalidInput where a file unpacks to more bytes than half of the memory."""
+    allowed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
+    if size > allowed:
+        raise InvalidInput(
+            f"it holds more than {allowed} bytes, half of the memory, which is the most allowed"
+        )
+
+
 def copy_bounded(content: BinaryIO | gzip.GzipFile | bz2.BZ2File, file: Path) -> None:
     """As the core does, takes no more than half of the memory: few bytes may unpack to very many."""
-    allowed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
     with file.open("wb") as copy:
         while block := content.read(_BLOCK):
             copy.write(block)
-            if copy.tell() > allowed:
-                raise InvalidInput(
-                    f"it holds more than {allowed} bytes, half of the memory, which is the most allowed"
-                )
+            require_memory(copy.tell())
     if file.stat().st_size == 0:
         raise InvalidInput("the file is empty")

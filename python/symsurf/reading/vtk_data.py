@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,10 @@ from vtkmodules.vtkIOXML import (
 )
 
 from .._core import InvalidInput, InvalidParameter
-from ..grids import is_grid, points_above
+from ..grids import chosen_points, is_grid
 from ..shape import Shape
+from ..space import space_in
+from ..thresholds import Choice
 
 _READERS: dict[str, Any] = {
     ".vtp": vtkXMLPolyDataReader,
@@ -33,9 +36,8 @@ _COMPLAINT = re.compile(
 )
 
 
-def read(path: Path, threshold: float | None, scalars: str | None) -> Shape:
-    """Points, flat cells as triangles and point normals; of a regular grid what the threshold
-    chooses of it."""
+def read(path: Path, choice: Choice) -> Shape:
+    """Points, flat cells as triangles and point normals; of a regular grid what is chosen of it."""
     reader = _READERS[path.suffix.lower()]()
     reader.SetFileName(str(path))
     if isinstance(reader, vtkDataSetReader):
@@ -48,11 +50,19 @@ def read(path: Path, threshold: float | None, scalars: str | None) -> Shape:
         raise InvalidInput("VTK finds no data set in it")
     data = pyvista.wrap(output)
     if is_grid(data):
-        return Shape(points_above(data, threshold, scalars))
-    for name, value in (("threshold", threshold), ("scalars", scalars)):
-        if value is not None:
-            raise InvalidParameter(f"{name} is {value!r}; allowed is None, as this is no image")
-    return Shape.from_pyvista(data)
+        return Shape(chosen_points(data, choice))
+    for name, value in choice.given().items():
+        raise InvalidParameter(f"{name} is {value!r}; allowed is None, as this is no image")
+    return replace(Shape.from_pyvista(data), space=_space(data, reader))
+
+
+def _space(data: Any, reader: Any) -> str | None:
+    """The axes, which a legacy file's title names, and the field data of an XML file."""
+    if isinstance(reader, vtkDataSetReader):
+        return space_in((reader.GetHeader() or "").encode())
+    if "SPACE" not in data.field_data:
+        return None
+    return space_in(f"SPACE={data.field_data['SPACE'][0]}".encode())
 
 
 @contextmanager

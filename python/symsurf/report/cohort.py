@@ -12,7 +12,7 @@ from urllib.parse import quote
 import numpy as np
 
 from .charts import histogram
-from .html import heading, page, paragraph, table
+from .html import Html, heading, page, paragraph, table
 
 PERCENTILES = (0, 5, 25, 50, 75, 95, 100)
 # Of the columns of a batch: their names here, and what they are multiplied by. Lengths are shares
@@ -81,7 +81,7 @@ def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> l
     made = []
     for row in good:
         target = quote(os.fsencode(links[row["file"]]))
-        link = f'<a href="{target}">{escape(Path(row["file"]).name)}</a>'
+        link = Html(f'<a href="{target}">{escape(Path(row["file"]).name)}</a>')
         figures = [f"{_FIGURES[key][1] * row[key]:.4g}" if key in row else "" for key in _SHOWN]
         rank = int(np.searchsorted(order, row["rms_of_diagonal"], side="right"))
         made.append([link, row["kind"], row["verdict"], *figures, f"{rank} of {len(order)}"])

@@ -22,6 +22,8 @@ def report_tasks(given: Sequence[FileTask], page: Path) -> list[FileTask]:
     if page.suffix.lower() != PAGE_SUFFIX:
         raise InvalidParameter(f"output is {str(page)!r}; allowed is the suffix {PAGE_SUFFIX}")
     files = [task.file for task in given]
+    if page.resolve() in {file.resolve() for file in files}:
+        raise InvalidParameter(f"{page} would overwrite an input; allowed is another name")
     pages = {files[0]: [page]}
     if len(files) > 1:
         pages = output_files(files, page.with_name(f"{page.stem}_files"), lambda _: [PAGE_SUFFIX])

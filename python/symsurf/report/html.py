@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterable, Sequence
+from hashlib import sha256
 from html import escape
 
 from .._core import __version__
 
-# Nothing is fetched: what a page shows is in it.
-_POLICY = (
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; "
-    "img-src data: blob:; frame-src 'self' about: blob:"
-)
 _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #222; margin: 0 auto; max-width: 1100px;
   padding: 1.2rem; background: #fff; }
@@ -32,13 +29,21 @@ footer { color: #777; margin-top: 2rem; font-size: .85rem; }
 """
 
 
-def page(title: str, parts: Iterable[str]) -> bytes:
-    """A whole page; names that are no text show a mark in their place."""
+class Html(str):
+    """What is no text to be escaped."""
+
+
+def page(title: str, parts: Iterable[str], scripts: Iterable[str] = ()) -> bytes:
+    """A whole page; names that are no text show a mark in their place.
+
+    Args:
+        scripts: the only ones that run, of a page inside it.
+    """
     lines = [
         "<!doctype html>",
         '<html lang="en">',
         '<head><meta charset="utf-8">',
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+        f'<meta http-equiv="Content-Security-Policy" content="{_policy(scripts)}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<title>{escape(title)}</title>",
         f"<style>{_STYLE}</style></head>",
@@ -50,6 +55,17 @@ def page(title: str, parts: Iterable[str]) -> bytes:
     return ("\n".join(lines) + "\n").encode("utf-8", "replace")
 
 
+def _policy(scripts: Iterable[str]) -> str:
+    """Nothing is fetched: what a page shows is in it. No script runs but those that are named by their
+    hashes; vtk.js compiles some of its own."""
+    hashes = [f"'sha256-{b64encode(sha256(s.encode()).digest()).decode()}'" for s in scripts]
+    allowed = " ".join([*hashes, "'unsafe-eval'"]) if hashes else "'none'"
+    return (
+        f"default-src 'none'; style-src 'unsafe-inline'; script-src {allowed}; "
+        "img-src data: blob:; frame-src 'self' about: blob:; base-uri 'none'; form-action 'none'"
+    )
+
+
 def heading(text: str) -> str:
     return f"<h2>{escape(text)}</h2>"
 
@@ -59,8 +75,8 @@ def paragraph(text: str, kind: str = "") -> str:
 
 
 def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: bool = True) -> str:
-    """Rows of texts, those behind the first column to the right where they are numbers. A text that
-    starts with "<" is HTML."""
+    """Rows of texts, those behind the first column to the right where they are numbers. What of them
+    is ``Html`` stands as it is."""
     kind = ' class="number"' if numbers else ""
     head = "".join(
         f"<th{kind if column else ''}>{escape(name)}</th>" for column, name in enumerate(names)
@@ -68,7 +84,7 @@ def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: boo
     body = "".join(
         "<tr>"
         + "".join(
-            f"<td{kind if column else ''}>{text if text.startswith('<') else escape(text)}</td>"
+            f"<td{kind if column else ''}>{text if isinstance(text, Html) else escape(text)}</td>"
             for column, text in enumerate(row)
         )
         + "</tr>"

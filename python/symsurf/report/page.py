@@ -11,7 +11,7 @@ from ..drawing import new_plotter
 from ..operation_plotting import draw
 from .charts import histogram
 from .html import columns, framed, heading, page, paragraph, table
-from .scene import viewer_page
+from .scene import scripts_of, viewer_page
 
 if TYPE_CHECKING:
     from ..file_task import Record
@@ -58,6 +58,7 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
                 heading("Parameters") + table(_parameter_rows(record), numbers=False),
             ),
         ],
+        scripts_of(scene),
     )
 
 

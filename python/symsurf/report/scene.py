@@ -6,6 +6,7 @@ import io
 import json
 import math
 import os
+import re
 import zipfile
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,12 @@ def viewer_page(plotter: pyvista.Plotter) -> str:
     page = io.StringIO()
     write_html(_archive(plotter), page)
     return page.getvalue()
+
+
+def scripts_of(page: str) -> list[str]:
+    """What stands between the tags of scripts, as a browser hashes it."""
+    parts = re.findall(r"<script\b[^>]*>(.*?)</script", page, re.DOTALL | re.IGNORECASE)
+    return [part.replace("\r\n", "\n") for part in parts if part]
 
 
 def _archive(plotter: pyvista.Plotter) -> bytes:

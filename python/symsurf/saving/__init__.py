@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from secrets import token_hex
 from typing import TYPE_CHECKING
 
 from .._core import InvalidParameter
@@ -54,9 +55,11 @@ def write_whole(path: Path, content: bytes) -> None:
     file = path.resolve()  # a link stays a link
     if file.exists() and not file.is_file():  # such as a device, which a file would replace
         raise OSError(errno.EINVAL, "This is not a file", str(path))
-    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
+    # A name of its own: others may write the same file at the same time.
+    partial = file.with_name(f".symsurf-{token_hex(8)}.partial")
     try:
-        partial.write_bytes(content)
+        with partial.open("xb") as new:
+            new.write(content)
         partial.replace(file)
     except BaseException as error:
         with suppress(OSError):

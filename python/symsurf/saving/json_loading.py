@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, InvalidParameter, Mirror, make_mirror
 from ..result import Result
 
+_CHECKED = 200  # surface points of a large result, of all alike
+_ROUNDING = 1e-6  # of the largest coordinate: far above that of any mirror's foot
+
 
 def load(path: str | os.PathLike[str]) -> Result[Mirror]:
     """See ``Result.load``."""
@@ -57,7 +60,40 @@ def mirror_from(record: dict[str, Any], footprint: Any = None) -> Mirror:
 def _result(record: dict[str, Any]) -> Result[Mirror]:
     footprint = record["footprint"]
     candidates = [_found(each, footprint) for each in record["candidates"]]
-    return _found(record, footprint, candidates)
+    result = _found(record, footprint, candidates)
+    _require_sound(result)
+    return result
+
+
+def _require_sound(result: Result[Mirror]) -> None:
+    """Raises InvalidInput where the parts of the result are not those of one."""
+    pairs, residuals, points = result.pairs, result.residuals, result.surface_points
+    if residuals.ndim != 1 or len(residuals) != len(points) or len(pairs) not in (0, len(points)):
+        raise InvalidInput(
+            f"there are {len(pairs)} pairs, {residuals.size} residuals and {len(points)} surface points"
+        )
+    if not np.isfinite(points).all() or not (np.isfinite(residuals) & (residuals >= 0)).all():
+        raise InvalidInput("a surface point is not finite, or a residual below 0 or not finite")
+    if pairs.size and pairs.min() < 0:
+        raise InvalidInput(f"a pair names point {pairs.min()}; allowed are indices from 0 on")
+    for each in (result, *result.candidates):
+        if not 0 <= each.score <= 1:
+            raise InvalidInput(f"score is {each.score}; allowed is 0 to 1")
+        if not 0 <= each.seconds < float("inf"):
+            raise InvalidInput(f"seconds is {each.seconds}; allowed is [0, inf)")
+    if not len(points):
+        return
+    some = slice(None, None, max(1, len(points) // _CHECKED))
+    scale = float(np.abs(points).max())
+    if result.mirror is not None:
+        with np.errstate(over="ignore"):
+            moved = np.linalg.norm(result.mirror.reflect(points[some]) - points[some], axis=1)
+        if not (moved <= residuals[some] + _ROUNDING * scale).all():
+            raise InvalidInput("the mirror does not run through the surface points")
+    for candidate in result.candidates:
+        mirror = candidate.mirror
+        if mirror is not None and not np.isfinite(mirror.reflect(points[some])).any():
+            raise InvalidInput("a candidate has an image of no surface point")
 
 
 def _found(

@@ -34,7 +34,9 @@ def shape_ply_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
     """A shape with arrays of its points as properties. Arrays are (n,) or (n, 3); of these the properties end in _x, _y and _z."""
     columns = dict(zip("xyz", shape.points.T, strict=True)) | columns_of(arrays)
     faces = np.empty((0, 3), np.int64) if shape.faces is None else shape.faces
-    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(shape.points)}"]
+    header = ["ply", "format binary_little_endian 1.0"]
+    header += [f"comment SPACE={shape.space}"] if shape.space else []
+    header.append(f"element vertex {len(shape.points)}")
     header += [f"property {_TYPES[v.dtype.kind][0]} {name}" for name, v in columns.items()]
     if len(faces):
         header += [f"element face {len(faces)}", "property list uchar int vertex_indices"]

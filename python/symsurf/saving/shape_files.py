@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
 from .. import _core
-from .._core import InvalidParameter
+from .._core import InvalidInput, InvalidParameter
 from ..mirror_operations import Completed, OperationResult
+from ..reading import read
 from ..shape import Shape
 from . import SHAPE_FORMATS, write_whole
-from .same_format import REWRITERS, NewShape
+from .same_format import REWRITERS, NewShape, Rewritten, plain_content
+
+_SINGLE = 1e-6  # of the largest coordinate: what binary STL rounds to
 
 
 def output_suffix(
@@ -71,6 +75,30 @@ def save_shape(
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
     )
-    rewritten = REWRITERS[suffix](source.read_bytes() if content is None else content, new)
+    given = source.read_bytes() if content is None else content
+    rewritten = _kept(given, suffix, new) or _anew(shape, suffix, new)
     write_whole(path, rewritten.content)
     return rewritten.lost
+
+
+def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
+    """The file with the new shape in it; None where that is written in another way than those that
+    are kept, so that what was made would not be read as that shape."""
+    try:
+        rewritten = REWRITERS[suffix](content, new)
+        made = read(BytesIO(rewritten.content), suffix[1:])
+    except (InvalidInput, ValueError, LookupError):
+        return None
+    faces = np.empty((0, 3), np.int64) if made.faces is None else made.faces
+    if made.points.shape != new.points.shape or faces.shape != new.faces.shape:
+        return None
+    error = np.abs(made.points - new.points).max(initial=0)
+    return rewritten if error <= _SINGLE * np.abs(new.points).max(initial=0) else None
+
+
+def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
+    """A file of points and faces alone."""
+    rewritten = REWRITERS[suffix](plain_content(shape, suffix), new)
+    return rewritten._replace(
+        lost=["nothing of the file is kept but points and faces", *rewritten.lost]
+    )

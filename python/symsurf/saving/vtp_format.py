@@ -46,7 +46,9 @@ def shape_vtp_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
         name: values.astype(np.int64) if values.dtype.kind == "b" else values
         for name, values in arrays.items()
     }
-    return poly_data(shape.points, vertices, none if shape.faces is None else shape.faces, numbers)
+    fields = [_text("SPACE", shape.space)] if shape.space else []
+    faces = none if shape.faces is None else shape.faces
+    return poly_data(shape.points, vertices, faces, numbers, fields)
 
 
 def poly_data(
@@ -85,14 +87,16 @@ def poly_data(
 def _field_data(result: Result) -> list[str]:
     fields = [_array("Score", np.array([result.score]), tuples=True)]
     if result.mirror is not None:
-        codes = " ".join(str(byte) for byte in result.mirror.kind.encode() + b"\0")
-        fields.append(
-            f'<Array type="String" Name="Kind" NumberOfTuples="1" format="ascii">{codes}</Array>'
-        )
+        fields.append(_text("Kind", result.mirror.kind))
         for name, value in result.mirror.numbers.items():
             if isinstance(value, (float, np.ndarray)):
                 fields.append(_array(name.capitalize(), np.atleast_2d(value), tuples=True))
     return fields
+
+
+def _text(name: str, text: str) -> str:
+    codes = " ".join(str(byte) for byte in text.encode() + b"\0")
+    return f'<Array type="String" Name="{name}" NumberOfTuples="1" format="ascii">{codes}</Array>'
 
 
 def _cells(corners: NDArray[np.int64]) -> str:

@@ -32,4 +32,4 @@ def analyse(
         name, given.points, given.faces, refuses(nonfinite), threads, progress, parameters
     )
     warn(made["statistics"])
-    return RESULTS[name].from_fields(Shape(made["points"], given.faces), made)
+    return RESULTS[name].from_fields(Shape(made["points"], given.faces, space=given.space), made)

@@ -190,6 +190,13 @@ class Symmetries(AnalysisResult):
         return self.statistics["missing"]
 
     @property
+    def max_deviation(self) -> NDArray[np.float64]:
+        """(n,) of each element how far it takes the shape off itself, in input units: the greatest
+        distance from the image of a vertex to the surface, of a cloud from that of a point to the
+        nearest point."""
+        return self.statistics["max_deviations"].ravel()
+
+    @property
     def elements(self) -> NDArray[np.float64]:
         """(n, 4, 4): the matrices of ``transformations``."""
         return np.array([each.matrix for each in self.transformations])
@@ -223,19 +230,23 @@ class Symmetries(AnalysisResult):
         """The rotations as an entry of the BOP toolkit's ``models_info.json`` has them.
 
         ``symmetries_discrete``: 4 x 4 matrices, row by row in lists of 16, without the identity;
-        ``symmetries_continuous``: dictionaries with axis and offset, a point on the axis. Either is
-        left out where there are none. Lengths are in the unit of the input; the toolkit's is the
+        ``max_deviation``: of each of these how far it takes the shape off itself, beside what the
+        toolkit reads; ``symmetries_continuous``: dictionaries with axis and offset, a point on the
+        axis. Each is left out where there are none. Lengths are in the unit of the input; the toolkit's is the
         millimetre. Reflections, which no object can be moved by, are not among them.
         """
-        turns = [each for each in self.elements[1:] if np.linalg.det(each[:3, :3]) > 0]
+        is_turn = np.linalg.det(self.elements[:, :3, :3]) > 0
+        is_turn[0] = False
+        turns = self.elements[is_turn]
         continuous = [
             {"axis": axis.direction.tolist(), "offset": axis.point.tolist()}
             for axis in self.axes
             if axis.continuous
         ]
         entry: dict[str, Any] = {}
-        if turns:
+        if len(turns):
             entry["symmetries_discrete"] = [turn.ravel().tolist() for turn in turns]
+            entry["max_deviation"] = self.max_deviation[is_turn].tolist()
         if continuous:
             entry["symmetries_continuous"] = continuous
         return entry

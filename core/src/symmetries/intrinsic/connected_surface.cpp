@@ -5,55 +5,44 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
 #include "base/math.h"
 #include "cloud/cloud_laplacian.h"
+#include "cloud/distinct_points.h"
 #include "mesh/triangle_mesh.h"
 #include "spatial/point_tree.h"
-#include "spatial/triple_index.h"
 
 namespace symsurf {
 
 namespace {
 
-struct Distinct {
-  std::vector<Index> first;   // of each distinct point, the first in the input
-  std::vector<Index> number;  // of each point of the input
-};
-
-Distinct distinct_points(PointsView points) {
-  Distinct distinct;
-  TripleIndex positions;
-  for (Index i = 0; i < points.size(); ++i) {
-    distinct.number.push_back(positions.add(ordered_bits(points[i])));
-    if (distinct.number.back() == static_cast<Index>(distinct.first.size()))
-      distinct.first.push_back(i);
-  }
-  return distinct;
-}
-
-Triangles renamed(TrianglesView faces, const std::vector<Index>& names) {
+Triangles renamed(TrianglesView faces, const std::vector<std::int32_t>& names) {
   Triangles triangles(faces.size(), 3);
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) triangles(f, c) = names[faces[f][c]];
   return triangles;
 }
 
-// Of each vertex the number of its part, in the order of their first vertices.
-std::vector<Index> numbered_parts(const Eigen::SparseMatrix<double>& graph) {
+// Of each vertex the number of its part, in the order of their first vertices; -1 of those with no
+// area, which nothing goes through.
+std::vector<Index> numbered_parts(const Laplacian& surface) {
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  const double least_area = rounding * surface.areas.sum();
+  const Eigen::SparseMatrix<double>& graph = surface.stiffness;
   std::vector<Index> parts(graph.cols(), -1), open;
   Index count = 0;
   for (Index start = 0; start < graph.cols(); ++start) {
-    if (parts[start] >= 0) continue;
+    if (parts[start] >= 0 || !(surface.areas[start] > least_area)) continue;
     parts[start] = count;
     open.push_back(start);
     while (!open.empty()) {
       const Index vertex = open.back();
       open.pop_back();
       for (Eigen::SparseMatrix<double>::InnerIterator next(graph, vertex); next; ++next)
-        if (parts[next.row()] < 0) {
+        if (parts[next.row()] < 0 && surface.areas[next.row()] > least_area) {
           parts[next.row()] = count;
           open.push_back(next.row());
         }
@@ -78,14 +67,14 @@ double mean_edge(const Points& points, const Eigen::SparseMatrix<double>& graph,
 // the nearest one of another part, if that is no farther than its edges are long in the mean.
 void join_touching_parts(const Points& points, Laplacian& surface, const Context& context) {
   constexpr double weight = 1;  // cotangents of even triangles give 0.58 to an edge
-  const std::vector<Index> part_of = numbered_parts(surface.stiffness);
+  const std::vector<Index> part_of = numbered_parts(surface);
   const PointTree tree(points, context);
   std::vector<Eigen::Triplet<double>> links;
   for (Index v = 0; v < points.rows(); ++v) {
     Neighbour nearest;
     tree.within(points.row(v), mean_edge(points, surface.stiffness, v),
                 [&](Index other, double squared) {
-                  if (part_of[other] != part_of[v] && surface.areas[other] > 0)
+                  if (part_of[other] >= 0 && part_of[other] != part_of[v])
                     nearest = std::min(nearest, Neighbour{other, squared});
                 });
     const Index other = nearest.index;
@@ -103,7 +92,7 @@ void join_touching_parts(const Points& points, Laplacian& surface, const Context
 }  // namespace
 
 ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context) {
-  const Distinct distinct = distinct_points(points);
+  const DistinctPoints distinct = distinct_points(points, context);
   const Points positions = points.matrix()(distinct.first, Eigen::indexing::all);
   CloudLaplacian whole;
   if (faces.empty()) {
@@ -115,21 +104,22 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
     whole.triangles = TriangleMesh(positions, corners, context).manifold_faces();
   }
 
-  const std::vector<Index> part_of = numbered_parts(whole.stiffness);
+  const std::vector<Index> part_of = numbered_parts(whole);
   ConnectedSurface surface;
   std::vector<double> areas;
   for (Index v = 0; v < positions.rows(); ++v) {
+    if (part_of[v] < 0) continue;
     areas.resize(std::max<std::size_t>(areas.size(), part_of[v] + 1), 0);
     areas[part_of[v]] += whole.areas[v];
   }
+  if (areas.empty()) throw InvalidInput("the surface has no area");
   const auto largest = std::max_element(areas.begin(), areas.end());
-  if (!(*largest > 0)) throw InvalidInput("the surface has no area");
-  surface.parts = std::count_if(areas.begin(), areas.end(), [](double area) { return area > 0; });
+  surface.parts = static_cast<Index>(areas.size());
   surface.share = *largest / whole.areas.sum();
 
   std::vector<Index> kept, name(positions.rows(), -1);
   for (Index v = 0; v < positions.rows(); ++v)
-    if (part_of[v] == largest - areas.begin() && whole.areas[v] > 0) {
+    if (part_of[v] == largest - areas.begin()) {
       name[v] = static_cast<Index>(kept.size());
       kept.push_back(v);
       surface.point_of.push_back(distinct.first[v]);
@@ -145,10 +135,9 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
   surface.laplacian.stiffness.resize(size, size);
   surface.laplacian.stiffness.setFromTriplets(entries.begin(), entries.end());
   std::vector<std::array<Index, 3>> triangles;
-  for (Index t = 0; t < whole.triangles.rows(); ++t)
-    if (name[whole.triangles(t, 0)] >= 0)
-      triangles.push_back(
-          {name[whole.triangles(t, 0)], name[whole.triangles(t, 1)], name[whole.triangles(t, 2)]});
+  for (const auto& t : whole.triangles.rowwise())
+    if (name[t[0]] >= 0 && name[t[1]] >= 0 && name[t[2]] >= 0)
+      triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
   surface.triangles = rows_of(triangles);
   return surface;
 }

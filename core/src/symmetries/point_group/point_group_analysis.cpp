@@ -2,11 +2,17 @@
 #include <symsurf/symmetries.h>
 #include <symsurf/value.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <vector>
 
+#include "base/math.h"
 #include "detection/pipeline.h"
 #include "symmetries/analysis_registry.h"
+#include "symmetries/point_group/deviation.h"
 #include "symmetries/point_group/symmetry_search.h"
+#include "symmetries/point_group/symmetry_test.h"
 #include "symmetries/transformation_kind.h"
 
 namespace symsurf {
@@ -18,6 +24,7 @@ void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Con
   SymmetryOptions options;
   options.faces = cloud.faces;
   options.minimum_score = values.real("minimum_score");
+  options.tolerance = values.real("tolerance");
   Symmetries found = find_symmetries(cloud.points, options, context);
   constexpr double rounding = 1e-6;  // radians and diagonals; the elements are a group to less
   for (const Matrix4& element : found.elements)
@@ -27,13 +34,40 @@ void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Con
          found.score,
          {},
          {}});
+  const std::vector<double>& deviations = found.max_deviations;
   result.planes = std::move(found.planes);
   result.axes = std::move(found.axes);
-  result.statistics = {{"group", found.group},
-                       {"centre", found.centre},
-                       {"inversion", found.inversion},
-                       {"score", found.score},
-                       {"missing", found.missing}};
+  result.statistics = {
+      {"group", found.group},
+      {"centre", found.centre},
+      {"inversion", found.inversion},
+      {"score", found.score},
+      {"missing", found.missing},
+      {"max_deviation", *std::max_element(deviations.begin(), deviations.end())},
+      {"max_deviations", Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(
+                             deviations.data(), static_cast<Index>(deviations.size())))}};
+}
+
+// Fills in how far the elements take the shape off itself. Whether all are within the tolerance,
+// and of continuous axes some turns.
+bool deviates_little(Symmetries& found, const Deviation& deviation, double tolerance,
+                     const Context& context) {
+  constexpr Index looked = 100'000;  // images: less than a second
+  constexpr int turns = 8;
+  std::vector<Matrix4> maps = found.elements;
+  if (tolerance > 0)
+    for (const SymmetryAxis& axis : found.axes) {
+      if (axis.order != 0) continue;
+      for (const Matrix3& turned : any_turns(axis.direction, turns)) {
+        Matrix4& map = maps.emplace_back(Matrix4::Identity());
+        map.topLeftCorner<3, 3>() = turned;
+        map.topRightCorner<3, 1>() = axis.point - turned * axis.point;
+      }
+    }
+  const std::vector<double> deviations = deviation.of(maps, looked, context);
+  found.max_deviations.assign(
+      deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(found.elements.size()));
+  return !(tolerance > 0) || *std::max_element(deviations.begin(), deviations.end()) <= tolerance;
 }
 
 }  // namespace
@@ -43,6 +77,9 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   if (!(options.minimum_score >= 0 && options.minimum_score <= 1))
     throw InvalidParameter("minimum_score is " + to_string(Value(options.minimum_score)) +
                            "; allowed is [0, 1]");
+  if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)))
+    throw InvalidParameter("tolerance is " + to_string(Value(options.tolerance)) +
+                           "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
   Symmetries found;
   MethodImplementation searching;  // in place of the method
@@ -52,7 +89,12 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   searching.preprocessing.sample_faces = true;
   searching.preprocessing.merge_duplicates = true;
   searching.run = [&](const Cloud& cloud, const ParameterValues&, const Context& running) {
-    found = search_symmetries(cloud, options.minimum_score, running);
+    const bool is_cloud = options.faces.empty();
+    const Deviation deviation(is_cloud ? cloud.points : points, options.faces, running.stage(0, 0));
+    const auto accepts = [&](Symmetries& group) {
+      return deviates_little(group, deviation, options.tolerance, running.stage(1, 1));
+    };
+    found = search_symmetries(cloud, is_cloud, options.minimum_score, accepts, running);
     return Result{};
   };
   Cloud cloud;
@@ -72,8 +114,12 @@ AnalysisImplementation symmetries_analysis() {
   analysis.summary =
       "Finds all symmetries of a shape: mirror planes, rotation axes, inversion, and their point "
       "group.";
-  analysis.parameters = {Parameter::real("minimum_score", 0.7, 0, 1, "",
-                                         "What the group must score for it to count.")};
+  analysis.parameters = {
+      Parameter::real("minimum_score", 0.7, 0, 1, "", "What the group must score for it to count."),
+      Parameter::real(
+          "tolerance", 0, 0, infinity, "input units",
+          "No element may take a vertex farther off the surface, of a cloud a point off "
+          "its nearest one; 0: any may.")};
   analysis.finds_elements = true;
   analysis.finds_transforms = true;
   analysis.run = run_symmetries;

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "cloud/surface_spacing.h"
 #include "score/correspondence.h"
+#include "spatial/point_tree.h"
 
 namespace symsurf {
 
@@ -83,14 +85,15 @@ class SymmetryFit::Step {
   Vector6 pull_ = Vector6::Zero();
 };
 
-SymmetryFit::SymmetryFit(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
-                         const Surfels& fine)
+SymmetryFit::SymmetryFit(const Cloud& cloud, const PointTree& tree, const NearestPoints& points,
+                         const Surfels& coarse, const Surfels& fine)
     : cloud_(cloud),
       points_(points),
       coarse_(coarse),
       fine_(fine),
       map_(coarse),
-      noise_(measured_noise()) {}
+      noise_(measured_noise()),
+      spacing_(surface_spacing(cloud.points, tree) / cloud.frame.size) {}
 
 SurfaceNoise SymmetryFit::measured_noise() const {
   constexpr Index few_samples = 250;
@@ -183,6 +186,57 @@ double SymmetryFit::support(const GroupPose& pose, const Matrix3& element, doubl
     supported += moved * correspondence.weight(tolerance);
   }
   return supported / std::max(all, least_moved * static_cast<double>(coarse_.size()));
+}
+
+// As near as noise and the spacing of the points let images come to it.
+std::vector<bool> SymmetryFit::on_surface(const std::vector<Vector3>& images) const {
+  constexpr double least = 0.008, deviations = 3, widest = 0.05;
+  const double near = std::max(least, deviations * noise_.deviation());
+  std::vector<Vector3> queries;
+  for (const Vector3& image : images) queries.push_back(cloud_.frame.from_frame(image));
+  const std::vector<Vector3> partners =
+      points_.nearest(queries, std::max(widest, near + 2 * spacing_) * cloud_.frame.size);
+  std::vector<bool> found(images.size(), false);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    if (!partners[k].allFinite()) continue;
+    const Vector3 partner = cloud_.frame.to_frame(partners[k]);
+    const Surfel* surfel = surfel_at(partner);
+    found[k] = surfel && distance_past(images[k] - partner, *surfel, spacing_) <= near;
+  }
+  return found;
+}
+
+double SymmetryFit::worst_window(const GroupPose& pose,
+                                 const std::vector<Matrix3>& elements) const {
+  constexpr std::size_t looked = 48'000;  // images
+  constexpr double confirmed = 0.58;      // of the orbit: more than half, less than two of three
+  constexpr Index window = 12;            // points
+  const std::size_t stride =
+      std::max<std::size_t>(1, elements.size() * static_cast<std::size_t>(fine_.size()) / looked);
+  std::vector<Vector3> samples;
+  for (Index i = 0; i < fine_.size(); i += static_cast<Index>(stride))
+    samples.push_back(fine_[i].sampled);
+  std::vector<double> confirming(samples.size(), 0);
+  for (const Matrix3& element : elements) {
+    const Eigen::Isometry3d map = pose.placed(element);
+    std::vector<Vector3> images;
+    for (const Vector3& x : samples) images.push_back(map * x);
+    const std::vector<bool> found = on_surface(images);
+    for (std::size_t k = 0; k < found.size(); ++k) confirming[k] += found[k];
+  }
+  const double least = confirmed * static_cast<double>(elements.size());
+  const Points positions = rows_of(samples);
+  const PointTree tree(positions);
+  std::vector<Neighbour> near;
+  double worst = 0;
+  for (Index k = 0; k < positions.rows(); ++k) {
+    if (confirming[k] >= least) continue;
+    tree.nearest(positions.row(k).transpose(), std::min(window, positions.rows()), near);
+    const auto outliers = std::count_if(
+        near.begin(), near.end(), [&](const Neighbour& n) { return confirming[n.index] < least; });
+    worst = std::max(worst, static_cast<double>(outliers) / static_cast<double>(near.size()));
+  }
+  return worst;
 }
 
 }  // namespace symsurf

@@ -9,6 +9,7 @@
 #include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
 #include "spatial/nearest_points.h"
+#include "spatial/point_tree.h"
 
 namespace symsurf {
 
@@ -28,8 +29,8 @@ struct GroupPose {
 /// correspondences, as for planes, but of all elements at once, so that they stay a group.
 class SymmetryFit {
  public:
-  SymmetryFit(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
-              const Surfels& fine);
+  SymmetryFit(const Cloud& cloud, const PointTree& tree, const NearestPoints& points,
+              const Surfels& coarse, const Surfels& fine);
 
   /// On the surfels, from some 5 degrees and a 20th of the diagonal away.
   GroupPose roughly(GroupPose pose, const std::vector<Matrix3>& elements) const;
@@ -41,6 +42,11 @@ class SymmetryFit {
   /// surface, in diagonals.
   double support(const GroupPose& pose, const Matrix3& element, double tolerance) const;
 
+  /// The greatest share of points next to each other that too few of their images under the
+  /// elements confirm: near 1 where a small part breaks a symmetry of the rest, as the spinner of a
+  /// propeller does when the propeller is turned over.
+  double worst_window(const GroupPose& pose, const std::vector<Matrix3>& elements) const;
+
  private:
   struct Match {
     Vector3 point, image, partner;
@@ -50,6 +56,7 @@ class SymmetryFit {
 
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
   SurfaceNoise measured_noise() const;
+  std::vector<bool> on_surface(const std::vector<Vector3>& images) const;
   std::vector<Match> on_surfels(const Eigen::Isometry3d& map, std::size_t stride) const;
   std::vector<Match> on_cloud(const Eigen::Isometry3d& map, double reach, std::size_t stride) const;
 
@@ -58,6 +65,7 @@ class SymmetryFit {
   const Surfels &coarse_, &fine_;
   SurfelMap map_;
   SurfaceNoise noise_;
+  double spacing_;  // of the points, diagonals
 };
 
 }  // namespace symsurf

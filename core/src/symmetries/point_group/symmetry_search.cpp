@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "symmetries/point_group/element_search.h"
+#include "symmetries/point_group/exact_group.h"
 #include "symmetries/point_group/point_group.h"
 #include "symmetries/point_group/symmetry_test.h"
 
@@ -26,10 +27,42 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
   return pose;
 }
 
+Symmetries described(const PlacedGroup& placed, const OrbitVote& vote,
+                     const PrincipalFrame& frame) {
+  const auto to_input = [&](const Vector3& direction) -> Vector3 {
+    return frame.axes * (placed.pose.axes * direction);
+  };
+  Symmetries found;
+  found.group = placed.group.name;
+  found.centre = frame.from_frame(placed.pose.centre);
+  for (const Vector3& normal : placed.group.plane_normals()) {
+    const Vector3 unit = placed.pose.axes * normal;
+    found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
+  }
+  for (const PointGroup::Axis& axis : placed.group.axes())
+    found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
+  found.inversion = placed.group.inversion();
+  for (const Matrix3& element : placed.group.elements) {
+    const Matrix3 axes = frame.axes * placed.pose.axes;
+    Matrix4 matrix = Matrix4::Identity();
+    if (!element.isIdentity(0))  // else it would be one but for rounding
+      matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
+    matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
+    found.elements.push_back(matrix);
+  }
+  found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
+  found.missing = vote.missing;
+  return found;
+}
+
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Cloud& cloud, double minimum_score, const Context& context)
-      : cloud_(cloud), context_(context), test_(cloud, minimum_score, context.stage(0, 0.4)) {}
+  SymmetrySearch(const Cloud& cloud, double minimum_score,
+                 const std::function<bool(Symmetries&)>& accepts, const Context& context)
+      : cloud_(cloud),
+        accepts_(accepts),
+        context_(context),
+        test_(cloud, minimum_score, context.stage(0, 0.4)) {}
 
   Symmetries run() {
     planes_ = find_planes(test_);
@@ -42,7 +75,9 @@ class SymmetrySearch {
         if (std::optional<Symmetries> found = verified(*placed)) return *found;
     if (std::optional<Symmetries> found = axial()) return *found;
     if (std::optional<Symmetries> found = of_two()) return *found;
-    return described({{}, {}}, {.support = 1});
+    Symmetries none = described({{}, {}}, {.support = 1}, cloud_.frame);
+    accepts_(none);
+    return none;
   }
 
  private:
@@ -224,38 +259,13 @@ class SymmetrySearch {
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
-    return described({placed.group, passed->pose}, passed->vote);
-  }
-
-  Symmetries described(const Placed& placed, const OrbitVote& vote) const {
-    const PrincipalFrame& frame = cloud_.frame;
-    const auto to_input = [&](const Vector3& direction) -> Vector3 {
-      return frame.axes * (placed.pose.axes * direction);
-    };
-    Symmetries found;
-    found.group = placed.group.name;
-    found.centre = frame.from_frame(placed.pose.centre);
-    for (const Vector3& normal : placed.group.plane_normals()) {
-      const Vector3 unit = placed.pose.axes * normal;
-      found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
-    }
-    for (const PointGroup::Axis& axis : placed.group.axes())
-      found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
-    found.inversion = placed.group.inversion();
-    for (const Matrix3& element : placed.group.elements) {
-      const Matrix3 axes = frame.axes * placed.pose.axes;
-      Matrix4 matrix = Matrix4::Identity();
-      if (!element.isIdentity(0))  // else it would be one but for rounding
-        matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
-      matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
-      found.elements.push_back(matrix);
-    }
-    found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
-    found.missing = vote.missing;
+    Symmetries found = described({placed.group, passed->pose}, passed->vote, cloud_.frame);
+    if (!accepts_(found)) return {};
     return found;
   }
 
   const Cloud& cloud_;
+  const std::function<bool(Symmetries&)>& accepts_;
   const Context& context_;
   SymmetryTest test_;
   std::vector<FoundDirection> planes_, axes_;
@@ -264,8 +274,15 @@ class SymmetrySearch {
 
 }  // namespace
 
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context) {
-  return SymmetrySearch(cloud, minimum_score, context).run();
+Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
+                             const std::function<bool(Symmetries&)>& accepts,
+                             const Context& context) {
+  if (is_set)
+    if (const std::optional<PlacedGroup> exact = exact_group(cloud, context)) {
+      Symmetries found = described(*exact, {.support = 1}, cloud.frame);
+      if (accepts(found)) return found;
+    }
+  return SymmetrySearch(cloud, minimum_score, accepts, context).run();
 }
 
 }  // namespace symsurf

@@ -18,6 +18,9 @@ constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 constexpr double most_missing = 0.35;
 constexpr double most_outliers_of_elements = 0.3;  // of elements; others may show more
 constexpr double most_outliers_of_group = 0.08, most_outliers_of_continuous = 0.042;
+// Of points next to each other, outliers of the group: hardly any of true groups, two of three and
+// more of others (tests/accuracy/symmetric_parts.py, 10,000 points, whole and with noise).
+constexpr double most_of_window = 0.6;
 
 // A few elements that define the pose, of a group that may have a hundred.
 std::vector<Matrix3> spread(const std::vector<Matrix3>& elements) {
@@ -37,7 +40,7 @@ SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Conte
       coarse_(cloud, surfels, context.stage(0.2, 0.4)),
       fine_(cloud, coarse_, context.stage(0.4, 0.6)),
       score_(cloud, points_, context.stage(0.6, 1)),
-      fit_(cloud, points_, coarse_, fine_) {}
+      fit_(cloud, tree_, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {
   return vote.support >= minimum_score_ && vote.missing <= most_missing &&
@@ -68,6 +71,8 @@ std::optional<SymmetryTest::Passed> SymmetryTest::passed(const GroupPose& start,
   const bool decided =
       group.size() > 2 ? vote.outliers <= most_outliers : vote.share() >= minimum_score_;
   if (!decided) return {};
+  // Of two elements a part that is missing looks like one that there should not be.
+  if (group.size() > 2 && fit_.worst_window(pose, group) > most_of_window) return {};
   return Passed{pose, vote};
 }
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ...shape import Shape
+from ..ply_format import shape_ply_bytes
 from .columns import rewritten_columns
 from .new_shape import NewShape, Rewritten
 from .obj import rewritten_obj
@@ -12,7 +14,7 @@ from .off import rewritten_off
 from .ply import rewritten_ply
 from .stl import rewritten_stl
 
-__all__ = ["REWRITERS", "NewShape", "Rewritten"]
+__all__ = ["REWRITERS", "NewShape", "Rewritten", "plain_content"]
 
 REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".ply": rewritten_ply,
@@ -22,4 +24,29 @@ REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".xyz": rewritten_columns,
     ".csv": rewritten_columns,
     ".txt": rewritten_columns,
+    ".fcsv": rewritten_columns,
 }
+
+
+def plain_content(shape: Shape, suffix: str) -> bytes:
+    """Points and faces in a format, as those that rewrite it know it."""
+    points = [" ".join(map(repr, point)) for point in shape.points.tolist()]
+    faces = [] if shape.faces is None else shape.faces.tolist()
+    if suffix == ".ply":
+        return shape_ply_bytes(shape, {})
+    if suffix == ".obj":
+        lines = [f"v {point}" for point in points]
+        lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
+    elif suffix == ".off":
+        corners = ["3 " + " ".join(map(str, face)) for face in faces]
+        lines = ["OFF", f"{len(points)} {len(faces)} 0", *points, *corners]
+    elif suffix == ".stl":
+        lines = ["solid"]
+        for face in faces:
+            lines += ["facet normal 0 0 0", "outer loop", *(f"vertex {points[c]}" for c in face)]
+            lines += ["endloop", "endfacet"]
+        lines.append("endsolid")
+    else:
+        separator = " " if suffix == ".xyz" else ","
+        lines = [separator.join("xyz"), *(point.replace(" ", separator) for point in points)]
+    return ("\n".join(lines) + "\n").encode()

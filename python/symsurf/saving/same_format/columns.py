@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts, texts
@@ -22,7 +24,11 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
         comments.append(b"# " + space)
     separator = next((mark for mark in (b";", b",") if mark in rows[0]), None)
     table = [[word.strip() for word in row.split(separator)] for row in rows]
-    names = None if _is_number(table[0][0]) else table.pop(0)
+    commented = _commented_names(comments)
+    is_headed = commented is None and not _is_number(table[0][0])
+    names = table.pop(0) if is_headed else commented
+    if commented is not None:  # more columns would need more names there
+        new = replace(new, arrays={})
     coordinates, normals = _places(names, len(table[0]), table)
     made = [list(table[source]) for source in new.sources.tolist()]
     for row, values in zip(made, row_texts(new.points)):
@@ -47,8 +53,17 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
             for column in sorted(normals, reverse=True):
                 del row[column]
     joint = separator or b" "
-    lines = comments + [joint.join(row) for row in ([names] if names else []) + made]
+    header = [names] if is_headed and names is not None else []
+    lines = comments + [joint.join(row) for row in header + made]
     return Rewritten(b"\n".join(lines) + b"\n", lost)
+
+
+def _commented_names(comments: list[bytes]) -> list[bytes] | None:
+    """Those of 3D Slicer's tables of points."""
+    for comment in comments:
+        if comment.startswith(b"# columns = "):
+            return comment.removeprefix(b"# columns = ").split(b",")
+    return None
 
 
 def _is_number(word: bytes) -> bool:

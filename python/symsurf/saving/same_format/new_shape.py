@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -10,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...space import SPACE, TABLE
+
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # of UTF-8, which the readers pass over
-_SPACE = re.compile(rb"SPACE=(RAS|LPS)")  # how 3D Slicer's files name their axes
 
 
 class Rewritten(NamedTuple):
@@ -74,11 +74,17 @@ class NewShape:
 
     def with_space(self, comment: bytes) -> bytes:
         """A comment of the file, in which the axes are named as they now are."""
-        return comment if self.space is None else _SPACE.sub(b"SPACE=" + self.space, comment)
+        if self.space is None:
+            return comment
+        if TABLE.match(comment):
+            return b"# CoordinateSystem = " + self.space
+        return SPACE.sub(b"SPACE=" + self.space, comment)
 
     def missing_space(self, comments: Iterable[bytes]) -> bytes | None:
         """What names the axes where no comment does."""
-        if self.space is None or any(_SPACE.search(comment) for comment in comments):
+        if self.space is None or any(
+            SPACE.search(comment) or TABLE.match(comment) for comment in comments
+        ):
             return None
         return b"SPACE=" + self.space
 

@@ -23,6 +23,8 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
         words = line.split(None, 4)
         keyword = words[0] if words else b""
         is_face = keyword == b"f" or (is_face and made[-1].rstrip().endswith(b"\\"))
+        if keyword in (b"v", b"vn") and line.rstrip().endswith(b"\\"):
+            raise ValueError("a vertex over several lines is not kept")
         if keyword == b"v":
             rests.append(words[4].rstrip() if len(words) > 4 else b"")
             if new.moved:

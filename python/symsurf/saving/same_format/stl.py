@@ -17,7 +17,11 @@ def rewritten_stl(content: bytes, new: NewShape) -> Rewritten:
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     count = int.from_bytes(content[_HEADER : _HEADER + 4], "little")
-    is_text = content.startswith(b"solid") and len(content) != _HEADER + 4 + count * _FACET.itemsize
+    is_text = (
+        content.lstrip()[:5].lower() == b"solid"
+        and len(content) != _HEADER + 4 + count * _FACET.itemsize
+        and b"\0" not in content[: _HEADER + 4 + _FACET.itemsize]
+    )
     if is_text:
         return _text(content, corners, normals, new)
     made = np.zeros(len(corners), _FACET)
@@ -37,8 +41,8 @@ def rewritten_stl(content: bytes, new: NewShape) -> Rewritten:
 def _text(
     content: bytes, corners: NDArray[np.float64], normals: NDArray[np.float64], new: NewShape
 ) -> Rewritten:
-    lines = [line for line in content.split(b"\n") if line.split()[:1] == [b"solid"]]
-    name = new.with_space(lines[0].strip())
+    lines = [line for line in content.split(b"\n") if line.split()[:1] in ([b"solid"], [b"SOLID"])]
+    name = b"solid" + new.with_space(lines[0].strip())[5:]
     if space := new.missing_space([name]):
         name += b" " + space
     made = [name]
