@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operation_filter.h"
 
+#include <symsurf/found_mirror.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -68,6 +70,7 @@ int OperationFilter::changes() const {
 std::vector<Parameter> OperationFilter::own_parameters() const {
   std::vector<Parameter> described{Parameter::boolean(
       "find_mirror", false, "Find the mirror first, whatever layer is chosen for it.")};
+  described.push_back(require_found_parameter());
   if (operation_.takes_mask) {
     described.push_back(Parameter::boolean(
         "only_selected", false, "Move only selected vertices and the corners of selected faces."));
@@ -113,13 +116,15 @@ Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument
 
   const Context context(progress, static_cast<int>(own.integer("threads")));
   const bool is_found_first = own.boolean("find_mirror") || &holder == &layer;
-  const OperationMirror mirror = is_found_first ? OperationMirror(cloud, context.stage(0, finding))
-                                                : OperationMirror(layer, holder, values);
+  const OperationMirror mirror =
+      is_found_first
+          ? OperationMirror(cloud, own.boolean("require_found"), context.stage(0, finding))
+          : OperationMirror(layer, holder, values);
   const OperationResult result = operate(operation_.name, input, *mirror, values,
                                          context.stage(is_found_first ? finding : 0, 1));
 
   Outcome outcome{returned_values(result.statistics), logged_values(result.statistics)};
-  if (!mirror.log().empty()) outcome.log.insert(outcome.log.begin(), mirror.log());
+  outcome.log.insert(outcome.log.begin(), mirror.log().begin(), mirror.log().end());
   outcome.values["mirror_layer"] = mirror.place(document, layer, result).id();
   // Rows of the result are vertices then.
   vcg::tri::Allocator<CMeshO>::CompactEveryVector(layer.cm);

@@ -51,13 +51,16 @@ OperationMirror::OperationMirror(const MeshModel& layer, MeshModel& holder,
   if (!mirror_) mirror_ = mirror_beside(layer, holder);
 }
 
-OperationMirror::OperationMirror(const LayerCloud& cloud, const Context& context) {
+OperationMirror::OperationMirror(const LayerCloud& cloud, bool require_found,
+                                 const Context& context) {
   Options options;
   options.faces = cloud.faces;
   const Result result = detect(cloud.points, options, context);
-  mirror_ = found_mirror(result, "choose a layer that holds one to use it all the same");
-  log_ =
-      "found first: " + std::string(mirror_->kind()) + ", score " + to_string(Value(result.score));
+  const FoundMirror found = found_mirror(result, require_found);
+  mirror_ = found.mirror;
+  log_ = {"found first: " + std::string(mirror_->kind()) + ", score " +
+          to_string(Value(result.score))};
+  if (!found.warning.empty()) log_.push_back(found.warning);
 }
 
 const MeshModel& OperationMirror::place(MeshDocument& document, const MeshModel& layer,

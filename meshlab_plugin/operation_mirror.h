@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cloud_conversion.h"
 #include "meshlab_host.h"
@@ -19,13 +20,14 @@ class OperationMirror {
   /// that was laid flat into the mirror that the layer holds now. Throws what mirror_beside() does.
   OperationMirror(const MeshModel& layer, MeshModel& holder, const Values& parameters);
 
-  /// Finds it with the method `auto`. Throws InvalidInput where the verdict is "none".
-  OperationMirror(const LayerCloud& cloud, const Context& context);
+  /// Finds it with the method `auto`. Throws what found_mirror() does.
+  OperationMirror(const LayerCloud& cloud, bool require_found, const Context& context);
 
   const Mirror& operator*() const { return *mirror_; }
 
-  /// How it was found, for the log; empty for that of a layer.
-  const std::string& log() const { return log_; }
+  /// How it was found, and a warning where the verdict is "none", for the log; empty for that of a
+  /// layer.
+  const std::vector<std::string>& log() const { return log_; }
 
   /// Adds the layer of a mirror that was found, and brings the mirrors of a moved shape along with
   /// it: turned as it is, laid flat, or bent again. Gives the layer that holds the mirror.
@@ -35,7 +37,7 @@ class OperationMirror {
  private:
   std::shared_ptr<const Mirror> mirror_;
   MeshModel* holder_ = nullptr;  // none: found
-  std::string log_;
+  std::vector<std::string> log_;
 };
 
 }  // namespace symsurf::meshlab

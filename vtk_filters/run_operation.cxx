@@ -43,16 +43,17 @@ Eigen::VectorXd mask_of(vtkPolyData* input, const std::string& name) {
   return mask;
 }
 
-std::shared_ptr<symsurf::Mirror> mirror_by(const std::string& method,
-                                           const symsurf::OperationInput& input,
-                                           const symsurf::Context& context) {
+std::shared_ptr<symsurf::Mirror> found_first(vtkMirrorOperation* filter,
+                                             const symsurf::OperationInput& input,
+                                             const symsurf::Context& context) {
   symsurf::Options options;
-  options.method = method;
+  options.method = filter->GetMethod();
   options.faces = input.faces;
   options.refuse_nonfinite = true;
-  return symsurf::found_mirror(
-      symsurf::detect(input.points, options, context),
-      "connect the output \"Mirror\" of a mirror detection to use it all the same");
+  const symsurf::FoundMirror found = symsurf::found_mirror(
+      symsurf::detect(input.points, options, context), filter->GetRequireFound());
+  if (!found.warning.empty()) vtkWarningWithObjectMacro(filter, << found.warning);
+  return found.mirror;
 }
 
 }  // namespace
@@ -71,8 +72,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
     const double found_at = given ? 0 : 0.6;
     const std::shared_ptr<symsurf::Mirror> mirror =
-        given ? mirror_of(given)
-              : mirror_by(filter->GetMethod(), input, context.stage(0, found_at));
+        given ? mirror_of(given) : found_first(filter, input, context.stage(0, found_at));
     const symsurf::OperationResult result = symsurf::operate(
         call.operation, input, *mirror, call.parameters, context.stage(found_at, 1));
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);

@@ -8,12 +8,13 @@
  * points. The outputs are
  *
  * - 0 "Mirror": triangles of the mirror over the object's footprint. Field data: Method (the one
- *   that found it), Kind, Score (0: no symmetry, 1: exact), the mirror's numbers (Normal and Offset
- *   of a plane, in input units), the method's statistics and, where there are other mirrors, the
- *   candidates, a row each, best first: CandidateScores and, of planes, CandidateNormals and
- *   CandidateOffsets. No triangles where the method gives surface points only. Cell data: Rank and
- *   Score of the mirror that a triangle belongs to, 0 the result, from 1 the candidates, which are
- *   there where ShowCandidates is on. The field data stays that of the result.
+ *   that found it), Kind, Score (the share of the shape that it maps as well as the sampling shows,
+ *   0 to 1), the mirror's numbers (Normal and Offset of a plane, in input units), the method's
+ *   statistics and, where there are other mirrors, the candidates, a row each, best first:
+ *   CandidateScores and, of planes, CandidateNormals and CandidateOffsets. No triangles where the
+ *   method gives surface points only. Cell data: Rank and Score of the mirror that a triangle
+ *   belongs to, 0 the result, from 1 the candidates, which are there where ShowCandidates is on.
+ *   The field data stays that of the result.
  * - 1 "Surface Points": a vertex in the middle of each pair, at most half its residual off the
  *   mirror; perpendicular, quadric and fixed_direction project it onto that. Point data: Residual,
  *   the distance from a point's image to its partner.

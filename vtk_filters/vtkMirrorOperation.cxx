@@ -16,4 +16,5 @@ int vtkMirrorOperation::FillInputPortInformation(int port, vtkInformation* info)
 void vtkMirrorOperation::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->Method << "\n";
+  os << indent << "RequireFound: " << (this->RequireFound ? "On" : "Off") << "\n";
 }

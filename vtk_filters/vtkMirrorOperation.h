@@ -4,8 +4,8 @@
  *
  * Input 0 is the shape, see vtkShapeAlgorithm. Input 1, optional, is its mirror: output 0 of
  * vtkMirrorDetection, whose field data (Kind and numbers) says everything, in the unit and pose of
- * the shape. Without it the mirror is found first, by Method; a shape in which none is found is an
- * error that says why.
+ * the shape. Without it the mirror is found first, by Method; where its verdict is "none", it is
+ * used with a warning that says why, unless RequireFound is on.
  *
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
@@ -52,6 +52,15 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
   vtkGetCharFromStdStringMacro(Method);
   ///@}
 
+  ///@{
+  /**
+   * Whether a mirror that is found first with the verdict "none" is an error. Off initially.
+   */
+  vtkSetMacro(RequireFound, bool);
+  vtkGetMacro(RequireFound, bool);
+  vtkBooleanMacro(RequireFound, bool);
+  ///@}
+
  protected:
   vtkMirrorOperation();
   ~vtkMirrorOperation() override = default;
@@ -60,6 +69,7 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override = 0;
 
   std::string Method;
+  bool RequireFound = false;
 
  private:
   vtkMirrorOperation(const vtkMirrorOperation&) = delete;

@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <symsurf/found_mirror.h>
 #include <symsurf/operation.h>
 
 #include <memory>
@@ -80,6 +81,9 @@ void bind_operations(py::module_& module) {
         return found;
       },
       "All operations by name, in the order to show them in.");
+  module.def("require_found_parameter", &require_found_parameter,
+             py::return_value_policy::reference,
+             "What decides whether a mirror with the verdict \"none\" is used.");
   module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
              py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), "The fields of an operation's result.");

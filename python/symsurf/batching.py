@@ -32,6 +32,7 @@ def batch(
     *,
     jobs: int = 1,
     method: str = "auto",
+    require_found: bool = False,
     threads: int = 0,
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
@@ -52,6 +53,8 @@ def batch(
             ``multiprocessing`` asks, that keeps its own work below ``if __name__ == "__main__":``.
         jobs: how many files are worked on at once; with 1 in this process.
         method: what finds the mirrors, one of ``methods()``.
+        require_found: a mirror with the verdict "none" is an error of its file; otherwise an
+            operation uses it, and "verdict" of the row says so.
         threads: for each file; 0: all there are, divided among the jobs, and one with an executor.
             The results do not depend on it.
         output: a folder for what the operation makes of each file, in the format of that file, or
@@ -89,6 +92,7 @@ def batch(
             operation,
             method,
             dict(parameters),
+            require_found=require_found,
             threads=each,
             unit=unit,
             threshold=threshold,

@@ -55,6 +55,8 @@ class FileTask:
     seed: int = 0
     threads: int = 0
     nonfinite: str = "skip"
+    require_found: bool = False
+    """Of an operation: a mirror with the verdict "none" is an error."""
     use_faces: bool = True
     use_normals: bool = False
     """Hand those of the file to the method; a file without any is an error."""
@@ -194,7 +196,9 @@ def _write_analysis(found: AnalysisResult, task: FileTask) -> None:
 def _operate(
     task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
 ) -> None:
-    mirror = found_mirror(found)
+    mirror, warning = found_mirror(found, task.require_found)
+    if warning:
+        notices.append(warning)
     result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     record.pop("candidates")

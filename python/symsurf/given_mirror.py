@@ -23,12 +23,19 @@ def mirror_of(given: Result | Mirror, argument: str = "mirror") -> Mirror:
     return given.mirror
 
 
-def found_mirror(result: Result, advice: str = "") -> Mirror:
-    """The mirror of a detection whose verdict is "found".
+def found_mirror(result: Result, require_found: bool = False) -> tuple[Mirror, str]:
+    """The mirror of a detection, and a warning for the caller where its verdict is "none", else "".
 
-    Raises InvalidInput: with the reason and the advice for another verdict; for a method that finds
-    surface points only.
+    Raises InvalidInput where there is no mirror, and, with ``require_found``, where the verdict is
+    "none".
     """
-    if result.verdict != "found":
-        raise InvalidInput(f"the shape has no mirror: {result.reason}{advice and f'; {advice}'}")
-    return mirror_of(result)
+    found = result.verdict == "found"
+    if not found and (require_found or result.mirror is None):
+        raise InvalidInput(f"the shape has no mirror: {result.reason}")
+    mirror = mirror_of(result)
+    if found:
+        return mirror, ""
+    return mirror, (
+        f'the verdict on the mirror is "none": {result.reason}; it is used all the same, with '
+        "require_found this is an error"
+    )

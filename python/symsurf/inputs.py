@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,8 +19,8 @@ from .thresholds import Choice
 
 
 class InputWarning(UserWarning):
-    """Some of the input was left out, reads differently from what was perhaps meant, or is not what
-    the method is for."""
+    """Some of the input was left out, reads differently from what was perhaps meant, is not what the
+    method is for, or has no mirror but one with the verdict "none"."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +101,17 @@ def refuses(nonfinite: str) -> bool:
 
 def warn(statistics: dict[str, Any]) -> None:
     """An InputWarning with the number of points that were left out, where there are some, and one
-    with what the method warns of; they name the line that called the package."""
+    with what the method warns of."""
     messages = []
     if statistics.get("nonfinite_points", 0):
         messages.append(nonfinite_message(statistics["nonfinite_points"]))
     if "warning" in statistics:
         messages.append(statistics["warning"])
+    warn_of(messages)
+
+
+def warn_of(messages: Iterable[str]) -> None:
+    """An InputWarning each, which names the line that called the package."""
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_globals["__name__"].split(".")[0] == __package__:
         level, frame = level + 1, frame.f_back

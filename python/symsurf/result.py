@@ -45,15 +45,20 @@ class Result(Summarised, Generic[Kind_co]):
     residuals: NDArray[np.float64]
     """(m,) distances from the image to the partner; input units."""
     score: float
-    """0: no symmetry, 1: exact. The share of the shape that the mirror maps onto it."""
+    """0: no symmetry, 1: as good as the sampling shows. The share of the shape that the mirror maps
+    onto it as well as one half of the points, drawn at random, says what the other half does. What
+    lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it; of
+    quadrics, height fields and free forms what chance maps lacks, too."""
     candidates: list[Result[Kind_co]]
     """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
     theirs."""
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
-    """Whatever else the method reports, and, where there are some, how many "nonfinite_points" were
-    left out as not finite and how many "outliers" as lying far off: they have no partners.
+    """Whatever else the method reports, such as "covered_share", of the points that the mirror moves
+    those with anything of the shape at their image, and, where there are some, how many
+    "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
+    have no partners.
     "surface_samples": how many points were added on the faces. "boundary_points" of a volumetric
     cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
     the method is not for, which was an ``InputWarning``."""

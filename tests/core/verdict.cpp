@@ -38,18 +38,28 @@ TEST(Verdict, SaysWhatAutoTriedWhereNothingFits) {
 TEST(Verdict, OfWhatNeedsAMirror) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Result none = detect(RandomCloud(seed).box(150), {.method = "plane"});
-    expect_error<InvalidInput>("the shape has no mirror: " + none.reason() + "; draw one",
-                               [&] { found_mirror(none, "draw one"); });
+    EXPECT_EQ(found_mirror(none).mirror, none.mirror);
+    const std::string& warning = found_mirror(none).warning;
+    EXPECT_NE(warning.find(none.reason() + "; "), std::string::npos) << warning;
+    EXPECT_NE(warning.find(require_found_parameter().name), std::string::npos) << warning;
+    expect_error<InvalidInput>("the shape has no mirror: " + none.reason(),
+                               [&] { found_mirror(none, true); });
     const Points half = RandomCloud(seed).box(60);
     Points points(120, 3);
     points << half, half * Vector3(-1, 1, 1).asDiagonal();
     const Result found = detect(points, {.method = "plane"});
-    EXPECT_EQ(found_mirror(found, ""), found.mirror);
+    for (const bool require_found : {false, true}) {
+      EXPECT_EQ(found_mirror(found, require_found).mirror, found.mirror);
+      EXPECT_EQ(found_mirror(found, require_found).warning, "");
+    }
   }
   Result pairs_only;
   pairs_only.method = "separation";
   pairs_only.statistics = {{"verdict", std::string("found")}, {"reason", std::string()}};
-  expect_error<InvalidInput>("separation has no mirror", [&] { found_mirror(pairs_only, ""); });
+  expect_error<InvalidInput>("separation has no mirror", [&] { found_mirror(pairs_only); });
+  pairs_only.statistics = {{"verdict", std::string("none")}, {"reason", std::string("no pairs")}};
+  expect_error<InvalidInput>("the shape has no mirror: no pairs",
+                             [&] { found_mirror(pairs_only); });
 }
 
 // A plane is all that a well mirrored shape needs; asked for more, auto names what is missing.

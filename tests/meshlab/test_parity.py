@@ -72,7 +72,7 @@ def test_defaults_are_those_described(method):
 def test_parameters_of_operations_are_those_described(operation):
     described = symsurf.operations()[operation]
     shown = cloud().mesh_set().filter_parameter_values(filter_of(operation))
-    of_the_host = {"mirror_layer", "find_mirror", "threads"}
+    of_the_host = {"mirror_layer", "find_mirror", "require_found", "threads"}
     if described.takes_mask:
         of_the_host |= {"only_selected", "weigh_by_quality"}
     names = [p.name for p in described.parameters]

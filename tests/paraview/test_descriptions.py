@@ -153,7 +153,8 @@ def test_xml_is_the_description_of_the_operation(
     for parameter in operation.parameters:
         name = camel_case(parameter.name)
         check(proxy[name], name, parameter)
-    own = INPUT | {"Mirror", "Method", "NumberOfThreads"}
+    check(proxy["RequireFound"], "RequireFound", symsurf._core.require_found_parameter())
+    own = INPUT | {"Mirror", "Method", "RequireFound", "NumberOfThreads"}
     mask = {"MaskArray"} if operation.takes_mask else set()
     assert set(proxy) == own | mask | {camel_case(each.name) for each in operation.parameters}
     assert proxy["Mirror"].find("Hints/Optional") is not None

@@ -24,6 +24,15 @@ def mirrored_surface(count: int, seed: int) -> tuple[NDArray[np.float64], symsur
     return (points @ rotation.T + shift)[order], symsurf.Plane(normal, -normal @ shift)
 
 
+def lopsided_blob(count: int) -> NDArray[np.float64]:
+    """A bumpy closed surface without a mirror."""
+    u = np.random.default_rng(0).normal(size=(count, 3))
+    u /= np.linalg.norm(u, axis=1, keepdims=True)
+    x, y, z = u.T
+    radius = 1 + 0.4 * np.sin(3 * x + 1) * np.cos(4 * y + 0.5) + 0.3 * np.sin(5 * z + 2 * x)
+    return u * radius[:, None]
+
+
 def random_rotation(rng: np.random.Generator) -> NDArray[np.float64]:
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     return rotation * np.sign(np.linalg.det(rotation))

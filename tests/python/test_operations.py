@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import pyvista
 from command_line import run_here
+from symmetric_shapes import lopsided_blob
 
 import symsurf
 
@@ -217,14 +218,35 @@ def test_tables_have_a_row_a_point(name, is_mesh, ball, tmp_path):
         np.testing.assert_array_equal(np.array(record["arrays"][array], values.dtype), values)
 
 
-def test_a_shape_without_a_mirror_is_an_error_that_says_why():
-    random = np.random.default_rng(0)
-    u = random.normal(size=(2000, 3))
-    u /= np.linalg.norm(u, axis=1, keepdims=True)
-    x, y, z = u.T
-    radius = 1 + 0.4 * np.sin(3 * x + 1) * np.cos(4 * y + 0.5) + 0.3 * np.sin(5 * z + 2 * x)
-    with pytest.raises(symsurf.InvalidInput, match="has no mirror: .*give a result or a mirror"):
-        symsurf.asymmetry(u * radius[:, None])
+def test_a_mirror_that_is_none_warns_unless_refused():
+    points = lopsided_blob(2000)
+    found = symsurf.detect(points)
+    assert found.verdict == "none"
+    with pytest.warns(symsurf.InputWarning, match="require_found") as warnings:
+        first = symsurf.asymmetry(points)
+    assert found.reason in str(warnings[0].message) and warnings[0].filename == __file__
+    given = symsurf.asymmetry(points, found)  # nothing is found, and no warning given
+    np.testing.assert_array_equal(first.distance, given.distance)
+    for result in (None, found):
+        with pytest.raises(symsurf.InvalidInput, match="the shape has no mirror") as error:
+            symsurf.asymmetry(points, result, require_found=True)
+        assert found.reason in str(error.value)
+    symsurf.asymmetry(points, found.mirror, require_found=True)  # nobody judged it
+
+
+def test_what_is_said_of_a_mirror_that_is_none(tmp_path):
+    np.savetxt(tmp_path / "none.xyz", lopsided_blob(2000))
+    done = run_here("align none.xyz --json --output made", tmp_path)
+    record = json.loads(done.stdout)
+    assert done.returncode == 0 and record["verdict"] == "none"
+    (notice,) = record["notices"]
+    assert record["reason"] in notice and done.stderr == f"symsurf: none.xyz: {notice}\n"
+    assert len(symsurf.read(tmp_path / "made" / "none.xyz").points) == 2000
+    done = run_here("align none.xyz --json --require-found --output refused", tmp_path)
+    assert done.returncode == 1 and done.stdout == "" and record["reason"] in done.stderr
+    assert not (tmp_path / "refused" / "none.xyz").exists()
+    (row,) = symsurf.batch([tmp_path / "none.xyz"], "align", require_found=True)
+    assert "has no mirror" in row["error"]
 
 
 def test_save_keeps_points_faces_and_arrays(ball, tmp_path):

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command_line import run, run_here
+from symmetric_shapes import lopsided_blob
 
 import symsurf
 
@@ -206,15 +207,16 @@ def test_what_is_wrong_is_named(ball, line, says, tmp_path):
     assert not list(tmp_path.glob("**/*.html"))
 
 
-def test_a_shape_without_a_mirror_has_no_page(tmp_path):
-    u = np.random.default_rng(0).normal(size=(2000, 3))
-    u /= np.linalg.norm(u, axis=1, keepdims=True)
-    x, y, z = u.T
-    radius = 1 + 0.4 * np.sin(3 * x + 1) * np.cos(4 * y + 0.5) + 0.3 * np.sin(5 * z + 2 * x)
-    np.savetxt(tmp_path / "none.xyz", u * radius[:, None])
-    done = run_here("report none.xyz --output report.html", tmp_path)
+def test_a_mirror_that_is_none_has_a_page_unless_refused(tmp_path):
+    np.savetxt(tmp_path / "none.xyz", lopsided_blob(2000))
+    done = run_here("report none.xyz --output report.html --require-found", tmp_path)
     assert done.returncode == 1 and "has no mirror" in done.stderr
     assert not (tmp_path / "report.html").exists()
+    shutil.copy(tmp_path / "none.xyz", tmp_path / "twin.xyz")
+    done = run_here("report none.xyz twin.xyz --output report.html", tmp_path)
+    assert done.returncode == 0 and done.stderr.count("the verdict on the mirror is") == 2
+    assert "0 of 2 files have a mirror. 2 more" in (tmp_path / "report.html").read_text()
+    assert "Verdict none: " in (tmp_path / "report_files" / "none.html").read_text()
 
 
 def test_without_the_packages_one_sentence(ball, monkeypatch):

@@ -63,7 +63,7 @@ TEST(OperationErrors, MirrorsOfTheTable) {
   }
 }
 
-TEST(OperationErrors, AShapeWithoutMirrorSaysWhyThereIsNone) {
+TEST(OperationErrors, AMirrorThatIsNoneWarnsUnlessRefused) {
   symsurf::Points points = mirrored_shape(ball_mirror, 300);
   points.bottomRows(300) = points.topRows(300) * 0.3;  // no side is like another
   for (symsurf::Index i = 0; i < points.rows(); ++i) points(i, 1) *= 2 + points(i, 0);
@@ -71,9 +71,16 @@ TEST(OperationErrors, AShapeWithoutMirrorSaysWhyThereIsNone) {
     SCOPED_TRACE(name);
     filter->SetInputData(0, polydata_of(points));
     filter->SetMethod("plane");
+    {
+      const ErrorListener warnings(filter, vtkCommand::WarningEvent);
+      EXPECT_EQ(error_of(filter), "");
+      EXPECT_NE(warnings.message().find("score"), std::string::npos) << warnings.message();
+    }
+    filter->RequireFoundOn();
     const std::string said = error_of(filter);
     EXPECT_NE(said.find("the shape has no mirror: "), std::string::npos) << said;
     EXPECT_NE(said.find("score"), std::string::npos) << said;
+    filter->RequireFoundOff();
     filter->SetMethod("horoscope");
     EXPECT_NE(error_of(filter).find("'horoscope'"), std::string::npos);
     filter->SetMethod(nullptr);

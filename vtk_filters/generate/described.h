@@ -58,8 +58,8 @@ std::string operation_source(const Described& described);
 
 /// A template of server-manager XML with its marks filled in. @PARAMETERS@ gives way to the
 /// properties with its whole line, @INPUT@ to the shape and what chooses the points of an image,
-/// @METHOD@ to the choice of the method that finds a mirror, and @OUTPUTS@ and @COLOURS@ to
-/// an operation's; @NAME@, @LABEL@ and @SUMMARY@ are its own.
+/// @FOUND_MIRROR@ to how a mirror is found first, and @OUTPUTS@ and @COLOURS@ to an operation's;
+/// @NAME@, @LABEL@ and @SUMMARY@ are its own.
 std::string server_manager_xml(const Described& described, std::string text);
 
 }  // namespace symsurf::front_ends

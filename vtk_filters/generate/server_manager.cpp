@@ -1,3 +1,4 @@
+#include <symsurf/found_mirror.h>
 #include <symsurf/method.h>
 
 #include <cctype>
@@ -131,12 +132,14 @@ std::string properties(const Described& d) {
   return text;
 }
 
-std::string method_property() {
+std::string found_mirror_properties() {
   std::vector<std::string> names;
   for (const Method& method : methods()) names.push_back(method.name);
+  const Parameter& require_found = require_found_parameter();
   return choice_property("Method", names,
                          "How the mirror is found where none is connected. Mirror Detection has "
-                         "the methods' parameters.");
+                         "the methods' parameters.") +
+         property("RequireFound", kind_of(require_found), documentation(require_found), "");
 }
 
 // What vtkShapeAlgorithm takes, and how it takes an image.
@@ -233,7 +236,7 @@ std::string server_manager_xml(const Described& d, std::string text) {
     throw std::invalid_argument("the template for " + d.vtk_class + " has no @PARAMETERS@");
   fill_line(text, "@INPUT@", shape_input);
   fill_line(text, "@PARAMETERS@", properties(d));
-  fill_line(text, "@METHOD@", method_property());
+  fill_line(text, "@FOUND_MIRROR@", found_mirror_properties());
   if (!d.operation) return text;
   fill_line(text, "@OUTPUTS@", output_ports(*d.operation));
   fill_line(text, "@COLOURS@", colour_ranges(*d.operation));

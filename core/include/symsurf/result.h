@@ -18,17 +18,21 @@ struct Result {
   Points surface_points;
   Pairs pairs;                ///< (point, partner), indices into the input
   Eigen::VectorXd residuals;  ///< distance from the image to the partner, input units
-  /// 0: no symmetry; 1: exact. The share of the shape that the mirror maps onto it.
+  /// 0: no symmetry; 1: as good as the sampling shows. The share of the shape that the mirror maps
+  /// onto it as well as one half of the points, drawn at random, says what the other half does.
+  /// What lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it;
+  /// of quadrics, height fields and free forms what chance maps lacks, too.
   double score = 0;
   /// Other mirrors, without pairs, by score; none scores more than the result.
   std::vector<Result> candidates;
   Values parameters;  ///< as used
-  /// "verdict", "found" or "none"; "reason", a sentence that says why; whatever else the method
-  /// reports; and, where there are some, how many "nonfinite_points" were left out as not finite
-  /// and how many "outliers" as lying far off: they have no partners. "surface_samples": how many
-  /// points were added on the faces. "boundary_points" of a volumetric cloud, where the mirror and
-  /// the score are those of its boundary: how many it has. "warning": a sentence for the
-  /// caller, where the method is not for such a cloud.
+  /// "verdict", "found" or "none"; "reason", a sentence that says why; "covered_share": of the
+  /// points that the mirror moves, those with anything of the shape at their image; whatever else
+  /// the method reports; and, where there are some, how many "nonfinite_points" were left out as
+  /// not finite and how many "outliers" as lying far off: they have no partners.
+  /// "surface_samples": how many points were added on the faces. "boundary_points" of a
+  /// volumetric cloud, where the mirror and the score are those of its boundary: how many it has.
+  /// "warning": a sentence for the caller, where the method is not for such a cloud.
   Values statistics;
   double seconds = 0;
 

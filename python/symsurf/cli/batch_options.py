@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from .._core import InvalidParameter
+from .._core import InvalidParameter, require_found_parameter
 from ..batching import records, require_jobs, threads_of_each
 from ..drawing import import_pyvista
 from ..file_task import PICTURE_SUFFIX, FileTask, Record, perform
@@ -97,6 +97,14 @@ def add_table_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--unit", default="", metavar="WORD", help="of the coordinates, such as mm: a label"
     )
+
+
+def add_mirror_options(parser: argparse.ArgumentParser) -> None:
+    """How the mirror of an operation is found."""
+    parser.add_argument(
+        "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
+    )
+    parser.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
 
 
 def add_absolute(parser: argparse.ArgumentParser) -> None:

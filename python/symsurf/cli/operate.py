@@ -14,6 +14,7 @@ from .batch_options import (
     add_absolute,
     add_batch_options,
     add_files,
+    add_mirror_options,
     input_tasks,
     jobs_and_threads,
     planned_outputs,
@@ -49,9 +50,7 @@ class OperationCommand:
             "arrays alone; default %(default)s",
         )
         add_batch_options(parser)
-        parser.add_argument(
-            "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
-        )
+        add_mirror_options(parser)
         add_absolute(parser)
         add_parameters(parser, self._operation)
 
@@ -69,6 +68,7 @@ class OperationCommand:
                 task,
                 operation=name,
                 method=arguments.method,
+                require_found=arguments.require_found,
                 parameters=given_values(arguments) | arguments.absolute,
                 threads=threads,
                 outputs=tuple(outputs.get(task.file, ())),

@@ -11,6 +11,7 @@ from ..file_task import Record
 from .batch_options import (
     add_absolute,
     add_files,
+    add_mirror_options,
     add_table_options,
     input_tasks,
     jobs_and_threads,
@@ -32,9 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "all of them, with a page each in the folder FILE_files beside it",
     )
     add_table_options(parser)
-    parser.add_argument(
-        "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
-    )
+    add_mirror_options(parser)
     add_absolute(parser)
     add_parameters(parser, operations()["asymmetry"])
 
@@ -48,6 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
         replace(
             task,
             method=arguments.method,
+            require_found=arguments.require_found,
             parameters=given_values(arguments) | arguments.absolute,
             threads=threads,
         )

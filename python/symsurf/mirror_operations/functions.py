@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Callable
 from typing import Any
 
-from .._core import Operation, operations
+from .._core import Operation, operations, require_found_parameter
 from ..descriptions import argument_text, keyword, name_function, parameter_texts
 from .operate import operate
 from .results import RESULTS, OperationResult
@@ -22,13 +22,15 @@ _DOCUMENTED = {
     "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
     "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
     "bounding box; ``parameters`` of what is given back has them as fractions.",
+    "require_found": f"{require_found_parameter().doc} A result that is given is refused likewise.",
     "threads, progress": "as for ``detect``.",
 }
 
 _ERRORS = """
 Raises:
-    InvalidInput: no mirror is found, or it has images for less than half of the points; a point
-        that is not finite; {mask}else as ``detect`` does.
+    InvalidInput: no mirror is found, or, with ``require_found``, one with the verdict "none"; it
+        has images for less than half of the points; a point that is not finite; {mask}else as
+        ``detect`` does.
     InvalidParameter, Cancelled: as ``detect`` does."""
 
 

@@ -9,7 +9,7 @@ from .. import _core
 from .._core import InvalidInput, Mirror
 from ..detection import Progress, detect
 from ..given_mirror import found_mirror, mirror_of
-from ..inputs import Input, as_input
+from ..inputs import Input, as_input, warn_of
 from ..lengths import as_fractions, diagonal_of
 from ..result import Result
 from .results import RESULTS, OperationResult
@@ -23,13 +23,14 @@ def operate(
     mask: ArrayLike | None = None,
     faces: ArrayLike | None = None,
     absolute: bool = False,
+    require_found: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
 ) -> OperationResult:
     """Runs one of ``operations()``; arguments and errors are those of the function of that name."""
     given = as_input(shape, faces)
-    mirror = _mirror_of(given, result, threads)
+    mirror = _mirror_of(given, result, require_found, threads)
     if mirror.footprint is None:  # that the way back from a straightened shape is laid out over
         mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     if absolute:
@@ -55,8 +56,14 @@ def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
     return values
 
 
-def _mirror_of(shape: Input, result: Result | Mirror | None, threads: int) -> Mirror:
+def _mirror_of(
+    shape: Input, result: Result | Mirror | None, require_found: bool, threads: int
+) -> Mirror:
     if result is None:
         found = detect(shape.points, faces=shape.faces, threads=threads)
-        return found_mirror(found, "give a result or a mirror to use it all the same")
+        mirror, warning = found_mirror(found, require_found)
+        warn_of([warning] if warning else [])
+        return mirror
+    if require_found and isinstance(result, Result):
+        return found_mirror(result, require_found)[0]
     return mirror_of(result, "result")

@@ -40,7 +40,11 @@ def cohort_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[st
         links: the page of each file, relative to this.
     """
     good = [row for row in rows if not row["error"]]
-    parts = [paragraph(f"{len(good)} of {len(rows)} files have a mirror.")]
+    doubtful = sum(row["verdict"] == "none" for row in good)
+    sentence = f"{len(good) - doubtful} of {len(rows)} files have a mirror."
+    if doubtful:
+        sentence += f' {doubtful} more, with the verdict "none", are among the figures.'
+    parts = [paragraph(sentence)]
     if good:
         rms = 100 * _column(good, "rms_of_diagonal")
         label = "root mean square of the asymmetry, % of the diagonal"
@@ -49,7 +53,13 @@ def cohort_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[st
             table(_percentile_rows(good), ("", *(_name(p) for p in PERCENTILES), "files")),
             histogram(rms, label, "files", symmetric=False),
         ]
-        names = ("file", "mirror", *(_FIGURES[name][0] for name in _SHOWN), "rank by rms")
+        names = (
+            "file",
+            "mirror",
+            "verdict",
+            *(_FIGURES[name][0] for name in _SHOWN),
+            "rank by rms",
+        )
         parts += [heading("Files"), table(_file_rows(good, links), names)]
     if errors := [(Path(row["file"]).name, row["error"]) for row in rows if row["error"]]:
         parts += [heading("Files that failed"), table(errors, ("file", "reason"), numbers=False)]
@@ -74,7 +84,7 @@ def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> l
         link = Html(f'<a href="{target}">{escape(Path(row["file"]).name)}</a>')
         figures = [f"{_FIGURES[key][1] * row[key]:.4g}" if key in row else "" for key in _SHOWN]
         rank = int(np.searchsorted(order, row["rms_of_diagonal"], side="right"))
-        made.append([link, row["kind"], *figures, f"{rank} of {len(order)}"])
+        made.append([link, row["kind"], row["verdict"], *figures, f"{rank} of {len(order)}"])
     return made
 
 

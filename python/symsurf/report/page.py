@@ -37,7 +37,7 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
     return page(
         name,
         [
-            paragraph(f"Mirror {record['verdict']}: {record['reason']}."),
+            paragraph(f"Verdict {record['verdict']}: {record['reason']}."),
             paragraph(_sentence(record, kind)),
             framed(scene, f"{name} in 3D"),
             paragraph(

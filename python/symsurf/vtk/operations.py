@@ -13,7 +13,14 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 
 from .. import _core
-from .._core import InvalidParameter, Mirror, Operation, methods, operations
+from .._core import (
+    InvalidParameter,
+    Mirror,
+    Operation,
+    methods,
+    operations,
+    require_found_parameter,
+)
 from ..detection import detect
 from ..given_mirror import found_mirror
 from .algorithm import THREADS, Algorithm, Property, described
@@ -38,8 +45,8 @@ class MirrorOperation(Algorithm):
     """What the filters of the operations have in common; ``vtkMirrorOperation`` in Python.
 
     Input 0 is the shape. Input 1, optional, is its mirror: output 0 of ``MirrorDetection``, in the
-    unit and pose of the shape. Without it the mirror is found first, by ``method``; a shape in which
-    none is found is an error that says why.
+    unit and pose of the shape. Without it the mirror is found first, by ``method``; where its verdict
+    is "none", it is used with a warning that says why, unless ``require_found`` is set.
 
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
@@ -89,8 +96,10 @@ class MirrorOperation(Algorithm):
             threads=self._options["number_of_threads"],
             progress=lambda fraction: self._progress(_FOUND_AT * fraction),
         )
-        advice = 'connect the output "Mirror" of a mirror detection to use it all the same'
-        return found_mirror(result, advice)
+        mirror, warning = found_mirror(result, self._options["require_found"])
+        if warning:
+            self._warn(warning)
+        return mirror
 
 
 def _mask_of(shape: vtkPolyData, name: str) -> NDArray[np.float64] | None:
@@ -245,6 +254,7 @@ def _filter(operation: Operation) -> type[MirrorOperation]:
         "How the mirror is found where none is connected, with the parameters that are there "
         f"initially. One of: {', '.join(methods())}",
     )
+    properties |= described([require_found_parameter()])
     properties["number_of_threads"] = THREADS
     members: dict[str, Any] = {
         "__doc__": _docstring(operation),
