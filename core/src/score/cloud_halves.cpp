@@ -22,8 +22,8 @@ constexpr double sparse = 0.9;        // quantile
 // dense are: e^-2.5 are. `by_chance`: that quantile over the median in points spread at random.
 constexpr double by_chance = 1.26, most_wider = 1.6;
 
-// Random, and the same wherever the point lies in the cloud's order, however it is turned: a cell
-// of 2^-30 diagonals holds it before and after rounding.
+// A point under a random key, which is the same wherever it stands in the cloud's order and however
+// the cloud is turned: a cell of 2^-16 diagonals holds it before and after rounding.
 struct Drawn {
   std::uint64_t key;
   Vector3 x;
@@ -38,18 +38,20 @@ struct Drawn {
 std::uint64_t key_of(const Vector3& x, std::size_t split) {
   std::uint64_t key = split;
   for (const double coordinate : x)
-    key = Random(key ^ static_cast<std::uint64_t>(std::llround(coordinate * 0x1p30))).bits();
+    key = Random(key ^ static_cast<std::uint64_t>(std::llround(coordinate * 0x1p16))).bits();
   return key;
 }
 
-std::vector<Drawn> drawn_points(const Cloud& cloud, std::size_t split) {
+std::vector<Drawn> drawn_points(const Cloud& cloud, const Surfels& uncluttered, std::size_t split) {
   const double share = std::min(
       1.0, static_cast<double>(most_points) / static_cast<double>(cloud.partition.total()));
   const auto most_key = static_cast<std::uint64_t>(share * 0x1p63);
   std::vector<Drawn> own;
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
-    if (const std::uint64_t key = key_of(x, split); key >> 1 <= most_key) own.push_back({key, x});
+    if (const std::uint64_t key = key_of(x, split);
+        key >> 1 <= most_key && uncluttered.containing(x) >= 0)
+      own.push_back({key, x});
   }
   std::vector<Drawn> all = cloud.partition.concatenate(own);
   std::sort(all.begin(), all.end());
@@ -87,7 +89,10 @@ Points cell_means(const Points& points, double cell) {
     auto operator<=>(const Entry&) const = default;
   };
   std::vector<Entry> entries;
-  const auto in_cells = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell)); };
+  // Off any lattice that the points may lie on: rounding must not decide between two cells.
+  const auto in_cells = [&](double v) {
+    return static_cast<std::int64_t>(std::floor(v / cell + 0.38197));
+  };
   for (Index i = 0; i < points.rows(); ++i)
     entries.push_back({in_cells(points(i, 0)), in_cells(points(i, 1)), in_cells(points(i, 2)), i});
   std::sort(entries.begin(), entries.end());
@@ -118,8 +123,8 @@ struct CloudHalves::Split {
   double cell;
 };
 
-CloudHalves::CloudHalves(const Cloud& cloud, std::size_t split)
-    : CloudHalves(Split(drawn_points(cloud, split))) {}
+CloudHalves::CloudHalves(const Cloud& cloud, const Surfels& uncluttered, std::size_t split)
+    : CloudHalves(Split(drawn_points(cloud, uncluttered, split))) {}
 
 CloudHalves::CloudHalves(const Split& split)
     : cell(split.cell), one(cell_means(split.one, cell)), two(turned_cell_means(split.two, cell)) {}

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "cloud/cloud.h"
+#include "cloud/surfels.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -15,10 +15,11 @@ struct ThinnedHalf {
 };
 
 /// A cloud split at random into halves. How well one says what the other says is the most that a
-/// mirror image can. Copies of a point are one point. The same on all processes; collective.
+/// mirror image can. Copies of a point are one point, clutter
+/// is left out. The same on all processes; collective.
 struct CloudHalves {
-  /// `split`: which of several.
-  CloudHalves(const Cloud& cloud, std::size_t split);
+  /// `uncluttered`: what lies in none of their cells is clutter. `split`: which of several.
+  CloudHalves(const Cloud& cloud, const Surfels& uncluttered, std::size_t split);
 
   double cell;           ///< its edge, as wide as the sparse parts of the cloud need
   ThinnedHalf one, two;  ///< on grids that are turned against each other

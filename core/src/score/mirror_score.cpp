@@ -74,7 +74,7 @@ void tell(const MirrorFit& fit, Result& result) {
 MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
     : cloud_(cloud), points_(points), coarse_(cloud, sample_count, context.stage(0, 0.5)) {
   const Index splits = std::clamp<Index>(many / cloud.partition.total(), 1, most_splits);
-  for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, k);
+  for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, coarse_, k);
   radius_ = radius_for(splits_.front());
   // A surface is no mirror of the noise on its two sides.
   noise_ = measured_noise();
