@@ -140,7 +140,7 @@ TEST(Duplicates, OfSomePointsHardlyChangeWhatIsExplained) {
       return std::get<double>(detect(points, {.method = method}).statistics.at("explained_share"));
     };
     for (const char* method : {"plane", "quadric", "fixed_direction", "perpendicular"})
-      EXPECT_NEAR(support(some, method), support(points, method), 0.1) << method << ' ' << seed;
+      EXPECT_NEAR(support(some, method), support(points, method), 0.15) << method << ' ' << seed;
   }
 }
 

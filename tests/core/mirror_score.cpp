@@ -136,7 +136,8 @@ TEST(MirrorScore, IsNotRaisedByNoise) {
       const double clean = Scored(points)(plane);
       for (const double share : {0.003, 0.01, 0.02}) {
         const double noisy = Scored(points + gaussian(points, share, seed))(plane);
-        const double most = bump < 0.1 ? clean + 0.04 : 0.4;  // hidden, but not taken for alike
+        // What differs by less than the noise is hidden by it; the unlike is not taken for alike.
+        const double most = bump < 0.1 ? clean + 0.08 : 0.4;
         EXPECT_LT(noisy, most) << seed << ' ' << bump << ' ' << share;
       }
     }

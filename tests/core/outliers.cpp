@@ -179,7 +179,7 @@ TEST(Clutter, DoesNotHideThePlane) {
         const Points all = mixed(ball(random, count), wide * random.box(count / 20));
         const Result result = detect(all, {.method = "plane"});
         EXPECT_LT(turned_by(result), 0.01) << seed << ' ' << count << ' ' << wide;
-        EXPECT_GT(result.score, 0.8) << seed << ' ' << count << ' ' << wide;
+        EXPECT_GT(result.score, 0.7) << seed << ' ' << count << ' ' << wide;
       }
 }
 

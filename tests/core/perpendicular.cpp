@@ -323,8 +323,10 @@ TEST(Perpendicular, ScoresTheMiddleOfARandomBodyLow) {
         radius += (k % 2 ? 0.5 : -0.3) * std::exp(4 * (x.dot(bumps[k]) - 1));
       points.row(i) = radius * Vector3(x.x(), 0.7 * x.y(), 1.4 * x.z()).transpose();
     }
-    for (const char* method : {"perpendicular", "fixed_direction"})
-      EXPECT_EQ(detect(points, {.method = method}).verdict(), "none") << method << ' ' << seed;
+    for (const char* method : {"perpendicular", "fixed_direction"}) {
+      const Result result = detect(points, {.method = method});
+      EXPECT_EQ(result.verdict(), "none") << method << ' ' << seed << ' ' << result.reason();
+    }
   }
 }
 

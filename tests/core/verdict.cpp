@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "expect_error.h"
 #include "random_cloud.h"
@@ -62,10 +63,15 @@ TEST(Verdict, OfWhatNeedsAMirror) {
                              [&] { found_mirror(pairs_only); });
 }
 
-// A plane is all that a well mirrored shape needs; asked for more, auto names what is missing.
+// A plane is all that a well mirrored shape needs; asked for more, auto names what is missing. A cap
+// of the shape is cut off.
 TEST(Verdict, OfAMirrorBelowAHighMinimum) {
   RandomCloud random(1);
-  Points points = random.sphere(800);
+  Points points = random.sphere(3000);
+  std::vector<Index> kept;
+  for (Index i = 0; i < points.rows(); ++i)
+    if (points.row(i).dot(Eigen::RowVector3d(1, 1, 1)) < 1.2) kept.push_back(i);
+  points = points(kept, Eigen::all).eval();
   points.leftCols(1) *= 3;
   points.rightCols(1) *= 0.4;
   Options options;

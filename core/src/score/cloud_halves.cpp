@@ -15,12 +15,12 @@ namespace {
 
 constexpr Index most_points = 32768;  // drawn of larger clouds: some in each of the least cells
 constexpr double least_cell = 0.01;   // diagonals: some forty in the smallest ball on a surface
-constexpr Index asked = 500;          // points whose neighbours say how sparse the cloud is
-constexpr Index neighbours = 7;       // the nearest is the point itself
-constexpr double sparse = 0.9;        // quantile
+constexpr Index neighbours = 7;
+constexpr double sparse = 0.9;  // quantile
 // Where the density differs a cell of the sparse part must not be empty by chance, as few of the
-// dense are: e^-2.5 are. `by_chance`: that quantile over the median in points spread at random.
-constexpr double by_chance = 1.26, most_wider = 1.6;
+// dense are: e^-2.5 are. `by_chance`: that quantile over the opposite one in points spread at
+// random.
+constexpr double by_chance = 1.72, most_wider = 1.6;
 
 // A point under a random key, which is the same wherever it stands in the cloud's order and however
 // the cloud is turned: a cell of 2^-16 diagonals holds it before and after rounding.
@@ -42,7 +42,7 @@ std::uint64_t key_of(const Vector3& x, std::size_t split) {
   return key;
 }
 
-std::vector<Drawn> drawn_points(const Cloud& cloud, const Surfels& uncluttered, std::size_t split) {
+std::vector<Drawn> drawn_points(const Cloud& cloud, const Surfels& surface, std::size_t split) {
   const double share = std::min(
       1.0, static_cast<double>(most_points) / static_cast<double>(cloud.partition.total()));
   const auto most_key = static_cast<std::uint64_t>(share * 0x1p63);
@@ -50,7 +50,7 @@ std::vector<Drawn> drawn_points(const Cloud& cloud, const Surfels& uncluttered, 
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
     if (const std::uint64_t key = key_of(x, split);
-        key >> 1 <= most_key && uncluttered.containing(x) >= 0)
+        key >> 1 <= most_key && surface.containing(x) >= 0)
       own.push_back({key, x});
   }
   std::vector<Drawn> all = cloud.partition.concatenate(own);
@@ -67,18 +67,19 @@ Points every_other(const std::vector<Drawn>& drawn, std::size_t first) {
 }
 
 // As wide as the seven nearest points lie where they are sparse: on a surface, each cell has some.
-double cell_of(const Points& points) {
+// Asked for all over the surface, of which a sparse part has few points.
+double cell_of(const Points& points, const Surfels& surface) {
   const PointTree tree(points);
   std::vector<double> reach;
   std::vector<Neighbour> nearest;
-  for (Index i = 0; i < std::min(asked, points.rows()); ++i) {
-    tree.nearest(points.row(i).transpose(), neighbours, nearest);
-    reach.push_back(std::sqrt(nearest.back().squared_distance));
+  for (Index k = 0; k < surface.size(); ++k) {
+    tree.nearest(surface[k].sampled, neighbours, nearest);
+    if (!nearest.empty()) reach.push_back(std::sqrt(nearest.back().squared_distance));
   }
   if (reach.empty()) return least_cell;
   const double disc = std::sqrt((neighbours - 1) / std::numbers::pi);  // spacings that it reaches
-  const double typical = median(reach), widest = quantile(std::move(reach), sparse);
-  const double wider = std::clamp(widest / (by_chance * typical), 1.0, most_wider);
+  const double dense = quantile(reach, 1 - sparse), widest = quantile(std::move(reach), sparse);
+  const double wider = dense > 0 ? std::clamp(widest / (by_chance * dense), 1.0, most_wider) : 1;
   return std::max(least_cell, wider * widest / disc);
 }
 
@@ -117,14 +118,14 @@ Points turned_cell_means(const Points& points, double cell) {
 }  // namespace
 
 struct CloudHalves::Split {
-  explicit Split(const std::vector<Drawn>& drawn)
-      : one(every_other(drawn, 0)), two(every_other(drawn, 1)), cell(cell_of(one)) {}
+  Split(const std::vector<Drawn>& drawn, const Surfels& surface)
+      : one(every_other(drawn, 0)), two(every_other(drawn, 1)), cell(cell_of(one, surface)) {}
   Points one, two;
   double cell;
 };
 
-CloudHalves::CloudHalves(const Cloud& cloud, const Surfels& uncluttered, std::size_t split)
-    : CloudHalves(Split(drawn_points(cloud, uncluttered, split))) {}
+CloudHalves::CloudHalves(const Cloud& cloud, const Surfels& surface, std::size_t split)
+    : CloudHalves(Split(drawn_points(cloud, surface, split), surface)) {}
 
 CloudHalves::CloudHalves(const Split& split)
     : cell(split.cell), one(cell_means(split.one, cell)), two(turned_cell_means(split.two, cell)) {}

@@ -18,8 +18,8 @@ struct ThinnedHalf {
 /// mirror image can. Copies of a point are one point, clutter
 /// is left out. The same on all processes; collective.
 struct CloudHalves {
-  /// `uncluttered`: what lies in none of their cells is clutter. `split`: which of several.
-  CloudHalves(const Cloud& cloud, const Surfels& uncluttered, std::size_t split);
+  /// `surface`: what lies in none of its cells is clutter. `split`: which of several.
+  CloudHalves(const Cloud& cloud, const Surfels& surface, std::size_t split);
 
   double cell;           ///< its edge, as wide as the sparse parts of the cloud need
   ThinnedHalf one, two;  ///< on grids that are turned against each other

@@ -140,7 +140,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   std::optional<MirrorLayers> layers;
   MirrorSides sides(held_out);
   if (freedom_of(mirror.kind()).any_shape)
-    layers.emplace(1.4 * splits_.front().cell * frame.size, layer_of_noise * noise_ * frame.size,
+    layers.emplace(0.7 * splits_.front().cell * frame.size, layer_of_noise * noise_ * frame.size,
                    frame.size);
   std::vector<std::optional<ThinnedHalf>> images(splits_.size());  // where any sample asks for them
   const std::vector<PointFit> points =

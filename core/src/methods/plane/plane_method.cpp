@@ -24,7 +24,7 @@ namespace {
 constexpr double least_best = 0.3;    // a best that explains less has the margins of one like this
 constexpr double maps_surface = 0.9;  // score of a plane that maps vertices onto vertices
 constexpr Index refined_at_most = 4;
-constexpr double worth_refining = 0.5;  // of the best score
+constexpr double worth_refining = 0.25;  // of the best score
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
 constexpr double alike_planes = 0.05;  // planes closer than this are one
 constexpr Index measured = 150;        // surfels that the measure is taken over
