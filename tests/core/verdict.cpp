@@ -63,8 +63,8 @@ TEST(Verdict, OfWhatNeedsAMirror) {
                              [&] { found_mirror(pairs_only); });
 }
 
-// A plane is all that a well mirrored shape needs; asked for more, auto names what is missing. A cap
-// of the shape is cut off.
+// A plane is all that a well mirrored shape needs; asked for more, auto names what is missing. A
+// cap of the shape is cut off.
 TEST(Verdict, OfAMirrorBelowAHighMinimum) {
   RandomCloud random(1);
   Points points = random.sphere(3000);

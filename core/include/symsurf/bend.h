@@ -18,8 +18,8 @@ enum class Bend {
 /// that the mirror reflects onto itself comes out symmetric about straight_mirror().
 /// A mirror made by hand is laid out over the points' feet unless it was given a footprint; going
 /// there and back needs the same footprint. Points beyond the mirror, which have no foot on it, go
-/// rigidly with the nearest that has one; `unplaced`, where given, is set to their number. Rows that
-/// are not finite stay so. Throws InvalidInput when no point of the footprint, or none of the
+/// rigidly with the nearest that has one; `unplaced`, where given, is set to their number. Rows
+/// that are not finite stay so. Throws InvalidInput when no point of the footprint, or none of the
 /// points, has a foot or the points extend over more than 1e50, Cancelled.
 Points bend(PointsView points, const Mirror& mirror, Bend way = Bend::Straighten,
             const Context& context = {}, Index* unplaced = nullptr);
