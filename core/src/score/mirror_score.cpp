@@ -47,8 +47,8 @@ Freedom freedom_of(std::string_view kind) {
       {"sphere", {0, 0.01}},
       {"cylinder", {0, 0.02}},
       {"quadric", {0.2, 0.03}},
-      {"height field", {0.85, 0.05, true}},
-      {"free-form", {0.8, 0.06, true}},
+      {"height field", {0.88, 0.05, true}},
+      {"free-form", {0.85, 0.06, true}},
   };
   const auto found = freedoms.find(kind);
   return found == freedoms.end() ? Freedom() : found->second;
@@ -251,8 +251,8 @@ Result MirrorScore::ranked(const std::string& method,
   std::vector<Ranked> found;
   for (const std::shared_ptr<Mirror>& mirror : mirrors) {
     MirrorFit its = fit(*mirror);
-    const double merit = its.exact < 1 ? beyond_chance(its, mirror->kind()) : infinity;
-    found.push_back({mirror, std::move(its), merit});
+    const double rank = merit(its, mirror->kind());
+    found.push_back({mirror, std::move(its), rank});
   }
   // Of those that chance explains, the one that it explains least.
   std::stable_sort(found.begin(), found.end(), [](const Ranked& a, const Ranked& b) {
@@ -280,6 +280,10 @@ double score_of(const MirrorFit& fit, std::string_view kind) {
   const double certain = (1 - freedom_of(kind).cost * (1 - fit.exact)) * fit.share;
   const double believed = certain * fit.evidence / (fit.evidence + doubt);
   return std::min(1.0, std::max(beyond_chance(fit, kind), believed));
+}
+
+double merit(const MirrorFit& fit, std::string_view kind) {
+  return fit.exact < 1 ? beyond_chance(fit, kind) : infinity;
 }
 
 void cap_candidates(Result& result) {

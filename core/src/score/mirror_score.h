@@ -109,6 +109,9 @@ double score_of(const MirrorFit& fit, std::string_view kind);
 /// fits: what mirrors are ranked by. 0: chance fits as well. Sampling may take it past 1.
 double beyond_chance(const MirrorFit& fit, std::string_view kind);
 
+/// The order of mirrors: as beyond_chance(), but first those over which all partners are exact.
+double merit(const MirrorFit& fit, std::string_view kind);
+
 /// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
 void cap_candidates(Result& result);
 

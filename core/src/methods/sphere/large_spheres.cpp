@@ -69,7 +69,7 @@ void drop_planes(const ParametricRefinement& refinement, const MirrorScore& scor
       [&](const SphereCandidate& c) {
         const Plane plane = in_input_units(fitted_plane(refinement, c.shape).shape, frame);
         const Sphere sphere = in_input_units(c.shape, frame);
-        return score_of(score.fit(plane), "plane") >= score_of(score.fit(sphere), "sphere");
+        return merit(score.fit(plane), "plane") >= merit(score.fit(sphere), "sphere");
       },
       candidates);
 }
