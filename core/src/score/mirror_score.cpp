@@ -1,9 +1,7 @@
 #include "score/mirror_score.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include "base/math.h"
