@@ -230,8 +230,9 @@ def _meshlab_filters() -> dict[str, tuple[str, dict[str, str]]]:
         **{each.title.lower().replace(" ", "_"): each for each in symsurf.operations().values()},
         **symsurf.analyses(),
     }
+    shared = _SHARED | _texts_of([symsurf._core.require_found_parameter()])
     return {
-        **{name: (each.summary, _SHARED | _texts(each)) for name, each in described.items()},
+        **{name: (each.summary, shared | _texts(each)) for name, each in described.items()},
         "mirror_reflection": (
             "[Reflects the current layer over a mirror](/meshlab.md#reflect-over-a-mirror).",
             {
@@ -246,7 +247,11 @@ def _meshlab_filters() -> dict[str, tuple[str, dict[str, str]]]:
 
 
 def _texts(described: Any) -> dict[str, str]:
-    return {each.name: f"{each.doc} Allowed: {each.allowed}." for each in described.parameters}
+    return _texts_of(described.parameters)
+
+
+def _texts_of(parameters: Iterable[Any]) -> dict[str, str]:
+    return {each.name: f"{each.doc} Allowed: {each.allowed}." for each in parameters}
 
 
 def _texts_of_samples() -> dict[str, str]:
