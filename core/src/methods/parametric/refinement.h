@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "methods/parametric/candidate.h"
+#include "methods/parametric/plane_bend.h"
+#include "methods/parametric/unit_plane.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -29,6 +31,9 @@ class ParametricRefinement {
   /// against how far they move the images: by 1, root mean square.
   template <typename Shape>
   Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Shape& shape) const;
+
+  /// How the mirror that the cloud asks for next to a plane bends: by least squares, robust.
+  PlaneBend bend_of(const UnitPlane& plane) const;
 
   /// Of the samples the mirror moves, the share that meets the cloud.
   template <typename Shape>
