@@ -16,20 +16,23 @@ namespace symsurf {
 
 namespace {
 
-double score_of(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
-                const Context& context) {
+Result scored(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+              const Context& context) {
   const NearestPoints points(cloud.points, tree, context);
-  return score_of(MirrorScore(cloud, points, context).fit(mirror), mirror.kind());
+  Result result;
+  MirrorScore(cloud, points, context).fill(mirror, result);
+  return result;
 }
 
-// Of a volumetric cloud also that of its boundary, whichever is higher.
-double score_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
-                  const Context& context) {
-  const double whole = score_of(cloud, tree, mirror, context);
-  if (whole >= 1 || !is_volumetric(cloud, context)) return whole;
+// A volumetric cloud by itself or by its boundary, whichever scores more.
+Result scored_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+                   const Context& context) {
+  Result whole = scored(cloud, tree, mirror, context);
+  if (is_exact(whole) || !is_volumetric(cloud, context)) return whole;
   const Points rows = chosen_rows(cloud.points, boundary_of(cloud, context));
   const Cloud boundary = checked_cloud(rows, {}, 1, context);
-  return std::max(whole, score_of(boundary, PointTree(rows, context), mirror, context));
+  Result outer = scored(boundary, PointTree(rows, context), mirror, context);
+  return outer.score > whole.score ? outer : whole;
 }
 
 // A known mirror in place of a method that finds one.
@@ -41,10 +44,9 @@ MethodImplementation matching(const Mirror& mirror, double pair_distance) {
   method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates = true;
   method.run = [&mirror, pair_distance](const Cloud& cloud, const ParameterValues&,
                                         const Context& context) {
-    Result result;
-    result.method = "match";
     PointTree tree(cloud.points, context.stage(0, 0.2));
-    result.score = score_over(cloud, tree, mirror, context.stage(0, 0));
+    Result result = scored_over(cloud, tree, mirror, context.stage(0, 0));
+    result.method = "match";
     add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
               context.stage(0.2, 1));
     return result;

@@ -3,6 +3,7 @@
 #include <symsurf/plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -58,8 +59,11 @@ Freedom freedom_of(std::string_view kind) {
 // to 10,000 points, half of them with noise of 1 %) score 0.43 at most.
 constexpr double doubt = 10;
 
-void tell(const MirrorFit& fit, Result& result) {
-  const std::string_view kind = result.mirror->kind();
+// Score of a plane from which on nobody asks whether the shape slides over itself: no sheet without
+// a mirror has so much.
+constexpr double beyond_doubt = 0.9;
+
+void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
   result.score = score_of(fit, kind);
   result.statistics["explained_share"] = std::min(1.0, fit.share);
   result.statistics["exact_share"] = fit.exact;
@@ -67,6 +71,43 @@ void tell(const MirrorFit& fit, Result& result) {
   if (!freedom_of(kind).any_shape) return;
   result.statistics["single_layer"] = fit.single_layer;
   result.statistics["evidence"] = fit.evidence;
+}
+
+// In the principal frame.
+struct PlaneInFrame {
+  Vector3 normal;
+  double offset;  // normal . x + offset = 0
+};
+
+PlaneInFrame in_frame(const Plane& plane, const PrincipalFrame& frame) {
+  return {frame.axes.transpose() * plane.normal(),
+          plane.signed_distance(frame.centroid) / frame.size};
+}
+
+Eigen::Isometry3d reflection_over(const PlaneInFrame& plane) {
+  const Vector3& normal = plane.normal;
+  Eigen::Isometry3d reflection(Matrix3(Matrix3::Identity() - 2 * normal * normal.transpose()));
+  reflection.translation() = -2 * plane.offset * normal;
+  return reflection;
+}
+
+// Next to a plane: turned both ways about the direction along it in which the cloud is thinnest and
+// the one across, and shifted to both sides.
+std::vector<PlaneInFrame> planes_beside(const PlaneInFrame& plane) {
+  constexpr double angle = 0.2, shift = 0.025;  // radians, diagonals
+  const Vector3& normal = plane.normal;
+  const Vector3 thinnest = Vector3::UnitZ() - normal.z() * normal;
+  const Vector3 first =
+      thinnest.norm() > 1e-6 ? thinnest.normalized() : Vector3(normal.unitOrthogonal());
+  std::vector<PlaneInFrame> found;
+  for (const double side : {-1.0, 1.0}) {
+    for (const Vector3& axis : {first, Vector3(normal.cross(first))}) {
+      const Vector3 turned = Eigen::AngleAxisd(side * angle, axis) * normal;
+      found.push_back({turned, plane.offset * turned.dot(normal)});
+    }
+    found.push_back({normal, plane.offset + side * shift});
+  }
+  return found;
 }
 
 }  // namespace
@@ -137,13 +178,8 @@ void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vecto
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
-  if (const auto* plane = dynamic_cast<const Plane*>(&mirror)) {
-    const Vector3 normal = frame.axes.transpose() * plane->normal();
-    const double offset = plane->signed_distance(frame.centroid) / frame.size;
-    Eigen::Isometry3d reflection(Matrix3(Matrix3::Identity() - 2 * normal * normal.transpose()));
-    reflection.translation() = -2 * offset * normal;
-    return whole_of(point_fits(reflection, stride), stride, nullptr);
-  }
+  if (const auto* plane = dynamic_cast<const Plane*>(&mirror))
+    return whole_of(point_fits(reflection_over(in_frame(*plane, frame)), stride), stride, nullptr);
   std::optional<MirrorLayers> layers;
   MirrorSides sides(held_out);
   if (freedom_of(mirror.kind()).any_shape)
@@ -161,6 +197,27 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   MirrorFit found = whole_of(points, stride, layers ? &*layers : nullptr);
   if (layers) found.evidence = sides.evidence();
   return found;
+}
+
+double MirrorScore::distinctive_share(const Plane& plane) const {
+  constexpr double least = 0.1;  // of its weight, that a point keeps whatever it says
+  const PlaneInFrame here = in_frame(plane, cloud_.frame);
+  // What the planes beside it map at each sample: the most, but for one of them.
+  std::vector<std::array<double, 2>> beside(samples_.size(), {0, 0});
+  for (const PlaneInFrame& other : planes_beside(here))
+    for (const PointFit& point : point_fits(reflection_over(other))) {
+      const double share = point.weight > 0 ? std::min(1.0, point.support / point.weight) : 0;
+      auto& [most, next] = beside[point.point];
+      next = std::max(next, std::min(most, share));
+      most = std::max(most, share);
+    }
+  double weights = 0, support = 0;
+  for (const PointFit& point : point_fits(reflection_over(here))) {
+    const double tells = least + (1 - least) * (1 - beside[point.point][1]);
+    weights += tells * point.weight;
+    support += tells * point.support;
+  }
+  return weights > 0 ? std::clamp(support / weights, 0.0, 1.0) : 0;
 }
 
 std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map,
@@ -246,7 +303,16 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t
           layers ? layers->single() : 0};
 }
 
-void MirrorScore::fill(Result& result) const { tell(fit(*result.mirror), result); }
+void MirrorScore::fill(const Mirror& mirror, Result& result) const {
+  tell_of_best(mirror, fit(mirror), result);
+}
+
+void MirrorScore::tell_of_best(const Mirror& mirror, const MirrorFit& fit, Result& result) const {
+  tell(mirror.kind(), fit, result);
+  const auto* plane = dynamic_cast<const Plane*>(&mirror);
+  if (plane && result.score < beyond_doubt)
+    result.statistics["distinctive_share"] = distinctive_share(*plane);
+}
 
 Result MirrorScore::ranked(const std::string& method,
                            const std::vector<std::shared_ptr<Mirror>>& mirrors) const {
@@ -270,8 +336,9 @@ Result MirrorScore::ranked(const std::string& method,
     Result& result = &one == &found.front() ? best : best.candidates.emplace_back();
     result.method = method;
     result.mirror = one.mirror;
-    tell(one.fit, result);
+    tell(one.mirror->kind(), one.fit, result);
   }
+  tell_of_best(*best.mirror, found.front().fit, best);
   cap_candidates(best);
   return best;
 }

@@ -23,6 +23,7 @@ namespace symsurf {
 
 class MirrorLayers;
 class MirrorSides;
+class Plane;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
@@ -56,15 +57,21 @@ class MirrorScore {
   MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
+  /// The share that a plane maps of what tells it from the planes beside it. A sheet slides over
+  /// itself, and any plane upright to it maps most of it: each point counts by how much less of it
+  /// the plane maps when turned or shifted.
+  double distinctive_share(const Plane& plane) const;
   /// The same of a third of the points: enough to see which mirrors are worth refining.
   MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
   /// Of a rotation, a reflection or both, in the principal frame, what each point that it moves
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, std::size_t stride = 1) const;
 
-  /// Sets the result's score, and among its statistics "explained_share", "exact_share" and
-  /// "covered_share".
-  void fill(Result& result) const;
+  /// Sets the result's score, and among its statistics "explained_share", "exact_share",
+  /// "covered_share" and, of a plane that may be one of chance, "distinctive_share".
+  void fill(Result& result) const { fill(*result.mirror, result); }
+  /// The same of a mirror that is not the result's own.
+  void fill(const Mirror& mirror, Result& result) const;
 
   /// The result with the best of at least one mirror, the others its candidates, best first.
   Result ranked(const std::string& method,
@@ -79,6 +86,7 @@ class MirrorScore {
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
+  void tell_of_best(const Mirror& mirror, const MirrorFit& fit, Result& result) const;
   // image(x) in input units; image_ball(sample), of the other half's image, in the principal frame.
   template <typename Image, typename ImageBall>
   std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,

@@ -11,18 +11,26 @@ namespace symsurf {
 /// (docs/methods/plane.md).
 inline constexpr double usual_minimum_score = 0.5;
 
-/// Sets "verdict" and "reason". A reason that the method gave says why it chose this mirror: where
-/// there is none, the score that is missing comes before it.
+/// Sets "verdict" and "reason": a mirror is found where its score, and that of what tells it from
+/// the mirrors beside it ("distinctive_share"), are at least the minimum. A reason that the method
+/// gave says why it chose this mirror: where there is none, what is missing comes before it.
 inline void judge(Result& result, bool has_mirror, double minimum_score) {
   // Rounded down: a score below the minimum does not read as the minimum.
-  const double digits = std::floor(1e4 * result.score) / 1e4;
-  const bool found = has_mirror && result.score >= minimum_score;
+  const auto digits = [](double x) { return to_string(Value(std::floor(1e4 * x) / 1e4)); };
+  const auto distinctive = result.statistics.find("distinctive_share");
+  const double told =
+      distinctive == result.statistics.end() ? result.score : std::get<double>(distinctive->second);
+  const bool scores = has_mirror && result.score >= minimum_score;
+  const bool found = scores && told >= minimum_score;
   result.statistics["verdict"] = std::string(found ? "found" : "none");
-  const std::string score = has_mirror
-                                ? result.method + " scores " + to_string(Value(digits)) +
-                                      (found ? ", at least " : ", below ") +
-                                      "the minimum_score of " + to_string(Value(minimum_score))
-                                : result.method + " finds no mirror";
+  std::string score = result.method + " finds no mirror";
+  if (has_mirror)
+    score = result.method + " scores " + digits(result.score) +
+            (scores ? ", at least " : ", below ") + "the minimum_score of " +
+            to_string(Value(minimum_score));
+  if (scores && !found)
+    score += ", but " + digits(told) +
+             " where the shape does not slide over itself: planes beside it map it nearly as well";
   const auto [reason, is_new] = result.statistics.try_emplace("reason", score);
   if (!is_new && !found) reason->second = score + "; " + std::get<std::string>(reason->second);
 }
