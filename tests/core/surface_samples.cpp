@@ -15,43 +15,10 @@
 #include "expect_error.h"
 #include "methods/registry.h"
 #include "random_cloud.h"
+#include "test_mesh.h"
 
 namespace symsurf {
 namespace {
-
-struct TestMesh {
-  Points vertices = Points(0, 3);
-  Triangles faces = Triangles(0, 3);
-
-  void add(const Points& more, const Triangles& triangles) {
-    const Index had = vertices.rows(), faces_had = faces.rows();
-    vertices.conservativeResize(had + more.rows(), 3);
-    vertices.bottomRows(more.rows()) = more;
-    faces.conservativeResize(faces_had + triangles.rows(), 3);
-    faces.bottomRows(triangles.rows()) = triangles.array() + had;
-  }
-
-  // Twelve triangles; `flips` says of each side which of its diagonals divides it.
-  void add_box(const Vector3& low, const Vector3& high, unsigned flips = 0) {
-    Points corners(8, 3);
-    for (int i = 0; i < 8; ++i)
-      for (int axis = 0; axis < 3; ++axis) corners(i, axis) = (i >> axis & 1 ? high : low)[axis];
-    constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
-    Triangles triangles(12, 3);
-    for (int s = 0; s < 6; ++s) {
-      const auto& c = sides[s];
-      const int turn = flips >> s & 1;
-      triangles.row(2 * s) << c[turn], c[1 + turn], c[2 + turn];
-      triangles.row(2 * s + 1) << c[turn], c[2 + turn], c[(3 + turn) % 4];
-    }
-    add(corners, triangles);
-  }
-
-  void move(const Matrix3& rotation, const Vector3& shift) {
-    vertices = ((vertices * rotation.transpose()).rowwise() + shift.transpose()).eval();
-  }
-};
 
 Points samples_of(const TestMesh& mesh) {
   Cloud cloud = checked_cloud(mesh.vertices, {}, 1, {});
@@ -59,16 +26,6 @@ Points samples_of(const TestMesh& mesh) {
   SurfaceSamples samples;
   samples.apply(cloud, {});
   return cloud.points.matrix();
-}
-
-Result detected(const TestMesh& mesh, const char* method, const Points& normals = Points(0, 3)) {
-  return detect(mesh.vertices, {.method = method, .normals = normals, .faces = mesh.faces});
-}
-
-bool is_plane(const Result& result, const Vector3& normal, const Vector3& on) {
-  const auto* plane = dynamic_cast<const Plane*>(result.mirror.get());
-  return plane && std::abs(plane->normal().dot(normal)) > std::cos(0.01) &&
-         std::abs(plane->normal().dot(on) + plane->offset()) < 0.01;
 }
 
 // A chair: a seat, a back, four legs; x = 0.5 is its only mirror.
@@ -365,84 +322,6 @@ TEST(SurfaceSamples, AreTheFewestPointsAMethodNeeds) {
     EXPECT_TRUE(result.mirror) << method;
   }
   EXPECT_TRUE(is_plane(detected(mesh, "plane"), Vector3::UnitX(), {0.5, 0, 0}));
-}
-
-// Fans on the caps of a prism mirror no triangle onto another but over one plane.
-TEST(SurfaceSamples, LeaveThePlanesOfThePrismExact) {
-  for (const int sides : {3, 5, 6, 8}) {
-    Points points(2 * sides, 3);
-    Triangles faces(4 * sides - 4, 3);
-    Index face = 0;
-    for (int k = 0; k < sides; ++k) {
-      const double angle = 2 * std::numbers::pi * k / sides;
-      points.row(k) << std::cos(angle), std::sin(angle), 0;
-      points.row(sides + k) << std::cos(angle), std::sin(angle), 1.3;
-      const int next = (k + 1) % sides;
-      faces.row(face++) << k, next, sides + next;
-      faces.row(face++) << k, sides + next, sides + k;
-      if (k == 0 || next == 0) continue;
-      faces.row(face++) << 0, next, k;
-      faces.row(face++) << sides, sides + k, sides + next;
-    }
-    const Result result = detect(points, {.method = "plane", .faces = faces});
-    EXPECT_EQ(result.candidates.size() + 1, sides + 1) << sides;
-    EXPECT_EQ(result.pairs.rows(), 2 * sides) << sides;
-    EXPECT_LT(result.residuals.maxCoeff(), 1e-12) << sides;
-    EXPECT_EQ(result.score, 1) << sides;
-    for (const Result& candidate : result.candidates) EXPECT_EQ(candidate.score, 1) << sides;
-  }
-}
-
-// A plate of square cells, five of them with a hole.
-TestMesh plate(double thickness) {
-  TestMesh mesh;
-  constexpr Index around = 24;
-  for (int column = -2; column <= 2; ++column)
-    for (const double z : {0.0, thickness}) {
-      Points points(4 + around, 3);
-      Triangles faces(around + 4, 3);
-      for (Index q = 0; q < 4; ++q)
-        points.row(q) << column + (q == 0 || q == 3 ? 0.5 : -0.5), q < 2 ? 0.5 : -0.5, z;
-      for (Index k = 0; k < around; ++k) {
-        const double turn = 2 * std::numbers::pi * static_cast<double>(k) / around;
-        points.row(4 + k) << column + 0.3 * std::cos(turn), 0.3 * std::sin(turn), z;
-        faces.row(k) << 4 * k / around, 4 + k, 4 + (k + 1) % around;
-      }
-      for (Index q = 0; q < 4; ++q)
-        faces.row(around + q) << q, (q + 1) % 4, 4 + ((q + 1) * around / 4) % around;
-      mesh.add(points, faces);
-    }
-  return mesh;
-}
-
-TEST(SurfaceSamples, LeaveAllPlanesOfAPlateWithHolesExact) {
-  for (const double thickness : {0.02, 0.1, 0.5}) {
-    TestMesh mesh = plate(thickness);
-    mesh.move(RandomCloud(3).rotation(), {1, 2, 3});
-    const Result result = detected(mesh, "plane");
-    EXPECT_EQ(result.score, 1) << thickness;
-    std::size_t exact = 1;
-    for (const Result& candidate : result.candidates) exact += candidate.score == 1;
-    EXPECT_EQ(exact, 3u) << thickness;
-    const Result one = detect(
-        mesh.vertices,
-        {.method = "plane", .parameters = {{"max_candidates", Index{1}}}, .faces = mesh.faces});
-    EXPECT_EQ(one.candidates.size(), 1u);
-  }
-}
-
-// The vertices of a box are mirrored by all of its planes, what is left of its faces by two. The
-// third plane is a candidate that scores less.
-TEST(SurfaceSamples, TellWhereFacesAreMissing) {
-  TestMesh mesh;
-  mesh.add_box({-1, -2, -3}, {1, 2, 3});
-  mesh.faces = mesh.faces.bottomRows(10).eval();  // the side of low z is open
-  const Result result = detected(mesh, "plane");
-  EXPECT_EQ(result.score, 1);
-  ASSERT_EQ(result.candidates.size(), 2u);
-  EXPECT_EQ(result.candidates[0].score, 1);
-  EXPECT_LT(result.candidates[1].score, 1);
-  EXPECT_TRUE(is_plane(result.candidates[1], Vector3::UnitZ(), Vector3::Zero()));
 }
 
 }  // namespace
