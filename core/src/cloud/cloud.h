@@ -17,7 +17,7 @@ namespace symsurf {
 struct Cloud {
   PointsView points;
   PointsView normals;    ///< empty: none given; otherwise one line direction a point, sign ignored
-  TrianglesView faces;   ///< between the points, until their samples are among the points
+  TrianglesView faces;   ///< between the vertices where there are any, else the points
   PointsView vertices;   ///< of the mesh, where the points are samples of its faces
   PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
   Partition partition;
