@@ -15,6 +15,7 @@
 #include "expect_error.h"
 #include "methods/registry.h"
 #include "random_cloud.h"
+#include "spatial/point_tree.h"
 #include "test_mesh.h"
 
 namespace symsurf {
@@ -64,6 +65,37 @@ TEST(SurfaceSamples, LieEvenlyOnTheSurface) {
     const double area = 1 + 2 + 4 * 0.02;
     const double mean = static_cast<double>(points.rows()) / area / (cells * cells);
     for (const double count : counts) EXPECT_NEAR(count / mean, 1, 0.25) << slices;
+  }
+}
+
+void expect_mirrored(const Points& samples, const Plane& plane) {
+  const PointTree tree(samples);
+  for (const auto& x : samples.rowwise())
+    ASSERT_LT(tree.nearest(plane.reflect(Vector3(x.transpose()))).squared_distance, 1e-24);
+}
+
+// Whichever diagonals divide the faces.
+TEST(SurfaceSamples, OfAMirroredMeshAreMirrored) {
+  for (unsigned flips = 0; flips < 4; ++flips) {
+    expect_mirrored(samples_of(chair(flips)), Plane(Vector3::UnitX(), -0.5));
+    TestMesh box;
+    box.add_box({-1, -2, -3}, {1, 2, 3}, 21 * flips);
+    const Points samples = samples_of(box);
+    for (int axis = 0; axis < 3; ++axis) expect_mirrored(samples, Plane(Vector3::Unit(axis), 0));
+  }
+}
+
+TEST(SurfaceSamples, LeaveTheirExactMirrorToAllMethodsThatKnowPlanes) {
+  for (unsigned flips = 0; flips < 2; ++flips) {
+    TestMesh mesh = chair(flips);
+    mesh.move(RandomCloud(flips).rotation(), {1, 2, 3});
+    for (const char* method : {"plane", "quadric", "perpendicular", "fixed_direction"}) {
+      const Result result = detected(mesh, method);
+      EXPECT_EQ(result.score, 1) << method << flips;
+      EXPECT_EQ(std::get<double>(result.statistics.at("exact_share")), 1) << method << flips;
+      ASSERT_EQ(result.pairs.rows(), mesh.vertices.rows()) << method << flips;
+      EXPECT_LT(result.residuals.maxCoeff(), 1e-9) << method << flips;
+    }
   }
 }
 

@@ -287,9 +287,7 @@ TEST(TriangleMesh, NamesAFaceOfNoPoint) {
   });
 }
 
-TEST(TriangleMesh, AreaOfACube) {
-  EXPECT_NEAR(surface_area(cube_points(2), cube), 24, 1e-13);
-}
+TEST(TriangleMesh, AreaOfACube) { EXPECT_NEAR(surface_area(cube_points(2), cube), 24, 1e-13); }
 
 }  // namespace
 }  // namespace symsurf

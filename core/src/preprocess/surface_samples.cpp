@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "cloud/exact_planes.h"
 #include "score/matching.h"
+#include "score/mesh_symmetry.h"
 #include "spatial/triple_index.h"
 
 namespace symsurf {
@@ -68,6 +70,69 @@ bool are_even(Index vertices, const std::vector<Face>& faces, double area) {
   return vertices >= enough && moment * static_cast<double>(vertices) < even * area * area;
 }
 
+struct Samples {
+  Points points, normals;  // no normals where none are wanted
+};
+
+// One at random within each equal share of the area: shares of as many faces would always pick the
+// same.
+Samples even_samples(const std::vector<Face>& faces, double area, bool with_normals) {
+  Samples samples{Points(wanted, 3), Points(with_normals ? wanted : 0, 3)};
+  Index k = 0;
+  double covered = 0;
+  for (const Face& face : faces) {
+    covered += face.area();
+    const auto position = [&] {
+      return (static_cast<double>(k) + low_discrepancy(k, 0)) / static_cast<double>(wanted) * area;
+    };
+    for (; k < wanted && position() < covered; ++k) {
+      const double down = std::sqrt(low_discrepancy(k, 1)), along = low_discrepancy(k, 2);
+      samples.points.row(k) =
+          (face.origin + down * ((1 - along) * face.u + along * face.v)).transpose();
+      if (with_normals) samples.normals.row(k) = face.normal.normalized().transpose();
+    }
+  }
+  samples.points.conservativeResize(k, 3);
+  if (with_normals) samples.normals.conservativeResize(k, 3);
+  return samples;
+}
+
+// Those on one side of a plane, their images, and what lies on it.
+Samples mirrored(const Samples& samples, const Plane& plane, double rounding) {
+  std::vector<Index> kept, moved;
+  for (Index i = 0; i < samples.points.rows(); ++i) {
+    const double distance = plane.signed_distance(samples.points.row(i).transpose());
+    if (distance > -rounding) kept.push_back(i);
+    if (distance > rounding) moved.push_back(i);
+  }
+  const auto with_images = [&](const Points& rows, const auto& image) {
+    const Points one = chosen_rows(rows, kept), other = chosen_rows(rows, moved);
+    Points both(one.rows() + other.rows(), 3);
+    both << one, image(other);
+    return both;
+  };
+  return {with_images(samples.points, [&](const Points& rows) { return plane.reflect(rows); }),
+          with_images(samples.normals, [&](const Points& rows) -> Points {
+            return rows - 2 * (rows * plane.normal()) * plane.normal().transpose();
+          })};
+}
+
+// Planes that map the mesh onto itself, orthogonal to one another: then their reflections commute,
+// and samples that are mirrored over each in turn stay so over all.
+std::vector<Plane> orthogonal_planes(const std::vector<Plane>& planes, const MeshSymmetry& maps,
+                                     PointsView samples) {
+  constexpr double orthogonal = 1e-4;  // cosine; of a prism of 1000 sides others have 3e-3
+  std::vector<Plane> chosen;
+  for (const Plane& plane : planes) {
+    const auto is_orthogonal = [&](const Plane& other) {
+      return std::abs(plane.normal().dot(other.normal())) < orthogonal;
+    };
+    if (std::all_of(chosen.begin(), chosen.end(), is_orthogonal) && maps(plane, samples))
+      chosen.push_back(plane);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
@@ -77,29 +142,19 @@ bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
     cloud.faces = {};
     return false;
   }
-  Points samples(wanted, 3), normals(cloud.normals.empty() ? 0 : wanted, 3);
-  Index k = 0;
-  double covered = 0;
-  for (const Face& face : faces) {
-    covered += face.area();
-    // At random within its share of the area: shares of as many faces would always pick the same.
-    const auto position = [&] {
-      return (static_cast<double>(k) + low_discrepancy(k, 0)) / static_cast<double>(wanted) * area;
-    };
-    for (; k < wanted && position() < covered; ++k) {
-      const double down = std::sqrt(low_discrepancy(k, 1)), along = low_discrepancy(k, 2);
-      samples.row(k) = (face.origin + down * ((1 - along) * face.u + along * face.v)).transpose();
-      if (normals.rows() > 0) normals.row(k) = face.normal.normalized().transpose();
-    }
+  Samples samples = even_samples(faces, area, !cloud.normals.empty());
+  cloud.vertices = vertices_ = cloud.points;
+  cloud.vertex_planes = exact_planes(vertices_, context);
+  if (!cloud.vertex_planes.empty()) {
+    constexpr double rounding = 1e-6;  // of the diagonal: single precision
+    const MeshSymmetry maps(vertices_, cloud.faces, cloud.diagonal, context);
+    for (const Plane& plane : orthogonal_planes(cloud.vertex_planes, maps, samples.points))
+      samples = mirrored(samples, plane, rounding * cloud.diagonal);
   }
-  samples.conservativeResize(k, 3);
-  normals.conservativeResize(std::min(k, normals.rows()), 3);
-  vertices_ = cloud.points;
   diagonal_ = cloud.diagonal;
-  count_ = k;
-  cloud.vertices = vertices_;
+  count_ = samples.points.rows();
   if (cloud.footprint.empty()) cloud.footprint = vertices_;
-  replace(cloud, std::move(samples), std::move(normals));
+  replace(cloud, std::move(samples.points), std::move(samples.normals));
   return true;
 }
 

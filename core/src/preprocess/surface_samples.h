@@ -5,8 +5,10 @@
 namespace symsurf {
 
 /// Even sampling of a triangle mesh by area: one point of a low-discrepancy sequence an equal share
-/// of the area of the faces in their order. The samples become the cloud's points, its points the
-/// vertices, used by a face or not. No samples where many vertices lie evenly as they are. The
+/// of the area of the faces in their order. Where planes map the mesh onto itself the samples of
+/// their one side are the images of those of the other, over up to three planes at right angles:
+/// whatever matches samples finds exact partners. The samples become the cloud's points, its points
+/// the vertices, used by a face or not. No samples where many vertices lie evenly as they are. The
 /// pairs of the result are then those of the vertices.
 class SurfaceSamples : public Stage {
  public:

@@ -77,6 +77,8 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   // A surface is no mirror of the noise on its two sides.
   noise_ = measured_noise();
   moved_ = std::clamp(moved_by_noise * noise_, least_moved, most_moved);
+  if (!cloud.faces.empty())
+    mesh_.emplace(cloud.vertices, cloud.faces, cloud.frame.size, context.stage(0.5, 0.5));
   for (Index k = 0; k < coarse_.size(); ++k) {
     const Vector3& x = coarse_[k].sampled;
     const std::size_t split = k % splits;
@@ -151,6 +153,8 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                  stride, layers ? &*layers : nullptr, layers ? &sides : nullptr);
   MirrorFit found = whole_of(points, stride, layers ? &*layers : nullptr);
   if (layers) found.evidence = sides.evidence();
+  if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
+    found.share = found.covered = found.exact = 1;
   return found;
 }
 

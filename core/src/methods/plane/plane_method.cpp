@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "base/maximise.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
+#include "cloud/exact_planes.h"
 #include "distributed/slabs.h"
-#include "mesh/closest_point_on_mesh.h"
 #include "methods/common_parameters.h"
-#include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
@@ -19,14 +17,12 @@
 #include "score/mirror_score.h"
 #include "score/symmetry_measure.h"
 #include "spatial/nearest_points.h"
-#include "spatial/triple_index.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr double least_best = 0.3;    // a best that explains less has the margins of one like this
-constexpr double exact_enough = 0.9;  // score of samples, from which on exact vertices count
+constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.25;  // of the best score
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
@@ -131,28 +127,6 @@ void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) 
   });
 }
 
-// Of a mesh whose vertices these are.
-std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
-                                       const Context& context) {
-  std::vector<UnitPlane> planes;
-  if (vertices.empty()) return planes;
-  // How many faces meet in a vertex, and so how often files repeat it, must not move the centroid.
-  TripleIndex positions;
-  std::vector<Index> first;
-  for (Index i = 0; i < vertices.size(); ++i)
-    if (positions.add(ordered_bits(vertices[i])) == static_cast<Index>(first.size()))
-      first.push_back(i);
-  const Points distinct = chosen_rows(vertices, first);
-  const Context unreported = context.stage(0, 0);
-  const Cloud corners = checked_cloud(distinct, {}, 1, unreported);
-  const Surfels samples(corners, distinct.rows(), unreported);
-  const PointTree tree(distinct, unreported);
-  const NearestPoints points(distinct, tree, context);
-  for (const UnitPlane& plane : exact_planes(corners, points, samples))
-    planes.push_back(in_frame(in_input_units(plane, corners.frame), cloud.frame));
-  return planes;
-}
-
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
@@ -192,42 +166,12 @@ bool are_alike(const UnitPlane& a, const UnitPlane& b) {
          std::abs(a.offset - sign * b.offset) < alike_planes;
 }
 
-void best_first(std::vector<Result>& results) {
-  std::stable_sort(results.begin(), results.end(),
-                   [](const Result& a, const Result& b) { return a.score > b.score; });
-}
-
-// Whether the images of samples of the surface lie on it, however it is triangulated.
-bool maps_surface(const Mirror& mirror, const Cloud& cloud, const ClosestPointOnMesh& surface) {
-  constexpr Index wanted = 500;
-  constexpr double rounding = 1e-6;  // of the diagonal: single precision
-  const double limit = rounding * cloud.diagonal;
-  const Index stride = std::max<Index>(1, cloud.points.size() / wanted);
-  for (Index i = 0; i < cloud.points.size(); i += stride)
-    if (surface(mirror.reflect(cloud.points[i]), limit * limit).face < 0) return false;
-  return true;
-}
-
-// Planes that map vertices onto vertices, best first. Faces may be missing on one side, which the
-// samples tell; these have no exact partners themselves.
-std::vector<Result> found_of_vertices(const Cloud& cloud, const MirrorScore& score,
-                                      const Context& context) {
-  std::vector<UnitPlane> planes = exact_planes_of(cloud.vertices, cloud, context);
-  longest_first(planes, cloud.frame);
-  std::vector<Result> found;
-  if (planes.empty()) return found;
-  const ClosestPointOnMesh surface(cloud.vertices, cloud.faces, context.stage(0, 0));
-  for (const UnitPlane& plane : planes) {
-    Result& result = found.emplace_back();
-    result.method = "plane";
-    result.mirror = mirror_of(plane, cloud);
-    score.fill(result);
-    if (result.score < exact_enough && !maps_surface(*result.mirror, cloud, surface)) continue;
-    result.score = 1;
-    result.statistics["exact_share"] = 1.0;
-  }
-  best_first(found);
-  return found;
+// Those that are none of the others.
+void drop_known(std::vector<UnitPlane>& planes, const std::vector<UnitPlane>& known) {
+  std::erase_if(planes, [&](const UnitPlane& plane) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const UnitPlane& other) { return are_alike(plane, other); });
+  });
 }
 
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
@@ -252,34 +196,21 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     return score.ranked("plane", mirrors);
   };
   std::vector<UnitPlane> planes;
-  std::vector<Result> found;
+  for (const Plane& plane : cloud.vertex_planes) planes.push_back(in_frame(plane, cloud.frame));
   if (cloud.vertices.empty()) {
     planes = exact_planes(cloud, points, coarse);
     for (UnitPlane& plane : planes) plane = refinement.exact(plane);
-  } else {
-    found = found_of_vertices(cloud, score, context.stage(0.45, 0.45));
-  }
-  if (planes.empty() && (found.empty() || found.front().score < 1)) {
-    planes = searched_planes(cloud, coarse, map, refinement, score, promising,
-                             context.stage(0.46, 0.55));
-    std::erase_if(planes, [&](const UnitPlane& plane) {
-      return std::any_of(found.begin(), found.end(), [&](const Result& exact) {
-        const auto& other = dynamic_cast<const Plane&>(*exact.mirror);
-        return are_alike(plane, in_frame(other, cloud.frame));
-      });
-    });
   }
   Result best;
-  if (!planes.empty()) {
+  if (!planes.empty()) best = ranked(planes);
+  // Of planes of the vertices alone faces are missing on one side.
+  if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
+    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, score, promising,
+                                                  context.stage(0.46, 0.55));
+    drop_known(more, planes);
+    planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
-    std::vector<Result> others = std::move(best.candidates);
-    found.push_back(std::move(best));
-    std::move(others.begin(), others.end(), std::back_inserter(found));
-    best_first(found);
   }
-  best = std::move(found.front());
-  best.candidates.assign(std::make_move_iterator(found.begin() + 1),
-                         std::make_move_iterator(found.end()));
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
   add_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
