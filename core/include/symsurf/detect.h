@@ -18,8 +18,8 @@ struct Options {
   std::uint64_t seed = 0;   ///< of the methods that draw at random
   /// Optional triangles between the points, which are then the vertices of a mesh: samples spread
   /// evenly over its surface find the mirror; score and candidates are those of the samples, pairs
-  /// those of the vertices. There are none where a thousand or more vertices lie evenly. A plane
-  /// that maps vertices onto vertices and the surface onto itself scores 1. A face without an area
+  /// those of the vertices. There are none where a thousand or more vertices lie evenly. A mirror
+  /// that maps vertices onto vertices, and the surface with them, scores 1. A face without an area
   /// is passed over. The thesis's methods, and processes that share out the points, see the points
   /// only.
   TrianglesView faces = {};
