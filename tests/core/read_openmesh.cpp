@@ -108,7 +108,7 @@ TEST(ReadOpenMesh, WhatItWrites) {
 
 TEST(ReadOpenMesh, BinaryOffIsRefused) {
   TriMesh mesh = patch();
-  expect_error<InvalidInput>("line 1: the number of vertices is 'BINARY'",
+  expect_error<InvalidInput>("line 1: binary OFF cannot be read",
                              [&] { written_and_read(mesh, "a.off", Options(Options::Binary)); });
 }
 

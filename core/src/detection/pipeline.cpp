@@ -3,6 +3,7 @@
 #include "base/finite_values.h"
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
+#include "score/mirror_score.h"
 
 namespace symsurf {
 
@@ -14,7 +15,7 @@ namespace {
 bool may_hide_exact_mirror(const Result& of_boundary, const Cloud& body) {
   constexpr double by_chance = 0.4;  // score that bodies without a mirror do not reach
   constexpr Index few = 20'000;      // points, or the second search takes too long
-  return of_boundary.score > by_chance && of_boundary.score < 1 && body.points.size() <= few;
+  return of_boundary.score > by_chance && !is_exact(of_boundary) && body.points.size() <= few;
 }
 
 // What depends on the pairs of the input's points.
@@ -62,7 +63,7 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
       policy.extract_boundary && !applied.empty() && applied.back() == stages.back().get();
   if (of_boundary && may_hide_exact_mirror(result, before_last)) {
     Result of_all = method.run(before_last, values, after_run);
-    if (of_all.score >= 1) {
+    if (is_exact(of_all)) {
       result = std::move(of_all);
       applied.pop_back();
     }

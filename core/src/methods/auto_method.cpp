@@ -1,26 +1,37 @@
 #include <symsurf/free_form.h>
+#include <symsurf/plane.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
+#include "methods/bent_planes.h"
 #include "methods/registry.h"
 #include "preprocess/volumetric.h"
+#include "score/mirror_score.h"
 
 namespace symsurf {
 
 namespace {
 
-// A plane that maps so much of what it covers leaves freer mirrors nothing to explain, where it
-// covers so much: what has lost a fifth of its points on one side keeps 0.6 and more.
-constexpr double enough = 0.9, enough_covered = 0.6;
-// Explained share of the shape that a freer kind has to gain. On 24 bent bodies of 10,000 points
+// Shares of what a mirror covers: one that maps so much leaves freer mirrors, and none that it is
+// bent into, nothing to explain; where it covers so much, as what has lost a fifth of its points on
+// one side does.
+constexpr double enough = 0.85, straight = 0.97, enough_covered = 0.6;
+// Of what a simple mirror covers and does not map, a freer simple kind has to leave less; and it
+// has to explain so much more of the shape.
+constexpr double left = 0.4, tie = 0.01;
+// Beside one that maps enough it has to leave so much: sides that differ smoothly look bent, too.
+constexpr double left_of_little = 0.015;
+constexpr std::size_t bent_planes = 3;  // the best ones
+// Explained share of the shape that a free form has to gain. On 24 bent bodies of 10,000 points
 // with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
 // the best of the wrong ones 0.26 less at least, where a mirror was found.
-constexpr double tie = 0.01, free_form_gain = 0.12;
+constexpr double free_form_gain = 0.12;
 constexpr double well_explained = 0.6;  // by a free form
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
@@ -31,9 +42,6 @@ double statistic(const Result& result, const char* name) {
   const auto found = result.statistics.find(name);
   return found == result.statistics.end() ? 0 : std::get<double>(found->second);
 }
-
-// Only where every point has an exact partner: else a freer mirror may improve on it.
-bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
 
 // Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
 // hide where the score looks least closely: among few points, and inside bodies.
@@ -72,17 +80,20 @@ Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
 
 double explained(const Result& result) { return statistic(result, "explained_share"); }
 
-bool is_enough(const Result& plane) {
-  return plane.score >= enough_covered &&
-         explained(plane) >= enough * statistic(plane, "covered_share");
+double covered(const Result& result) { return statistic(result, "covered_share"); }
+
+bool maps_of_covered(double share, const Result& result) {
+  return result.score >= enough_covered && explained(result) >= share * covered(result);
 }
 
-// Which kind is meant: that which explains most of the shape, less a prior on its freedom. The
-// score says how sure a free form is, not how well it fits.
+// Which kind is meant: a freer mirror has to explain more, and to leave a part of what the simpler
+// one covers and does not map. The score says how sure a free form is, not how well it fits.
 bool explains_more(const Result& freer, const Result& simpler) {
   if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
-  if (freer.mirror->kind() != "free-form") return freer.score > simpler.score + tie;
-  return explained(freer) > explained(simpler) + free_form_gain;
+  const double gain = freer.mirror->kind() == "free-form" ? free_form_gain : tie;
+  const auto lacking = [](const Result& r) { return covered(r) - explained(r); };
+  const double most = maps_of_covered(enough, simpler) ? left_of_little : left * lacking(simpler);
+  return explained(freer) > explained(simpler) + gain && lacking(freer) < most;
 }
 
 // Whether it maps the shape well, and better than the plane: kinds that come near it do so, too.
@@ -91,7 +102,7 @@ bool leads(const Result& free_form, const Result& plane) {
          explains_more(free_form, plane);
 }
 
-using Kinds = std::vector<const MethodImplementation*>;
+using Kinds = BentPlanes::Kinds;
 
 Kinds simple_kinds(Index points) {
   Kinds kinds;
@@ -117,23 +128,31 @@ Kinds near_kinds(const Kinds& kinds, const Mirror& mirror, double diagonal) {
 
 // The best of the kinds so far, and what was tried.
 struct Contest {
+  using Run = std::function<Result(const Cloud&, const Context&)>;
+
   Result best;
   const MethodImplementation* winner;
-  bool saw_all = true;     // did the winner see all points?
+  Run of_all = {};         // finds the winner again, on all points; none where it saw them
   double least_score = 0;  // simple mirrors are free forms too: what explains more is as certain
   Values scores = {};
   std::string tried = {};
 
-  void take(const MethodImplementation& kind, Result result, bool wins, bool of_all) {
+  void take(const MethodImplementation& kind, Result result, bool wins, Run again) {
     scores["score_" + kind.name] = result.score;
     tried += ", " + kind.name + " " + text(explained(result));
     if (!wins) return;
     least_score = std::max(least_score, best.score);
     best = std::move(result);
     winner = &kind;
-    saw_all = of_all;
+    of_all = std::move(again);
   }
 };
+
+Contest::Run anew(const MethodImplementation& kind) {
+  return [&kind](const Cloud& cloud, const Context& context) {
+    return run_with_defaults(kind, cloud, context);
+  };
+}
 
 // Beside a plane that maps the shape well a free form meets hardly each point: only exact mirrors
 // of other kinds count. Elsewhere it comes first, as it says which of them may fit.
@@ -163,16 +182,32 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
     done += 0.2;
     const bool wins = is_exact(result) ? result.score > contest.best.score
                                        : !content && explains_more(result, contest.best);
-    contest.take(*kind, std::move(result), wins, all);
+    contest.take(*kind, std::move(result), wins, all ? Contest::Run() : anew(*kind));
   }
   if (free_form && !is_exact(contest.best)) {
     const bool wins = is_exact(*free_form) ? free_form->score > contest.best.score
                                            : explains_more(*free_form, contest.best);
-    contest.take(bending, std::move(*free_form), wins, bends_all);
+    contest.take(bending, std::move(*free_form), wins, bends_all ? Contest::Run() : anew(bending));
   }
-  if (!contest.saw_all)
-    contest.best = run_with_defaults(*contest.winner, cloud, context.stage(done, 1));
-  if (contest.best.mirror) contest.best.score = std::max(contest.best.score, contest.least_score);
+}
+
+// What the planes are bent into, on no more points than tell.
+void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& context) {
+  std::vector<Plane> planes{dynamic_cast<const Plane&>(*contest.best.mirror)};
+  for (const Result& other : contest.best.candidates)
+    if (planes.size() < bent_planes) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
+  const ThinnedCloud thinned(cloud, context.stage(0, 0.2));
+  const BentPlanes bent(thinned.cloud(), context.stage(0.2, 0.5));
+  for (const Plane& plane : planes) {
+    Result result = bent.best_of(simple_kinds(cloud.points.size()), plane);
+    if (!result.mirror) continue;
+    const MethodImplementation& kind = implementation(result.method);
+    const bool wins = explains_more(result, contest.best);
+    contest.take(
+        kind, std::move(result), wins, [&kind, plane](const Cloud& whole, const Context& c) {
+          return BentPlanes(whole, c.stage(0, 0.5)).with_pairs(kind, plane, c.stage(0.5, 1));
+        });
+  }
 }
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
@@ -180,15 +215,19 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   Contest contest{run_with_defaults(plane, cloud, context.stage(0, 0.2)), &plane};
   contest.scores["score_plane"] = contest.best.score;
   contest.tried = "plane " + text(explained(contest.best));
-  const bool content = is_enough(contest.best);
   std::string reason = "the plane maps " + text(explained(contest.best)) +
-                       " of the shape onto it, and " +
-                       text(1 - statistic(contest.best, "covered_share")) +
+                       " of the shape onto it, and " + text(1 - covered(contest.best)) +
                        " has no counterpart: nothing is left for freer mirrors to explain";
   if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
-  } else if (!content || may_hide_exact_one(cloud, context.stage(0.2, 0.2))) {
-    try_freer_kinds(cloud, content, contest, context.stage(0.2, 1));
+  } else {
+    if (!maps_of_covered(straight, contest.best))
+      try_bent_planes(cloud, contest, context.stage(0.2, 0.3));
+    const bool content = maps_of_covered(enough, contest.best);
+    if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))
+      try_freer_kinds(cloud, content, contest, context.stage(0.3, 0.9));
+    if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
+    if (contest.best.mirror) contest.best.score = std::max(contest.best.score, contest.least_score);
     if (!content || contest.winner != &plane)
       reason = contest.winner->name +
                " is the simplest of those that explain most of the shape: " + contest.tried;

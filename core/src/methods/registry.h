@@ -13,12 +13,18 @@
 
 namespace symsurf {
 
+class ParametricRefinement;
+struct PlaneBend;
+
 /// A method as the pipeline runs it: its description, its pre-processing and its function.
 struct MethodImplementation : Method {
   Preprocessing preprocessing;
   /// Of a kind that "auto" tries beside the plane and the free form: how far a free form is from
   /// the nearest mirror of this kind.
   double (*distance_from)(const FreeForm&) = nullptr;
+  /// Of such a kind: its mirror next to a plane, from how the cloud asks that to bend.
+  std::shared_ptr<Mirror> (*bent_from)(const PlaneBend&, const ParametricRefinement&,
+                                       const PrincipalFrame&) = nullptr;
   bool reports_unpaired_points = false;  ///< the pipeline adds "unpaired_points" to the statistics
   bool reports_mean_residual = false;    ///< and "mean_residual"
   /// Gets a validated cloud after pre-processing.

@@ -344,6 +344,7 @@ Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& co
     }
   });
   const Index count = carry_unplaced(out, points, way, position, context.stage(0.9, 1));
+  context.report(1);
   if (unplaced) *unplaced = count;
   return out;
 }

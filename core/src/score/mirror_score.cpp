@@ -1,5 +1,7 @@
 #include "score/mirror_score.h"
 
+#include <symsurf/plane.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -137,6 +139,13 @@ void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vecto
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
+  if (const auto* plane = dynamic_cast<const Plane*>(&mirror)) {
+    const Vector3 normal = frame.axes.transpose() * plane->normal();
+    const double offset = plane->signed_distance(frame.centroid) / frame.size;
+    Eigen::Isometry3d reflection(Matrix3(Matrix3::Identity() - 2 * normal * normal.transpose()));
+    reflection.translation() = -2 * offset * normal;
+    return whole_of(point_fits(reflection, stride), stride, nullptr);
+  }
   std::optional<MirrorLayers> layers;
   MirrorSides sides(held_out);
   if (freedom_of(mirror.kind()).any_shape)
@@ -286,6 +295,11 @@ double score_of(const MirrorFit& fit, std::string_view kind) {
 
 double merit(const MirrorFit& fit, std::string_view kind) {
   return fit.exact < 1 ? beyond_chance(fit, kind) : infinity;
+}
+
+bool is_exact(const Result& result) {
+  const auto found = result.statistics.find("exact_share");
+  return found != result.statistics.end() && std::get<double>(found->second) >= 1;
 }
 
 void cap_candidates(Result& result) {

@@ -115,6 +115,9 @@ double beyond_chance(const MirrorFit& fit, std::string_view kind);
 /// The order of mirrors: as beyond_chance(), but first those over which all partners are exact.
 double merit(const MirrorFit& fit, std::string_view kind);
 
+/// Whether every point that the result's mirror moves has an exact partner: no mirror is better.
+bool is_exact(const Result& result);
+
 /// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
 void cap_candidates(Result& result);
 

@@ -155,6 +155,13 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   return best;
 }
 
+std::shared_ptr<Mirror> bent_cylinder(const PlaneBend& bend, const ParametricRefinement& refinement,
+                                      const PrincipalFrame& frame) {
+  const CylinderCandidate start{bend.cylinder()};
+  return std::make_shared<Cylinder>(
+      in_input_units(refinement.fitted(start, 3000, 40).shape, frame));
+}
+
 }  // namespace
 
 MethodImplementation cylinder_method() {
@@ -172,6 +179,7 @@ MethodImplementation cylinder_method() {
   method.minimum_points = 12;
   method.automatic = true;
   method.distance_from = distance_from_cylinder;
+  method.bent_from = bent_cylinder;
   method.run = run_cylinder;
   return method;
 }

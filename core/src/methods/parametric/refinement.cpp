@@ -149,6 +149,47 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> ParametricRefinement::loosest(const Sha
   return loosest_changes(held.hessian(), moved.hessian(), count);
 }
 
+// A mirror that is h higher over the plane moves the image by 2 h along its normal.
+PlaneBend ParametricRefinement::bend_of(const UnitPlane& plane) const {
+  constexpr Index wanted = 1200;
+  constexpr int rounds = 3;
+  using Heights = Eigen::Vector<double, 6>;
+  const Vector3 u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
+  const std::vector<Match> found = matches(plane, reach(), stride_for(wanted));
+  Heights heights = Heights::Zero();
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
+    Heights asked = Heights::Zero();
+    for (const Match& match : found) {
+      const Sample& x = *match.sample;
+      const double s = u.dot(x.position), t = v.dot(x.position);
+      const Heights terms(Heights{1, s, t, s * s / 2, s * t, t * t / 2});
+      const Vector3 gap = match.gap + 2 * heights.dot(terms) * plane.normal;
+      const Correspondence correspondence(gap, plane.reflect_direction(x.surfel->normal),
+                                          x.surfel->flatness, *match.partner);
+      const double weight = displaced(plane.distance(x.position), widest) *
+                            correspondence.weight(widest) *
+                            inside_surface(gap, *match.partner, spacing_);
+      const Vector3& across = match.partner->normal;
+      const double slope = 2 * across.dot(plane.normal);
+      products += weight * slope * slope * terms * terms.transpose();
+      asked -= weight * slope * across.dot(match.gap) * terms;
+    }
+    products.diagonal().array() += 1e-9 * products.trace() + 1e-300;
+    heights = products.ldlt().solve(asked);
+  }
+  Eigen::Matrix2d curvature;
+  curvature << heights[3], heights[4], heights[4], heights[5];
+  const SymmetricEigen<2> principal = eigen_of(curvature);
+  const int most = std::abs(principal.values[0]) > std::abs(principal.values[1]) ? 0 : 1;
+  const Eigen::Vector2d way = principal.vectors.col(most);
+  const Vector3 normal = (plane.normal - heights[1] * u - heights[2] * v).normalized();
+  const Vector3 along = way[0] * u + way[1] * v;
+  return {(heights[0] - plane.offset) * plane.normal, normal,
+          (along - along.dot(normal) * normal).normalized(), principal.values[most],
+          principal.values[1 - most]};
+}
+
 template <typename Shape>
 double ParametricRefinement::support(const Shape& shape, Index wanted) const {
   constexpr double least_moved = 0.35;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "cloud/unit_plane.h"
 #include "methods/parametric/candidate.h"
+#include "methods/parametric/plane_bend.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -29,6 +31,9 @@ class ParametricRefinement {
   /// against how far they move the images: by 1, root mean square.
   template <typename Shape>
   Eigen::Matrix<double, Eigen::Dynamic, 2> loosest(const Shape& shape) const;
+
+  /// How the mirror that the cloud asks for next to a plane bends: by least squares, robust.
+  PlaneBend bend_of(const UnitPlane& plane) const;
 
   /// Of the samples the mirror moves, the share that meets the cloud.
   template <typename Shape>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/maximise.h"
+#include "base/nelder_mead.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
@@ -25,6 +26,9 @@ namespace {
 constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.25;  // of the best score
+// Score below which planes are moved to its maximum: of 320 bodies of which a fifth is cut off 4
+// scored less than the true plane by .03 and more otherwise, and no polish from here on gains .02.
+constexpr double worth_polishing = 0.9;
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
 constexpr double alike_planes = 0.05;  // planes closer than this are one
 constexpr Index measured = 150;        // surfels that the measure is taken over
@@ -56,6 +60,10 @@ void maximise_measure(const Surfels& surfels, const SurfelMap& map, PlaneCandida
   if (support > candidate.support) candidate = {plane, support};
 }
 
+std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
+  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
+}
+
 double below(double best, double share) { return best - share * std::max(best, least_best); }
 
 void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) {
@@ -83,35 +91,68 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
   return candidates;
 }
 
-// Each by itself.
+// Moves each by itself.
 template <typename Step>
 void improve(std::vector<PlaneCandidate>& candidates, const Context& context, const Step& step) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i] = step(candidates[i]);
+    candidates[i].shape = step(candidates[i].shape);
     context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
   }
 }
 
-// Moved a little, and compared, on samples of the full cloud.
-void fit(const Refinement& refinement, const Effort& effort,
-         std::vector<PlaneCandidate>& candidates, const Context& context) {
-  improve(candidates, context.stage(0, 0.5),
-          [&](const PlaneCandidate& c) { return refinement.quick(c); });
-  suppress_non_maxima(candidates, alike_planes, effort.finalists);
-  drop_far_below_best(candidates, effort.far_below_best);
-  improve(candidates, context.stage(0.5, 1),
-          [&](const PlaneCandidate& c) { return refinement.careful(c); });
-  suppress_non_maxima(candidates, alike_planes, effort.finalists);
-}
+// Planes on the full cloud, ranked by the score.
+class FullCloud {
+ public:
+  FullCloud(const Cloud& cloud, const Refinement& refinement, const MirrorScore& score)
+      : cloud_(cloud), refinement_(refinement), score_(score) {}
+
+  // Moved a little.
+  void fit(const Effort& effort, std::vector<PlaneCandidate>& candidates,
+           const Context& context) const {
+    improve(candidates, context.stage(0, 0.5),
+            [&](const UnitPlane& plane) { return refinement_.quick(plane); });
+    rank(candidates, effort.finalists);
+    drop_far_below_best(candidates, effort.far_below_best);
+    improve(candidates, context.stage(0.5, 1),
+            [&](const UnitPlane& plane) { return refinement_.careful(plane); });
+    rank(candidates, effort.finalists);
+  }
+
+  // Where much of a side is missing or unlike the other, the fit to partners is not the score's
+  // maximum. What gains little stays, as the fit is the more exact.
+  UnitPlane polished(const UnitPlane& plane) const {
+    constexpr double step = 0.02, precision = 5e-4;  // radians and diagonals
+    constexpr double least_gain = 0.02;
+    int evaluations = 80;
+    const Matrix3 axes =
+        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), plane.normal).toRotationMatrix();
+    const auto moved = [&](const Vector3& by) -> UnitPlane {
+      return {(axes * Vector3(by.x(), by.y(), 1)).normalized(), plane.offset + by.z()};
+    };
+    const auto share_of = [&](const Vector3& by) { return share(moved(by)); };
+    const Vector3 start = Vector3::Zero();
+    const Vector3 best = nelder_mead<3>(share_of, start, step, precision, evaluations);
+    return share_of(best) > share_of(start) + least_gain ? moved(best) : plane;
+  }
+
+ private:
+  double share(const UnitPlane& plane) const {
+    return score_.glance(in_input_units(plane, cloud_.frame)).share;
+  }
+  void rank(std::vector<PlaneCandidate>& candidates, Index count) const {
+    for (PlaneCandidate& candidate : candidates) candidate.support = share(candidate.shape);
+    suppress_non_maxima(candidates, alike_planes, count);
+  }
+
+  const Cloud& cloud_;
+  const Refinement& refinement_;
+  const MirrorScore& score_;
+};
 
 // Where the cloud extends most along the mirror: slabs across it hold points with their partners.
 Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
   const Matrix3 onto = Matrix3::Identity() - plane.normal * plane.normal.transpose();
   return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
-}
-
-std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
-  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
 }
 
 // Of planes that score alike, as those of a box do, the one across the longer extent comes first,
@@ -130,20 +171,16 @@ void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) 
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
-                                       const MirrorScore& score,
+                                       const FullCloud& whole,
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
-  fit(refinement, usual, candidates, context.stage(0, 0.3));
+  whole.fit(usual, candidates, context.stage(0, 0.4));
   if (candidates.front().support < unexplained) {
     std::vector<PlaneCandidate> more =
-        promising_planes(surfels, map, thorough, context.stage(0.3, 0.5));
-    fit(refinement, thorough, more, context.stage(0.5, 0.6));
+        promising_planes(surfels, map, thorough, context.stage(0.4, 0.6));
+    whole.fit(thorough, more, context.stage(0.6, 0.7));
     candidates.insert(candidates.end(), more.begin(), more.end());
-    suppress_non_maxima(candidates, alike_planes, thorough.finalists);
   }
-  improve(candidates, context.stage(0.6, 0.7), [&](const PlaneCandidate& c) {
-    return PlaneCandidate{c.shape, score.glance(*mirror_of(c.shape, cloud)).share};
-  });
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
   std::erase_if(candidates, [best = candidates.front().support](const PlaneCandidate& c) {
     return c.support < worth_refining * best;
@@ -151,9 +188,8 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
-  improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
-    return PlaneCandidate{refinement.refined(c.shape), c.support};
-  });
+  improve(candidates, context.stage(0.7, 1),
+          [&](const UnitPlane& plane) { return refinement.refined(plane); });
   suppress_non_maxima(candidates, alike_planes, static_cast<Index>(candidates.size()));
   std::vector<UnitPlane> planes;
   for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
@@ -195,6 +231,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
     return score.ranked("plane", mirrors);
   };
+  const FullCloud whole(cloud, refinement, score);
   std::vector<UnitPlane> planes;
   for (const Plane& plane : cloud.vertex_planes) planes.push_back(in_frame(plane, cloud.frame));
   if (cloud.vertices.empty()) {
@@ -205,11 +242,16 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   if (!planes.empty()) best = ranked(planes);
   // Of planes of the vertices alone faces are missing on one side.
   if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
-    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, score, promising,
+    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
                                                   context.stage(0.46, 0.55));
     drop_known(more, planes);
+    const std::size_t known = planes.size();
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
+    if (best.score < worth_polishing) {
+      for (std::size_t k = known; k < planes.size(); ++k) planes[k] = whole.polished(planes[k]);
+      best = ranked(planes);
+    }
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);

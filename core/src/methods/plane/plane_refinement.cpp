@@ -107,13 +107,12 @@ Index Refinement::stride_for(Index wanted) const {
   return std::max<Index>(1, (static_cast<Index>(samples_.size()) + wanted / 2) / wanted);
 }
 
-PlaneCandidate Refinement::quick(const PlaneCandidate& start) const {
-  const Index few = stride_for(few_samples);
-  return rated(fitted(start.shape, 0.02, few, 2), few);
+UnitPlane Refinement::quick(const UnitPlane& start) const {
+  return fitted(start, 0.02, stride_for(few_samples), 2);
 }
 
-PlaneCandidate Refinement::careful(const PlaneCandidate& start) const {
-  return rated(fitted(start.shape, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
+UnitPlane Refinement::careful(const UnitPlane& start) const {
+  return fitted(start, 0.01, stride_for(many_samples), 2);
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to

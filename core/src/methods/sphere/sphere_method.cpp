@@ -192,6 +192,12 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   return best;
 }
 
+std::shared_ptr<Mirror> bent_sphere(const PlaneBend& bend, const ParametricRefinement& refinement,
+                                    const PrincipalFrame& frame) {
+  const SphereCandidate start{bend.sphere()};
+  return std::make_shared<Sphere>(in_input_units(refinement.fitted(start, 3000, 40).shape, frame));
+}
+
 }  // namespace
 
 MethodImplementation sphere_method() {
@@ -209,6 +215,7 @@ MethodImplementation sphere_method() {
   method.minimum_points = 5;
   method.automatic = true;
   method.distance_from = distance_from_sphere;
+  method.bent_from = bent_sphere;
   method.reports_unpaired_points = true;
   method.run = run_sphere;
   return method;

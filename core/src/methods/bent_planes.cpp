@@ -1,0 +1,58 @@
+#include "methods/bent_planes.h"
+
+#include <cmath>
+
+#include "score/matching.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index sample_size = 700;   // surfels, as many as the searches for these kinds take
+constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal, .1 % high
+
+}  // namespace
+
+BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
+    : cloud_(cloud),
+      surfels_(cloud, sample_size, context.stage(0, 0.3)),
+      tree_(cloud.points, context.stage(0.3, 0.6)),
+      points_(cloud.points, tree_, context),
+      refinement_(cloud, points_, tree_, surfels_, context.stage(0.6, 0.7)),
+      score_(cloud, points_, context.stage(0.7, 1)) {}
+
+Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
+  const PlaneBend bend = bend_of(plane);
+  return std::abs(bend.greater) < least_bend ? Result() : best_of(kinds, bend);
+}
+
+Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
+  Result best;
+  double most = -1;
+  for (const MethodImplementation* kind : kinds) {
+    const std::shared_ptr<Mirror> mirror = kind->bent_from(bend, refinement_, cloud_.frame);
+    const MirrorFit fit = score_.fit(*mirror);
+    if (fit.share <= most) continue;
+    most = fit.share;
+    best.method = kind->name;
+    best.mirror = mirror;
+  }
+  if (best.mirror) score_.fill(best);
+  return best;
+}
+
+Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& plane,
+                              const Context& context) && {
+  Result result = best_of({&kind}, bend_of(plane));
+  const ParameterValues defaults(kind.name, kind.parameters, {});
+  result.parameters = defaults.all();
+  add_pairs(result, cloud_.points, std::move(tree_), *result.mirror,
+            defaults.real("pair_distance") * cloud_.diagonal, context);
+  return result;
+}
+
+PlaneBend BentPlanes::bend_of(const Plane& plane) const {
+  return refinement_.bend_of(in_frame(plane, cloud_.frame));
+}
+
+}  // namespace symsurf

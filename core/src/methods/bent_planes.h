@@ -1,0 +1,44 @@
+#pragma once
+
+#include <symsurf/plane.h>
+
+#include <vector>
+
+#include "cloud/cloud.h"
+#include "methods/parametric/refinement.h"
+#include "methods/registry.h"
+#include "score/mirror_score.h"
+#include "spatial/nearest_points.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+/// The mirrors of simple kinds that a cloud asks a plane to bend into: near the plane these are
+/// found by descent, at a small part of what a search for mirrors of all sizes takes.
+class BentPlanes {
+ public:
+  using Kinds = std::vector<const MethodImplementation*>;
+
+  /// The cloud must outlive it.
+  BentPlanes(const Cloud& cloud, const Context& context);
+
+  /// That of these kinds which explains most, without pairs; without a mirror where the plane is
+  /// not to bend.
+  Result best_of(const Kinds& kinds, const Plane& plane) const;
+
+  Result with_pairs(const MethodImplementation& kind, const Plane& plane,
+                    const Context& context) &&;
+
+ private:
+  PlaneBend bend_of(const Plane& plane) const;
+  Result best_of(const Kinds& kinds, const PlaneBend& bend) const;
+
+  const Cloud& cloud_;
+  Surfels surfels_;
+  PointTree tree_;
+  NearestPoints points_;
+  ParametricRefinement refinement_;
+  MirrorScore score_;
+};
+
+}  // namespace symsurf
