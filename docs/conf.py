@@ -33,7 +33,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     (
         "py:.*",
-        r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*",
+        r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.results.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*",
     ),
     ("py:.*", r"(Any|Callable|Path|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
     ("py:.*", r"(Iterable|Sequence|Executor|concurrent|ValueError|RuntimeError|UserWarning)\b.*"),

@@ -25,15 +25,15 @@ def compiled_stub() -> str:
 
 
 def detectors_stub() -> str:
-    from symsurf import detectors
+    from symsurf.detection import detectors
 
     return _functions_stub(
         detectors,
         "from numpy.typing import ArrayLike",
         "",
-        "from ._core import Cylinder, FreeForm, HeightField, Mirror, Plane, Quadric, Sphere",
-        "from .detection import Progress",
-        "from .result import Result",
+        "from .._core import Cylinder, FreeForm, HeightField, Mirror, Plane, Quadric, Sphere",
+        "from ..results import Result",
+        "from . import Progress",
     )
 
 
@@ -46,8 +46,7 @@ def operations_stub() -> str:
         "",
         "from .._core import Mirror",
         "from ..detection import Progress",
-        "from ..result import Result",
-        "from .results import *",
+        "from ..results import *",
     )
 
 
@@ -59,7 +58,7 @@ def analyses_stub() -> str:
         "from numpy.typing import ArrayLike",
         "",
         "from ..detection import Progress",
-        "from .results import *",
+        "from ..results import *",
     )
 
 
@@ -85,7 +84,7 @@ def main(built: str, stubs: str) -> None:
     sys.path[0] = built  # not the sources beside this script
     for name, stub in {
         "_core": compiled_stub(),
-        "detectors": detectors_stub(),
+        "detection/detectors": detectors_stub(),
         "mirror_operations/functions": operations_stub(),
         "shape_analyses/functions": analyses_stub(),
     }.items():

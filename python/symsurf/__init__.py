@@ -7,7 +7,7 @@
 
 from typing import TYPE_CHECKING
 
-from . import detectors, metrics, synthetic
+from . import metrics, plotting, saving, synthetic  # noqa: F401  # results are drawn and saved by them
 from ._core import (
     Analysis,
     Cancelled,
@@ -31,37 +31,35 @@ from ._core import (
     methods,
     operations,
 )
-from .bending import bend, straight_mirror
-from .detection import detect, match
-from .detectors import *  # detect_<method>, one for each in methods()
-from .inputs import InputWarning
-from .mirror_operations import (
-    Alignment,
-    Asymmetry,
-    Completed,
-    Correspondences,
-    OperationResult,
-    Straightened,
-    Symmetrized,
-    functions,
-)
+from .detection import detect, detectors, match
+from .detection.detectors import *  # detect_<method>, one for each in methods()
+from .detection.sampling import downsample, estimate_normals
+from .mirror_operations import functions
+from .mirror_operations.bending import bend, straight_mirror
 from .mirror_operations.functions import *  # one for each in operations()
 from .reading import read
-from .result import Result
-from .sampling import downsample, estimate_normals
-from .shape import Shape
-from .shape_analyses import (
+from .reading.inputs import InputWarning
+from .results import (
+    Alignment,
     AnalysisResult,
+    Asymmetry,
     Axis,
+    Completed,
+    Correspondences,
     IntrinsicSymmetry,
+    OperationResult,
     PartialSymmetries,
     RecurringParts,
+    Result,
+    Straightened,
     Symmetries,
+    Symmetrized,
     SymmetryEmbedding,
     Transformation,
 )
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
+from .shapes import Shape
 
 if TYPE_CHECKING:
     from .batching import batch

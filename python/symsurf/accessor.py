@@ -22,10 +22,8 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from . import mirror_operations, shape_analyses
 from ._core import InvalidInput, operations
 from .detection import detect
-from .grids import drop_normals, is_grid, require_sound_cells
-from .mirror_operations import OperationResult
-from .result import Result
-from .shape_analyses import AnalysisResult
+from .results import AnalysisResult, OperationResult, Result
+from .shapes.grids import drop_normals, is_grid, require_sound_cells
 
 __all__ = ["Symmetry"]
 

@@ -3,7 +3,7 @@ with it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Cylinder, Mirror, Plane
+from .base.optional import require
 from .detection import detect
-from .mirror_operations import OperationResult
 from .mirror_operations.operate import operate
-from .optional import require
 from .reading import read
-from .result import Result
-from .shape import Shape
+from .results import OperationResult, Result
+from .shapes import Shape
 
 BEND = 0.8  # of the diagonal: the radius that a shape is bent over
 NOISE = 0.01  # of the diagonal: its standard deviation in each direction
@@ -112,6 +111,22 @@ def deeds(finding: Finding) -> Iterator[Deed]:
         straight = operate("straighten", case.shape, found)
         off = unit * _difference_in_shape(straight.shape.points, case.before.points)
         yield Deed(case, straight, "difference from the mesh before, rms", off, 0)
+
+
+def draw(findings: Sequence[Finding], deeds: Sequence[Deed], folder: Path) -> Iterator[Path]:
+    """Writes the pictures, naming each when it is there."""
+    for finding in findings:
+        path = folder / f"{file_name(finding.case)}.png"
+        finding.result.plot(path, shape=finding.case.shape)
+        yield path
+    for deed in deeds:
+        path = folder / f"{file_name(deed.case)}-{deed.result.operation}.png"
+        deed.result.plot(path)
+        yield path
+
+
+def file_name(case: Case) -> str:
+    return f"{case.name} {case.change}".replace(" ", "-")
 
 
 def diagonal(shape: Shape) -> float:

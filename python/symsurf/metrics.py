@@ -8,8 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._core import InvalidParameter, Mirror, Sphere, SurfaceMirror
-from .given_mirror import mirror_of
-from .result import Result
+from .results import Result, mirror_of
 from .synthetic import Surface
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Mirror
-from .shape import Shape
+from .shapes import Shape
 
 
 def reflected(mesh: Any, mirror: Mirror) -> Any:
@@ -19,7 +19,7 @@ def reflected(mesh: Any, mirror: Mirror) -> Any:
         return Shape(mirror.reflect(np.asarray(mesh.points)), faces)
     pyvista = sys.modules.get("pyvista")  # imported where there is a data set
     if pyvista is not None and isinstance(mesh, pyvista.DataSet):
-        from . import grids
+        from .shapes import grids
 
         return grids.turned_inside_out(mesh, mirror.reflect(np.asarray(mesh.points, dtype=float)))
     trimesh = sys.modules.get("trimesh")

@@ -18,7 +18,7 @@ from command_line import run
 from symmetric_shapes import difference, mirrored_surface
 
 import symsurf
-from symsurf import file_task
+from symsurf.batching import file_task
 
 
 @pytest.fixture

@@ -126,7 +126,7 @@ def test_stubs_are_shipped():
 def test_stubs_of_the_methods():
     stubs = {
         node.name: node
-        for node in ast.parse(installed("detectors.pyi")).body
+        for node in ast.parse(installed("detection/detectors.pyi")).body
         if isinstance(node, ast.FunctionDef)
     }
     assert set(stubs) == {f"detect_{name}" for name in METHODS}

@@ -12,8 +12,8 @@ import pytest
 from dialects import POINTS, clouds, data_sets
 
 import symsurf
-from symsurf import own_process
-from symsurf.own_process import ProcessDied, call
+from symsurf.base import own_process
+from symsurf.base.own_process import ProcessDied, call
 from symsurf.reading.formats import FORMATS
 
 

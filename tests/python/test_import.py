@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 HEAVY = (
-    "concurrent.futures", "json", "matplotlib", "multiprocessing", "pyvista", "tempfile", "trame_vtk",
-    "urllib.request", "vtkmodules",
+    "concurrent.futures", "ctypes.util", "json", "matplotlib", "multiprocessing", "pyvista", "subprocess",
+    "tempfile", "trame_vtk", "urllib.request", "vtkmodules",
 )  # fmt: skip
 
 

@@ -329,8 +329,8 @@ def test_cells_are_their_centres():
 def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
     """They are made of their indices: those of all voxels would take 24 bytes each."""
     pyvista = pytest.importorskip("pyvista")
-    from symsurf.grids import chosen_points
-    from symsurf.thresholds import Choice
+    from symsurf.shapes.grids import chosen_points
+    from symsurf.shapes.thresholds import Choice
 
     rng = np.random.default_rng(4)
     shape = (5, 1, 7) if "flat" in kind else (5, 6, 7)
@@ -355,8 +355,8 @@ def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
 
 def test_few_points_of_a_large_image_take_little_memory():
     pyvista = pytest.importorskip("pyvista")
-    from symsurf.grids import chosen_points
-    from symsurf.thresholds import Choice
+    from symsurf.shapes.grids import chosen_points
+    from symsurf.shapes.thresholds import Choice
 
     image = pyvista.ImageData(dimensions=(200, 200, 200))
     values = np.zeros(image.n_points, np.uint8)

@@ -92,8 +92,8 @@ def test_page_of_a_mesh(ball, browse, tmp_path):
 
 def test_the_page_turns(ball, browse, tmp_path):
     """A drag by the mouse shows another side, a page that is left alone does not change."""
-    from symsurf.drawing import new_plotter
-    from symsurf.operation_plotting import draw
+    from symsurf.plotting.drawing import new_plotter
+    from symsurf.plotting.operation_plotting import draw
     from symsurf.report.scene import viewer_page
 
     plotter = new_plotter(off_screen=True)

@@ -17,9 +17,9 @@ import symsurf
 from symsurf import synthetic
 from symsurf.benchmark.answers import answer_in
 from symsurf.benchmark.files import read_benchmark
+from symsurf.reading.json_records import mirror_from
 from symsurf.saving.json_format import mirror_record
-from symsurf.saving.json_loading import mirror_from
-from symsurf.truth import read_truth
+from symsurf.saving.truth import read_truth
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 lengths = st.floats(1e-3, 1e6)

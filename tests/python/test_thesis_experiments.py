@@ -11,8 +11,8 @@ from command_line import run_here
 
 import symsurf
 from symsurf import metrics, synthetic
-from symsurf.saved_text import read_text
-from symsurf.truth import read_truth, truth_path
+from symsurf.reading.saved_text import read_text
+from symsurf.saving.truth import read_truth, truth_path
 
 SAMPLES = {
     "constant distance": "perpendicular --surface f1 --resolution 10",

@@ -10,7 +10,7 @@ import symsurf
 pytest.importorskip("vtkmodules", reason="needs the vtk package")
 
 from bad_input import tables
-from symmetric_shapes import mirrored_surface
+from symmetric_shapes import lopsided_blob, mirrored_surface
 from vtk_data import (
     BALL_MIRROR,
     array,
@@ -112,9 +112,7 @@ def test_finds_the_mirror_where_none_is_connected(operation: symsurf.Operation) 
 
 
 def test_a_mirror_that_is_none_warns_unless_refused(operation: symsurf.Operation) -> None:
-    points = mirrored_shape(300)[:300]
-    points = np.vstack([points, 0.3 * points])  # no side is like another
-    points[:, 1] *= 2 + points[:, 0]
+    points = lopsided_blob(600)
     found = filter_of(operation, method="plane", input_data=polydata(points))
     reason = symsurf.detect(points, "plane").reason
     assert reason in error_of(found, "WarningEvent")

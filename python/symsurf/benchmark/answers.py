@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput
 from ..reading import read
-from ..saving.json_loading import content_of, mirror_from
+from ..reading.json_records import content_of, mirror_from
 
 _IMAGES = (".ply", ".csv", ".xyz")
 _RECORDS = (".summary.json", ".json")

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from .._core import InvalidInput
-from ..plain import plain
+from ..base.plain import plain
 from ..reading import read
+from ..reading.json_records import content_of
 from ..saving import write_whole
-from ..saving.json_loading import content_of
 from ..saving.ply_format import shape_ply_bytes
-from ..shape import Shape
+from ..shapes import Shape
 from .cases import BenchmarkSample
 
 TRUTH = "truth.json"

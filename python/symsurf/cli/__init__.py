@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from io import TextIOWrapper
 from typing import Any
 
-from .. import __version__
-from .._core import InvalidInput, InvalidParameter, analyses, operations
+from .._core import InvalidInput, InvalidParameter, __version__, analyses, operations
 from . import damage, demo, detect, evaluate, generate, methods, report
 from .analyse import AnalysisCommand
 from .operate import OperationCommand

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from .._core import Analysis, InvalidParameter
-from ..file_task import FileTask, Record
+from ..batching.file_task import FileTask, Record
+from ..results import Symmetries
 from ..saving import ANALYSIS_FORMATS
-from ..shape_analyses import Symmetries
 from .batch_options import (
     add_absolute,
     add_batch_options,

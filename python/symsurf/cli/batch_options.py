@@ -12,10 +12,10 @@ from typing import Any
 
 from .._core import InvalidParameter, require_found_parameter
 from ..batching import records, require_jobs, threads_of_each
-from ..drawing import import_pyvista
-from ..file_task import PICTURE_SUFFIX, FileTask, Record, perform
+from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, perform
+from ..batching.result_table import csv_bytes, row_of
+from ..plotting.drawing import import_pyvista
 from ..reading import files_in, known_names, require_format
-from ..result_table import csv_bytes, row_of
 from ..saving import write_whole
 from ..saving.output_files import output_files
 from .progress_bar import ProgressBar

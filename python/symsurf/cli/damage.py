@@ -11,8 +11,8 @@ from .. import _core
 from .._core import Damage
 from ..reading import read
 from ..saving.points_format import require_points_suffix
+from ..saving.truth import read_truth, truth_path, write_sample
 from ..synthetic import rotation_matrix
-from ..truth import read_truth, truth_path, write_sample
 from .described_options import add_kinds, given_values
 from .values import whole
 

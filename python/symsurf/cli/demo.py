@@ -6,9 +6,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..demonstration import Deed, Finding, cases, deeds, find
-from ..file_task import FileTask
-from ..result_table import row_of
+from ..batching import processors, records, threads_of_each
+from ..batching.file_task import FileTask
+from ..batching.report_files import report_tasks, write_report
+from ..batching.result_table import row_of
+from ..demonstration import Deed, Finding, cases, deeds, draw, file_name, find
+from ..report import require_viewer
 from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
@@ -45,8 +48,6 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.which == "thesis":
         return demo_thesis.run(arguments)
     if not arguments.no_pictures:
-        from ..report import require_viewer
-
         require_viewer()
         arguments.output.mkdir(parents=True, exist_ok=True)
     print("Lengths are shares of the diagonal of the bounding box.\n")
@@ -69,16 +70,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
     """Pictures, the meshes, and the report on them."""
-    from .. import gallery
-    from ..batching import processors, records, threads_of_each
-    from ..report import report_tasks, write_report
-
     print("\npictures")
-    for path in gallery.draw(findings, done, folder):
+    for path in draw(findings, done, folder):
         print(f"  {path}")
     meshes = []
     for finding in findings:
-        meshes.append(folder / f"{gallery.file_name(finding.case)}.ply")
+        meshes.append(folder / f"{file_name(finding.case)}.ply")
         write_whole(meshes[-1], shape_ply_bytes(finding.case.shape, {}))
     jobs = processors()
     page = folder / "report.html"

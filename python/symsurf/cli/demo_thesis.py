@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from ..drawing import import_pyvista
-from ..thesis_tables import Outcome, measure, rows
+from ..plotting.drawing import import_pyvista
+from ..thesis.pictures import draw
+from ..thesis.tables import Outcome, measure, rows
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -19,8 +20,6 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"\n{heading}")
         print(_line(outcome), flush=True)
         if not arguments.no_pictures:
-            from ..thesis_pictures import draw
-
             draw(outcome, arguments.output)
     return 0
 

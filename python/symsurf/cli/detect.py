@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
-from ..file_task import SUMMARY_SUFFIX, Record
+from ..batching.file_task import SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
 from .batch_options import (
     add_absolute,

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from .. import metrics
 from .._core import InvalidInput, InvalidParameter, Sphere, SurfaceMirror
-from ..plain import plain
+from ..base.plain import plain
 from ..reading import read
-from ..saved_text import read_text
-from ..truth import read_truth, truth_path
+from ..reading.saved_text import read_text
+from ..saving.truth import read_truth, truth_path
 from . import evaluate_benchmark
 from .each_file import for_each_file
 

@@ -8,11 +8,11 @@ import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ..base.plain import plain
 from ..benchmark import BenchmarkSample
 from ..benchmark.answers import answer_in
 from ..benchmark.files import read_benchmark
 from ..benchmark.scores import Figures, figures_of, summary
-from ..plain import plain
 from ..saving import write_whole
 
 Scored = tuple[BenchmarkSample, Figures]

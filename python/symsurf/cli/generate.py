@@ -9,8 +9,8 @@ from .. import _core
 from .._core import Generator
 from ..reading import read
 from ..saving.points_format import require_points_suffix
+from ..saving.truth import Truth, write_sample
 from ..synthetic import Sample
-from ..truth import Truth, write_sample
 from . import generate_benchmark
 from .described_options import add_kinds, given_values
 

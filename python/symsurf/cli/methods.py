@@ -9,7 +9,7 @@ from typing import Any
 
 from .._core import Method, Parameter
 from .._core import methods as all_methods
-from ..plain import plain
+from ..base.plain import plain
 from .values import shown
 
 SUMMARY = "Lists the methods and their parameters."

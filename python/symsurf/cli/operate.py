@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from .._core import Operation
-from ..file_task import Record
+from ..batching.file_task import Record
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
 from .batch_options import (

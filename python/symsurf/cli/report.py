@@ -7,7 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from .._core import operations
-from ..file_task import Record
+from ..batching.file_task import Record
+from ..batching.report_files import report_tasks, write_report
+from ..report import require_viewer
 from .batch_options import (
     add_absolute,
     add_files,
@@ -39,8 +41,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from ..report import report_tasks, require_viewer, write_report
-
     require_viewer()
     _, threads = jobs_and_threads(arguments)
     asked = [

@@ -6,23 +6,5 @@
 
 from . import functions
 from .functions import *  # one for each in operations()
-from .results import (
-    Alignment,
-    Asymmetry,
-    Completed,
-    Correspondences,
-    OperationResult,
-    Straightened,
-    Symmetrized,
-)
 
-__all__ = [
-    "Alignment",
-    "Asymmetry",
-    "Completed",
-    "Correspondences",
-    "OperationResult",
-    "Straightened",
-    "Symmetrized",
-]
-__all__ += functions.__all__
+__all__ = functions.__all__

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 from .._core import Operation, operations, require_found_parameter
-from ..descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..results.operation_results import RESULTS, OperationResult
 from .operate import operate
-from .results import RESULTS, OperationResult
 
 _ARGUMENTS = inspect.signature(operate).parameters
 

@@ -7,12 +7,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from .._core import InvalidInput, Mirror
+from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress, detect
-from ..given_mirror import found_mirror, mirror_of
-from ..inputs import Input, as_input, warn_of
-from ..lengths import as_fractions, diagonal_of
-from ..result import Result
-from .results import RESULTS, OperationResult
+from ..reading.inputs import Input, as_input, warn_of
+from ..results import OperationResult, Result, found_mirror, mirror_of
+from ..results.operation_results import RESULTS
 
 
 def operate(

@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import BinaryIO, cast
 
 from .._core import InvalidInput, InvalidParameter
-from ..own_process import ProcessDied
-from ..shape import Shape
-from ..thresholds import Choice
+from ..base.own_process import ProcessDied
+from ..shapes import Choice, Shape
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
 from .location import located
 

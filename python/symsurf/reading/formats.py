@@ -9,9 +9,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
-from ..own_process import call
-from ..shape import Shape
-from ..thresholds import Choice
+from ..base.own_process import call
+from ..shapes import Choice, Shape
 
 PACKED = ".gz"
 

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 from .parts import joined, strips, transformed
 
 # Extensions that change no point, and that of coordinates in small integers.

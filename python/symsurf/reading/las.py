@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 
 _HEADER = 227  # bytes of the shortest one
 _COUNT = 247  # where version 1.4 has the number of points, behind that of extended records

@@ -7,8 +7,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 from . import las
 
 

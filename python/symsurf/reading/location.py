@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BufferedIOBase
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 from .._core import InvalidInput
 from .formats import PACKED
-
-if TYPE_CHECKING:
-    import bz2
-    import gzip
 
 _BLOCK = 1 << 20  # bytes that are unpacked at once
 
@@ -31,8 +29,7 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
         _require_own(Path(name))
         yield Path(name)
         return
-    import gzip  # here: few files need them
-    from tempfile import TemporaryDirectory
+    from tempfile import TemporaryDirectory  # few files need it
 
     with TemporaryDirectory(prefix="symsurf-") as folder:
         file = Path(folder) / f"input{plain}"
@@ -85,7 +82,7 @@ def require_memory(size: int) -> None:
         )
 
 
-def copy_bounded(content: BinaryIO | gzip.GzipFile | bz2.BZ2File, file: Path) -> None:
+def copy_bounded(content: BinaryIO | BufferedIOBase, file: Path) -> None:
     """As the core does, takes no more than half of the memory: few bytes may unpack to very many."""
     with file.open("wb") as copy:
         while block := content.read(_BLOCK):

@@ -14,8 +14,7 @@ import numpy as np
 from nibabel.imageglobals import ErrorLevel, logger
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 from .voxels import world_points
 
 _SECOND = (540, int.from_bytes((540).to_bytes(4, "little"), "big"))

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice, chosen_by
+from ..shapes import Choice, Shape, chosen_by
 from .location import copy_bounded
 from .voxels import world_points
 

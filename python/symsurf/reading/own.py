@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from .. import _core
-from ..shape import Shape
-from ..space import space_in
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
+from ..shapes.space import space_in
 
 _HEAD = 4096  # bytes that comments with the axes stand in
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..shape import Shape
+from ..shapes import Shape
 from .location import require_memory
 
 _POINT = 24  # bytes

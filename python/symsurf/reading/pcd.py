@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 
 _NORMALS = ("normal_x", "normal_y", "normal_z")
 

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shape import Shape
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
 from .location import require_memory
 from .parts import Part, joined, transformed
 

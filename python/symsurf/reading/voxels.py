@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter
-from ..shape import Shape
-from ..thresholds import Choice, chosen_by
+from ..shapes import Choice, Shape, chosen_by
 
 
 def world_points(

@@ -19,10 +19,9 @@ from vtkmodules.vtkIOXML import (
 )
 
 from .._core import InvalidInput, InvalidParameter
-from ..grids import chosen_points, is_grid
-from ..shape import Shape
-from ..space import space_in
-from ..thresholds import Choice
+from ..shapes import Choice, Shape
+from ..shapes.grids import chosen_points, is_grid
+from ..shapes.space import space_in
 
 _READERS: dict[str, Any] = {
     ".vtp": vtkXMLPolyDataReader,

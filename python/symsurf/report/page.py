@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..drawing import new_plotter
-from ..operation_plotting import draw
+from ..plotting.drawing import new_plotter
+from ..plotting.operation_plotting import draw
+from ..results import Asymmetry
 from .charts import histogram
 from .html import columns, framed, heading, page, paragraph, table
 from .scene import scripts_of, viewer_page
 
-if TYPE_CHECKING:
-    from ..file_task import Record
-    from ..mirror_operations import Asymmetry
+Record = Mapping[str, Any]
 
 
 def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..optional import require
+from ..base.optional import require
 
 if TYPE_CHECKING:
     import pyvista

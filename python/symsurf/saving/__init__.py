@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from secrets import token_hex
-from typing import TYPE_CHECKING
+from typing import Any
 
 from .._core import InvalidParameter
-from ..result import Result
+from ..results import AnalysisResult, OperationResult, Result
+from ..results.outputs import save
 from .json_format import analysis_bytes, json_bytes, operation_bytes
 from .ply_format import ply_bytes, shape_ply_bytes
 from .table_format import csv_bytes, npy_bytes
 from .text_format import text_bytes
 from .vtp_format import shape_vtp_bytes, vtp_bytes
-
-if TYPE_CHECKING:
-    from ..mirror_operations import OperationResult
-    from ..shape_analyses import AnalysisResult
 
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
 SHAPE_FORMATS = {".ply": shape_ply_bytes, ".vtp": shape_vtp_bytes}
@@ -40,14 +37,26 @@ ANALYSIS_FORMATS: dict[str, Callable[[AnalysisResult], bytes]] = {
 }
 
 
-def save(result: Result, path: str | os.PathLike[str]) -> None:
-    """Writes the result in the format of the path's suffix; see ``Result.save``."""
+def _save(
+    formats: Mapping[str, Callable[[Any], bytes]], result: Any, path: str | os.PathLike[str]
+) -> None:
+    """Writes a result in the format of the path's suffix."""
     path = Path(path)
-    if path.suffix.lower() not in FORMATS:
+    suffix = path.suffix.lower()
+    if suffix not in formats:
         raise InvalidParameter(
-            f"path is {str(path)!r}; allowed are the suffixes {', '.join(FORMATS)}"
+            f"path is {str(path)!r}; allowed are the suffixes {', '.join(formats)}"
         )
-    write_whole(path, FORMATS[path.suffix.lower()](result))
+    if isinstance(result, AnalysisResult) and not result.arrays and suffix in (".csv", ".npy"):
+        raise InvalidParameter(
+            f"path is {str(path)!r}; {result.analysis} gives no arrays: allowed are the other suffixes"
+        )
+    write_whole(path, formats[suffix](result))
+
+
+save.register(Result, partial(_save, FORMATS))
+save.register(OperationResult, partial(_save, OPERATION_FORMATS))
+save.register(AnalysisResult, partial(_save, ANALYSIS_FORMATS))
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -56,14 +65,14 @@ def write_whole(path: Path, content: bytes) -> None:
     if file.exists() and not file.is_file():  # such as a device, which a file would replace
         raise OSError(errno.EINVAL, "This is not a file", str(path))
     # A name of its own: others may write the same file at the same time.
-    partial = file.with_name(f".symsurf-{token_hex(8)}.partial")
+    unfinished = file.with_name(f".symsurf-{os.urandom(8).hex()}.partial")
     try:
-        with partial.open("xb") as new:
+        with unfinished.open("xb") as new:
             new.write(content)
-        partial.replace(file)
+        unfinished.replace(file)
     except BaseException as error:
         with suppress(OSError):
-            partial.unlink()
+            unfinished.unlink()
         if isinstance(error, OSError):  # which names the partial file
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise

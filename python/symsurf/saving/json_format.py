@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .._core import Mirror
-from ..plain import plain
-from ..result import Result
-
-if TYPE_CHECKING:
-    from ..mirror_operations import OperationResult
-    from ..shape_analyses import AnalysisResult
+from ..base.plain import plain
+from ..results import AnalysisResult, OperationResult, Result
 
 
 def json_bytes(result: Result) -> bytes:
@@ -19,6 +14,8 @@ def json_bytes(result: Result) -> bytes:
 
 
 def record_bytes(fields: dict[str, Any]) -> bytes:
+    import json  # `import symsurf` does not wait for it
+
     return (json.dumps(fields, indent=1, allow_nan=False) + "\n").encode()
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..result import Result
-from ..shape import Shape
+from ..results import Result
+from ..shapes import Shape
 from .table_format import columns_of
 from .text_format import figures
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from .. import _core
 from .._core import InvalidInput, InvalidParameter
-from ..mirror_operations import Completed, OperationResult
 from ..reading import read
-from ..shape import Shape
+from ..results import Completed, OperationResult
+from ..shapes import Shape
 from . import SHAPE_FORMATS, write_whole
 from .same_format import REWRITERS, NewShape, Rewritten, plain_content
 

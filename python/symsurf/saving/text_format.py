@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..result import Result
+from ..results import Result
 
 
 def text_bytes(result: Result) -> bytes:

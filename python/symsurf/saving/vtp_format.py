@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mirror_mesh import mirror_mesh
-from ..result import Result
-from ..shape import Shape
+from ..results import Result
+from ..results.mirror_mesh import mirror_mesh
+from ..shapes import Shape
 
 _TYPES = {"f": "Float64", "i": "Int64"}
 

@@ -5,25 +5,6 @@
 """
 
 from . import functions
-from .elements import Axis, Transformation
 from .functions import *  # one for each in analyses()
-from .results import (
-    AnalysisResult,
-    IntrinsicSymmetry,
-    PartialSymmetries,
-    RecurringParts,
-    Symmetries,
-    SymmetryEmbedding,
-)
 
-__all__ = [
-    "AnalysisResult",
-    "Axis",
-    "IntrinsicSymmetry",
-    "PartialSymmetries",
-    "RecurringParts",
-    "Symmetries",
-    "SymmetryEmbedding",
-    "Transformation",
-]
-__all__ += functions.__all__
+__all__ = functions.__all__

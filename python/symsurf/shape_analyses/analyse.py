@@ -5,11 +5,11 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress
-from ..inputs import as_input, refuses, warn
-from ..lengths import as_fractions, diagonal_of
-from ..shape import Shape
-from .results import RESULTS, AnalysisResult
+from ..reading.inputs import as_input, refuses, warn
+from ..results.analysis_results import RESULTS, AnalysisResult
+from ..shapes import Shape
 
 
 def analyse(

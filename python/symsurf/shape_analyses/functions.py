@@ -8,9 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 from .._core import Analysis, analyses
-from ..descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..results.analysis_results import RESULTS, AnalysisResult
 from .analyse import analyse
-from .results import RESULTS, AnalysisResult
 
 _ARGUMENTS = inspect.signature(analyse).parameters
 

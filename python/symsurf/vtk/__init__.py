@@ -15,7 +15,7 @@ and values out of range are errors of the filter; they leave the outputs empty.
 Programs built on VTK or ParaView have the same filters in C++: ``vtkMirrorDetection``.
 """
 
-from ..optional import require as _require
+from ..base.optional import require as _require
 
 _require("the filters of symsurf.vtk", "vtkmodules")
 

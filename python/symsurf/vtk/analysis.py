@@ -11,8 +11,8 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .._core import Analysis, analyses
-from ..inputs import InputWarning
-from ..shape_analyses import AnalysisResult
+from ..reading.inputs import InputWarning
+from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
 from .algorithm import THREADS, Algorithm, Property, selected
 from .arrays import add_values, faces_of, points_of, set_vertices, vtk_cells, vtk_points

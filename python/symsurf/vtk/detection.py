@@ -11,8 +11,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .._core import InvalidInput, Plane, methods
 from ..detection import detect
-from ..inputs import InputWarning
-from ..result import Result
+from ..reading.inputs import InputWarning
+from ..results import Result
 from .algorithm import THREADS, Algorithm, Property, selected
 from .arrays import add_values, faces_of, points_of, rows_of, set_vertices, vtk_cells, vtk_points
 

@@ -22,7 +22,7 @@ from .._core import (
     require_found_parameter,
 )
 from ..detection import detect
-from ..given_mirror import found_mirror
+from ..results import found_mirror
 from .algorithm import THREADS, Algorithm, Property, described
 from .arrays import (
     Faces,

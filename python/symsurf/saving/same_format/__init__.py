@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...shape import Shape
+from ...shapes import Shape
 from ..ply_format import shape_ply_bytes
 from .columns import rewritten_columns
 from .new_shape import NewShape, Rewritten

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...space import SPACE, TABLE
+from ...shapes.space import SPACE, TABLE
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # of UTF-8, which the readers pass over
 

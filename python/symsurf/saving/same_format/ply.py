@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
-from ...shape import Shape
+from ...shapes import Shape
 from ..ply_format import shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
 

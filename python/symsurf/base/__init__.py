@@ -1,0 +1,1 @@
+"""What knows no shapes: descriptions in words, optional packages, processes, plain values."""

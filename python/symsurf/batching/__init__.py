@@ -1,0 +1,194 @@
+"""Many files, on this machine's processes or on any executor."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from .. import _core
+from .._core import InvalidParameter
+from ..base.own_process import ProcessDied, call
+from ..reading import files_in
+from ..saving.output_files import output_files
+from ..saving.shape_files import output_suffix
+from .file_task import DETECT, FileTask, Record, failed, perform
+from .result_table import row_of
+
+__all__ = ["batch"]
+
+
+def batch(
+    files: Iterable[str | os.PathLike[str]],
+    operation: str = DETECT,
+    executor: Executor | None = None,
+    *,
+    jobs: int = 1,
+    method: str = "auto",
+    require_found: bool = False,
+    threads: int = 0,
+    output: str | os.PathLike[str] | None = None,
+    unit: str = "",
+    threshold: float | None = None,
+    label: int | str | None = None,
+    **parameters: object,
+) -> Iterator[dict[str, Any]]:
+    """Finds the mirror of each of many files, and does the operation with it.
+
+    >>> pandas.DataFrame(symsurf.batch(files, "asymmetry", jobs=8))
+
+    Args:
+        files: those that ``read`` takes; a folder stands for those in it.
+        operation: "detect", or the name of one of ``operations()``.
+        executor: of ``concurrent.futures``, or one that is like those, such as Dask's
+            ``Client.get_executor()``. Its workers must see the files under the same names.
+            Without one ``jobs`` processes work, which import the caller's script: as
+            ``multiprocessing`` asks, that keeps its own work below ``if __name__ == "__main__":``.
+        jobs: how many files are worked on at once; with 1 in this process.
+        method: what finds the mirrors, one of ``methods()``.
+        require_found: a mirror with the verdict "none" is an error of its file; otherwise an
+            operation uses it, and "verdict" of the row says so.
+        threads: for each file; 0: all there are, divided among the jobs, and one with an executor.
+            The results do not depend on it.
+        output: a folder for what the operation makes of each file, in the format of that file, or
+            in PLY where that cannot hold what the operation gives each point; of "detect" a small
+            JSON file each.
+        unit: of the coordinates, such as "mm": a label for the rows.
+        threshold, label: of masks and images; see ``read``.
+        **parameters: the operation's own, and of "detect" the method's.
+
+    Returns:
+        A row a file, in the order of the files, each as soon as it and those before it are done.
+        A row is what ``symsurf OPERATION --table`` writes, by the name of the column. A file that
+        fails, or whose worker dies, has the reason in "error", which is "" for the others. What a
+        broken executor leaves is done by a process for each file. Closing the iterator drops what was
+        not begun.
+
+    Raises:
+        InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
+            ``jobs`` beside an executor; two files of one name with an output folder.
+    """
+    paths = files_in(Path(file) for file in files)
+    require_operation(operation)
+    if executor is not None and jobs != 1:
+        raise InvalidParameter(
+            f"jobs is {jobs} beside an executor, which has its own; leave it out"
+        )
+    require_jobs(jobs)
+    outputs: dict[Path, list[Path]] = {}
+    if output is not None:
+        outputs = output_files(paths, Path(output), lambda path: [output_suffix(path, operation)])
+    each = 1 if executor is not None and threads == 0 else threads_of_each(threads, jobs)
+    tasks = [
+        FileTask(
+            path,
+            operation,
+            method,
+            dict(parameters),
+            require_found=require_found,
+            threads=each,
+            unit=unit,
+            threshold=threshold,
+            label=label,
+            outputs=tuple(outputs.get(path, ())),
+        )
+        for path in paths
+    ]
+    return map(row_of, records(tasks, executor, jobs))
+
+
+def require_operation(name: str) -> None:
+    if name != DETECT and name not in _core.operations():
+        allowed = ", ".join([DETECT, *_core.operations()])
+        raise InvalidParameter(f"operation is {name!r}; allowed are {allowed}")
+
+
+def require_jobs(jobs: Any) -> None:
+    if not isinstance(jobs, int) or isinstance(jobs, bool) or jobs < 1:
+        raise InvalidParameter(f"jobs is {jobs!r}; allowed is a whole number, [1, inf)")
+
+
+def threads_of_each(threads: Any, jobs: int) -> Any:
+    """So that all jobs together have no more threads than there are processors."""
+    return max(1, processors() // jobs) if threads == 0 and jobs > 1 else threads
+
+
+def processors() -> int:
+    """Those that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def records(
+    tasks: Iterable[FileTask], executor: Executor | None = None, jobs: int = 1
+) -> Iterator[Record]:
+    """The record of each task, in their order."""
+    if executor is not None:
+        return _by_executor(tasks, executor)
+    return map(perform, tasks) if jobs == 1 else _by_processes(tasks, jobs)
+
+
+def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
+    left = deque(tasks)
+    try:
+        for record in _submitted(tuple(left), executor):
+            left.popleft()
+            yield record
+    except BrokenExecutor:
+        yield from map(_by_itself, left)
+
+
+def _submitted(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
+    """Whatever an executor says of a worker that died is the error of the file. Raises
+    BrokenExecutor, of an executor that can do no more, and what is wrong with all files."""
+    futures = deque((task, executor.submit(perform, task)) for task in tasks)
+    try:
+        while futures:
+            task, future = futures.popleft()
+            try:
+                record = future.result()
+            except (BrokenExecutor, InvalidParameter, ImportError):
+                raise
+            except Exception as error:  # noqa: BLE001 - each executor has its own
+                reason = f"{type(error).__name__}: {error}"
+                record = failed(
+                    task, f"the executor did not finish it ({' '.join(reason.split())})"
+                )
+            yield record
+    finally:
+        for _, future in futures:
+            future.cancel()
+
+
+def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Record]:
+    """A process that dies takes its pool with it: the file that is next in order is then done again
+    by a process of its own, and is at fault if that dies too; the rest go to a new pool."""
+    left = deque(tasks)
+    while left:
+        try:
+            # Spawned: a fork would copy the locks of the core's threads, not the threads.
+            workers = min(jobs, len(left)), get_context("spawn"), _die_quietly
+            with ProcessPoolExecutor(*workers) as pool:
+                for record in _submitted(tuple(left), pool):
+                    left.popleft()
+                    yield record
+        except BrokenExecutor:
+            yield _by_itself(left.popleft())
+
+
+def _by_itself(task: FileTask) -> Record:
+    try:
+        return call(perform.__module__, perform.__name__, task)
+    except ProcessDied:
+        return failed(task, "the process that worked on it died, perhaps for want of memory")
+
+
+def _die_quietly() -> None:
+    """Without a traceback when the terminal interrupts all processes."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -1,0 +1,252 @@
+"""What is done with one file of many: read, find the mirror, operate, write; told in a record."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import InvalidInput, InvalidParameter, analyses
+from ..base.plain import plain
+from ..detection import Progress, detect
+from ..detection.sampling import downsample
+from ..mirror_operations.operate import operate
+from ..reading import read, suffix_of
+from ..reading.inputs import InputWarning, nonfinite_message
+from ..report.page import shape_page
+from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
+from ..saving import write_whole
+from ..saving.json_format import mirror_record, record_bytes, summary
+from ..saving.shape_files import save_shape
+from ..shape_analyses.analyse import analyse
+from ..shapes import Shape
+
+DETECT = "detect"
+SUMMARY_SUFFIX = ".summary.json"
+PICTURE_SUFFIX = ".png"
+PAGE_SUFFIX = ".html"
+
+Record = dict[str, Any]
+"""What is told of a file, in what JSON knows. A file that failed has an "error"."""
+
+
+@dataclass(frozen=True)
+class FileTask:
+    """A file and what is done with it. It pickles: another process can do it."""
+
+    file: Path
+    """For ``content`` the name that records and outputs have."""
+    operation: str = DETECT
+    """Or the name of one of ``operations()`` or ``analyses()``."""
+    method: str = "auto"
+    parameters: dict[str, Any] = field(default_factory=dict)
+    """Those of the operation or the analysis, and of the method where only the mirror is found."""
+    seed: int = 0
+    threads: int = 0
+    nonfinite: str = "skip"
+    require_found: bool = False
+    """Of an operation: a mirror with the verdict "none" is an error."""
+    use_faces: bool = True
+    use_normals: bool = False
+    """Hand those of the file to the method; a file without any is an error."""
+    downsample: float | None = None
+    """Work on about one point in so many."""
+    input_format: str | None = None
+    """Of the file; without it its suffix tells."""
+    content: bytes | None = None
+    """What is read in place of a file, such as standard input; it needs ``input_format``."""
+    threshold: float | None = None
+    """Of a mask or an image."""
+    label: int | str | None = None
+    """Of a map of labels."""
+    unit: str = ""
+    """Of the coordinates: a label."""
+    outputs: tuple[Path, ...] = ()
+    """The files to write, each in the format of its suffix, and PNGs to draw."""
+
+    @property
+    def suffix(self) -> str:
+        """Of the format that the file is read in."""
+        return suffix_of(self.file) if self.input_format is None else f".{self.input_format}"
+
+
+class _Content(BytesIO):
+    """An open file that errors name."""
+
+    def __init__(self, content: bytes, name: str) -> None:
+        super().__init__(content)
+        self.name = name
+
+
+def perform(task: FileTask, progress: Progress | None = None) -> Record:
+    """Does the task. What is wrong with the file is in the record; what is wrong with the
+    parameters is raised."""
+    started = time.perf_counter()
+    record: Record = {"file": str(task.file), "operation": task.operation, "unit": task.unit}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InputWarning)  # it is told in the record
+            _perform(task, record, progress)
+    except (InvalidParameter, ImportError):
+        raise
+    except (InvalidInput, OSError, MemoryError) as error:
+        record["error"] = _one_line(task.file, error)
+    except Exception as error:  # noqa: BLE001 - nobody foresaw it, and other files are not to be lost
+        record["error"] = _one_line(task.file, Exception(f"{type(error).__name__}: {error}"))
+    record["seconds_in_all"] = time.perf_counter() - started
+    return record
+
+
+def failed(task: FileTask, reason: str) -> Record:
+    """The record of a task that nobody could finish."""
+    return {
+        "file": str(task.file),
+        "operation": task.operation,
+        "unit": task.unit,
+        "error": f"{task.file}: {reason}",
+        "seconds_in_all": math.nan,
+    }
+
+
+def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
+    notices: list[str] = []
+    record["notices"] = notices
+    given = task.file if task.content is None else _Content(task.content, str(task.file))
+    shape = read(given, task.input_format, threshold=task.threshold, label=task.label)
+    if task.downsample is not None:
+        shape = _downsampled(shape, task, notices)
+    if task.use_normals and shape.normals is None:
+        raise InvalidInput("use_normals is given, but the file has no normals; do without")
+    record["points"] = len(shape.points)
+    if task.operation in analyses():
+        _analyse(task, shape, record, progress)
+        return
+    parameters = task.parameters if task.operation == DETECT else {}
+    found = detect(
+        shape.points,
+        task.method,
+        faces=shape.faces,
+        use_faces=task.use_faces,
+        normals=shape.normals if task.use_normals else None,
+        nonfinite=task.nonfinite,
+        seed=task.seed,
+        threads=task.threads,
+        progress=progress,
+        **parameters,
+    )
+    if left_out := found.statistics.get("nonfinite_points", 0):
+        notices.append(nonfinite_message(left_out))
+    record |= about(found)
+    if task.operation == DETECT:
+        _write(task, shape, found, record)
+    else:
+        _operate(task, shape, found, record, notices)
+
+
+def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | None) -> None:
+    found = analyse(
+        task.operation,
+        shape,
+        nonfinite=task.nonfinite,
+        threads=task.threads,
+        progress=progress,
+        **task.parameters,
+    )
+    if left_out := found.statistics.get("nonfinite_points", 0):
+        record["notices"].append(nonfinite_message(left_out))
+    record |= plain(found.to_json())
+    if isinstance(found, Symmetries):
+        record["bop"] = found.to_bop()
+    _write(task, shape, found, record)
+
+
+def _operate(
+    task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
+) -> None:
+    mirror, warning = found_mirror(found, task.require_found)
+    if warning:
+        notices.append(warning)
+    result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
+    record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
+    record.pop("candidates")
+    _write(task, shape, result, record)
+
+
+def _write(
+    task: FileTask, shape: Shape, found: Result | OperationResult | AnalysisResult, record: Record
+) -> None:
+    """Raises what nobody foresaw as an error of that file, so that the next ones are done; ``read``
+    does the same for what it reads."""
+    try:
+        for output in task.outputs:
+            output.parent.mkdir(parents=True, exist_ok=True)
+            if output.suffix == PICTURE_SUFFIX:
+                found.plot(output)
+            elif isinstance(found, Asymmetry) and output.suffix.lower() == PAGE_SUFFIX:
+                write_whole(output, shape_page(record, found))
+            elif isinstance(found, OperationResult):
+                source = task.file, task.suffix, task.content
+                record["notices"] += save_shape(output, found, shape, *source)
+            elif isinstance(found, Result) and output.name.endswith(SUMMARY_SUFFIX):
+                write_whole(output, record_bytes(record))
+            else:
+                found.save(output)
+    except (InvalidInput, InvalidParameter, ImportError, OSError, MemoryError):
+        raise
+    except Exception as error:
+        raise InvalidInput(f"it cannot be written ({type(error).__name__}: {error})") from error
+
+
+def about(found: Result) -> Record:
+    """What a detection says without its points."""
+    return {
+        "pairs": len(found.pairs),
+        "surface_points": len(found.surface_points),
+        "median_residual": plain(distribution(found.residuals).get("p50")),
+        "residual": plain(distribution(found.residuals)),
+        "verdict": found.verdict,
+        "reason": found.reason,
+        "mirror": mirror_record(found.mirror),
+    } | summary(found)
+
+
+def distribution(lengths: NDArray[np.float64]) -> dict[str, float]:
+    """Mean, root mean square, percentiles and maximum; nothing of nothing."""
+    if not len(lengths):
+        return {}
+    p50, p95 = np.percentile(lengths, (50, 95)).tolist()
+    return {
+        "mean": float(lengths.mean()),
+        # No product: that wakes the threads of BLAS, which wait on the processors of other jobs.
+        "rms": math.sqrt(float(np.square(lengths).mean())),
+        "p50": p50,
+        "p95": p95,
+        "max": float(lengths.max()),
+    }
+
+
+def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
+    """The means of the points in each cell of a grid, without faces and normals."""
+    assert task.downsample is not None
+    points = shape.points
+    if task.nonfinite == "skip":
+        finite = np.isfinite(points).all(axis=1)
+        if not finite.any():
+            raise InvalidInput(f"0 of {len(points)} points are finite; at least 1 is needed")
+        if not finite.all():
+            notices.append(nonfinite_message(int(np.count_nonzero(~finite))))
+            points = points[finite]
+    thinned = downsample(points, math.ceil(len(points) / task.downsample))
+    return Shape(thinned, space=shape.space)
+
+
+def _one_line(file: Path, error: BaseException) -> str:
+    reason = str(error) or type(error).__name__
+    return " ".join((reason if str(file) in reason else f"{file}: {reason}").split())

@@ -1,0 +1,147 @@
+"""What ``detect`` takes: files, shapes, meshes, grids and arrays, as points and faces."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import InvalidInput, InvalidParameter
+from ..shapes import Choice, Shape
+from . import read
+
+
+class InputWarning(UserWarning):
+    """Some of the input was left out, reads differently from what was perhaps meant, is not what the
+    method is for, or has no mirror but one with the verdict "none"."""
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """Points and faces as they were given."""
+
+    points: Any
+    """What the core reads as (n, 3) numbers."""
+    faces: NDArray[np.int64] | None
+    """(m, 3) indices of points; None for a bare cloud."""
+    space: str | None = None
+    """Of the axes; see ``Shape``."""
+
+
+def as_input(
+    given: Any,
+    faces: ArrayLike | None = None,
+    threshold: float | None = None,
+    scalars: str | None = None,
+) -> Input:
+    """The points of a path, a data set, a mesh or an array, and their faces, where there are some.
+
+    Args:
+        given: see ``symsurf.detect``.
+        faces: in place of those of the mesh.
+        threshold, scalars: of grids; see ``symsurf.detect``.
+    """
+    if isinstance(given, (str, os.PathLike)):
+        given = read(given, threshold=threshold, scalars=scalars)
+        threshold = scalars = None
+    if hasattr(given, "to_legacy"):  # Open3D's tensor meshes and clouds
+        given = given.to_legacy()
+    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
+    is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
+    if is_data_set:
+        from ..shapes import grids
+
+        if grids.is_grid(given):
+            if faces is not None:
+                raise InvalidInput("faces are given with a grid, which has none; leave them out")
+            return Input(grids.chosen_points(given, Choice(threshold, scalars=scalars)), None)
+    for name, value in (("threshold", threshold), ("scalars", scalars)):
+        if value is not None:
+            raise InvalidParameter(
+                f"{name} is {value!r}; allowed is None, as the input is no grid of PyVista"
+            )
+    if faces is not None:
+        return Input(_points(given), triangles(faces))
+    if is_data_set:
+        from ..shapes import grids
+
+        return Input(given.points, grids.faces_of(given))
+    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
+        return Input(given, None)
+    own = _first_of(given, "faces", "triangles")
+    found = None if own is None or not len(own) else triangles(own)
+    return Input(_points(given), found, given.space if isinstance(given, Shape) else None)
+
+
+def triangles(faces: ArrayLike) -> NDArray[np.int64]:
+    """Raises InvalidInput unless they are (m, 3) whole numbers."""
+    array = np.asarray(faces)
+    if array.size == 0:
+        return np.empty((0, 3), np.int64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInput(f"faces have shape {array.shape}; allowed is (m, 3)")
+    if array.dtype.kind not in "iu":
+        raise InvalidInput(f"faces are of type {array.dtype}; allowed are whole numbers")
+    return np.ascontiguousarray(array, np.int64)
+
+
+def refuses(nonfinite: str) -> bool:
+    """Whether the option ``nonfinite`` says to refuse points that are not finite."""
+    if nonfinite not in ("skip", "refuse"):
+        raise InvalidParameter(f"nonfinite is {nonfinite!r}; allowed is 'skip' or 'refuse'")
+    return nonfinite == "refuse"
+
+
+def warn(statistics: dict[str, Any]) -> None:
+    """An InputWarning with the number of points that were left out, where there are some, and one
+    with what the method warns of."""
+    messages = []
+    if statistics.get("nonfinite_points", 0):
+        messages.append(nonfinite_message(statistics["nonfinite_points"]))
+    if "warning" in statistics:
+        messages.append(statistics["warning"])
+    warn_of(messages)
+
+
+def warn_of(messages: Iterable[str]) -> None:
+    """An InputWarning each, which names the line that called the package."""
+    level, frame, package = 1, sys._getframe(), __name__.split(".")[0]
+    while frame.f_back and frame.f_globals["__name__"].split(".")[0] == package:
+        level, frame = level + 1, frame.f_back
+    for message in messages:
+        warnings.warn(message, InputWarning, stacklevel=level)
+
+
+def nonfinite_message(count: int) -> str:
+    were = (
+        "1 point is not finite: it is" if count == 1 else f"{count} points are not finite: they are"
+    )
+    return f"{were} left out; with nonfinite 'refuse' this is an error"
+
+
+def _points(given: Any) -> Any:
+    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
+        return given
+    points = _first_of(given, "points", "vertices")
+    if points is not None:
+        return points
+    if np.asarray(given, dtype=object).ndim == 0:
+        raise InvalidInput(
+            f"points are of type {type(given).__name__}; allowed are an array or a nested list (n, 3), "
+            "the name of a file, a Shape, or a mesh or data set with points or vertices"
+        )
+    return given
+
+
+def _first_of(given: Any, *attributes: str) -> Any:
+    """The first of the attributes that there is; of trimesh's the second is dear to ask for."""
+    for attribute in attributes:
+        if hasattr(given, attribute):
+            return getattr(given, attribute)
+    return None

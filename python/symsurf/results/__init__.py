@@ -1,0 +1,43 @@
+"""What is found and made, as data. The layers above register how it is saved and drawn."""
+
+from .analysis_results import (
+    AnalysisResult,
+    IntrinsicSymmetry,
+    PartialSymmetries,
+    RecurringParts,
+    Symmetries,
+    SymmetryEmbedding,
+)
+from .elements import Axis, Transformation
+from .given_mirror import found_mirror, mirror_of
+from .operation_results import (
+    Alignment,
+    Asymmetry,
+    Completed,
+    Correspondences,
+    OperationResult,
+    Straightened,
+    Symmetrized,
+)
+from .result import Result
+
+__all__ = [
+    "Alignment",
+    "AnalysisResult",
+    "Asymmetry",
+    "Axis",
+    "Completed",
+    "Correspondences",
+    "IntrinsicSymmetry",
+    "OperationResult",
+    "PartialSymmetries",
+    "RecurringParts",
+    "Result",
+    "Straightened",
+    "Symmetries",
+    "Symmetrized",
+    "SymmetryEmbedding",
+    "Transformation",
+    "found_mirror",
+    "mirror_of",
+]

@@ -1,0 +1,349 @@
+"""What analyses give: a class each."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import Plane
+from ..base.plain import plain
+from ..shapes import Shape
+from .elements import Axis, Transformation
+from .outputs import plot, save
+from .summary import Summarised, value_text
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
+    from typing_extensions import Self
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AnalysisResult(Summarised):
+    """What an analysis finds."""
+
+    analysis: ClassVar[str]
+    """Its name in ``analyses()``."""
+
+    shape: Shape
+    """The shape as it was given."""
+    arrays: dict[str, NDArray[Any]]
+    """What the analysis gives each point of ``shape``, by the names in its description; of points
+    that are not finite NaN, -1 or False."""
+    planes: list[Plane]
+    """Mirror planes."""
+    axes: list[Axis]
+    """Axes of rotation."""
+    transformations: list[Transformation]
+    """What maps the shape, or a part of it, onto another part."""
+    parameters: dict[str, Any]
+    """Every parameter of the analysis, as used."""
+    statistics: dict[str, Any]
+    """Whatever else the analysis reports."""
+    seconds: float
+    """That it took."""
+
+    @classmethod
+    def from_fields(cls, shape: Shape, made: dict[str, Any]) -> Self:
+        """From what the core gives."""
+        return cls(
+            shape=shape,
+            arrays=made["arrays"],
+            planes=made["planes"],
+            axes=[Axis(*axis) for axis in made["axes"]],
+            transformations=[Transformation(*each) for each in made["transformations"]],
+            parameters=made["parameters"],
+            statistics=made["statistics"],
+            seconds=made["seconds"],
+        )
+
+    @property
+    def summary(self) -> dict[str, str]:
+        """What it says in a few words, by name: the analysis, how much was found, statistics."""
+        words = {"analysis": self.analysis}
+        for name in ("planes", "axes", "transformations"):
+            if found := getattr(self, name):
+                words[name] = str(len(found))
+        for name, value in self.statistics.items():
+            words[name.replace("_", " ")] = value_text(name, value)
+        return words
+
+    def __repr__(self) -> str:
+        found = ", ".join(
+            f"{len(getattr(self, name))} {name}"
+            for name in ("planes", "axes", "transformations")
+            if getattr(self, name)
+        )
+        return f"{type(self).__name__}({self.shape!r}{', ' if found else ''}{found})"
+
+    def to_json(self) -> dict[str, Any]:
+        """Every field but the shape and its arrays by its name, in what ``json.dumps`` takes; an
+        axis has the order "continuous" in place of 0, a transformation "from" and "onto"."""
+        return {
+            "analysis": self.analysis,
+            "planes": [
+                {"normal": plane.normal.tolist(), "offset": plane.offset} for plane in self.planes
+            ],
+            "axes": [
+                {
+                    "point": axis.point.tolist(),
+                    "direction": axis.direction.tolist(),
+                    "order": axis.order or "continuous",
+                }
+                for axis in self.axes
+            ],
+            "transformations": [
+                {
+                    "kind": each.kind,
+                    "matrix": each.matrix.tolist(),
+                    "score": each.score,
+                    "from": each.from_points.tolist(),
+                    "onto": each.onto_points.tolist(),
+                }
+                for each in self.transformations
+            ],
+            "parameters": plain(self.parameters),
+            "statistics": plain(self.statistics),
+            "seconds": self.seconds,
+        }
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the shape or what was found, in the format of the suffix, whole or not at all.
+
+        ``.json``: what ``to_json`` gives, with ``arrays``. ``.ply``: binary, ``arrays`` as properties
+        of the points. ``.vtp``: for VTK, ParaView and PyVista. ``.csv`` and ``.npy``: ``arrays``
+        alone, a row a point. Raises InvalidParameter for another suffix, OSError where nothing can
+        be written.
+        """
+        save(self, path)
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        camera: Any = None,
+        title: bool = True,
+    ) -> Plotter:
+        """Draws the shape, coloured by what the analysis says, with planes and axes; needs PyVista.
+
+        Args:
+            path: a PNG to write off-screen, whole or not at all; without it a window opens.
+            camera: as for ``Result.plot``.
+            title: False: without the sentence above.
+        """
+        return plot(self, path, camera=camera, title=title)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Symmetries(AnalysisResult):
+    """What maps a shape onto itself: its point group.
+
+    ``planes`` has all mirror planes; of a continuous group one that holds the axis and the one
+    across it, where there is one; of K none. ``axes`` has all rotation axes, the highest order first,
+    a continuous one before; of D∞h one of those of order 2, of K three at right angles.
+    ``transformations`` has every element, the identity first; of a continuous group those that,
+    with the turns about the continuous axes, make up all.
+    """
+
+    analysis = "symmetries"
+
+    @property
+    def group(self) -> str:
+        """In Schoenflies' notation: "C1", "Cs", "D6h", "Oh", "C∞v", "D∞h", "K", ..."""
+        return self.statistics["group"]
+
+    @property
+    def centre(self) -> NDArray[np.float64]:
+        """(3,) in input units: all elements keep it in its place."""
+        return self.statistics["centre"]
+
+    @property
+    def inversion(self) -> bool:
+        """Whether x -> 2 centre - x maps the shape onto itself."""
+        return self.statistics["inversion"]
+
+    @property
+    def score(self) -> float:
+        """How well the images under all elements lie on the shape where it has points, 0 to 1."""
+        return self.statistics["score"]
+
+    @property
+    def missing(self) -> float:
+        """The share of the images that fall where the shape has no points: what is cut away."""
+        return self.statistics["missing"]
+
+    @property
+    def max_deviation(self) -> NDArray[np.float64]:
+        """(n,) of each element how far it takes the shape off itself, in input units: the greatest
+        distance from the image of a vertex to the surface, of a cloud from that of a point to the
+        nearest point."""
+        return self.statistics["max_deviations"].ravel()
+
+    @property
+    def elements(self) -> NDArray[np.float64]:
+        """(n, 4, 4): the matrices of ``transformations``."""
+        return np.array([each.matrix for each in self.transformations])
+
+    @property
+    def order(self) -> int | None:
+        """How many elements the group has; None: no end of them."""
+        is_continuous = any(axis.continuous for axis in self.axes)
+        return None if is_continuous else len(self.transformations)
+
+    def __repr__(self) -> str:
+        return (
+            f"Symmetries({self.group}, {len(self.planes)} planes, {len(self.axes)} axes, "
+            f"score {self.score:.3f})"
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """What every analysis gives, with the group, its centre, ``inversion``, ``elements`` as lists
+        of rows, ``score`` and ``missing`` by name, in what ``json.dumps`` takes."""
+        return {
+            **super().to_json(),
+            "group": self.group,
+            "centre": self.centre.tolist(),
+            "inversion": self.inversion,
+            "elements": self.elements.tolist(),
+            "score": self.score,
+            "missing": self.missing,
+        }
+
+    def to_bop(self) -> dict[str, Any]:
+        """The rotations as an entry of the BOP toolkit's ``models_info.json`` has them.
+
+        ``symmetries_discrete``: 4 x 4 matrices, row by row in lists of 16, without the identity;
+        ``max_deviation``: of each of these how far it takes the shape off itself, beside what the
+        toolkit reads; ``symmetries_continuous``: dictionaries with axis and offset, a point on the
+        axis. Each is left out where there are none. Lengths are in the unit of the input; the toolkit's is the
+        millimetre. Reflections, which no object can be moved by, are not among them.
+        """
+        is_turn = np.linalg.det(self.elements[:, :3, :3]) > 0
+        is_turn[0] = False
+        turns = self.elements[is_turn]
+        continuous = [
+            {"axis": axis.direction.tolist(), "offset": axis.point.tolist()}
+            for axis in self.axes
+            if axis.continuous
+        ]
+        entry: dict[str, Any] = {}
+        if len(turns):
+            entry["symmetries_discrete"] = [turn.ravel().tolist() for turn in turns]
+            entry["max_deviation"] = self.max_deviation[is_turn].tolist()
+        if continuous:
+            entry["symmetries_continuous"] = continuous
+        return entry
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SymmetryEmbedding(AnalysisResult):
+    """The Symmetry Factored Embedding of a point set, its orbits and its stationary set.
+
+    ``transformations`` has the motions and reflections that it rests on, the identity first;
+    ``planes`` or ``axes`` the stationary set, where that is a plane or a line.
+    """
+
+    analysis = "symmetry_embedding"
+
+    @property
+    def orbit(self) -> NDArray[np.int64]:
+        """(n,): of each point the number of its orbit, from 0 on."""
+        return self.arrays["orbit"]
+
+    @property
+    def embedding(self) -> NDArray[np.float64]:
+        """(n, 16): the first coordinates, zeros where there are fewer."""
+        return self.arrays["embedding"]
+
+    @property
+    def stationary_set(self) -> str:
+        """What all symmetries keep in its place: "point", "line", "plane", or "none"."""
+        return self.statistics["stationary_set"]
+
+    def __repr__(self) -> str:
+        return (
+            f"SymmetryEmbedding({self.statistics['orbits']} orbits, "
+            f"{len(self.transformations)} symmetries, stationary {self.stationary_set})"
+        )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IntrinsicSymmetry(AnalysisResult):
+    """Left-right correspondences of a posed body."""
+
+    analysis = "intrinsic_symmetry"
+
+    @property
+    def image(self) -> NDArray[np.int64]:
+        """(n,): of each point the one on the other side, -1 for none."""
+        return self.arrays["image"]
+
+    @property
+    def confidence(self) -> NDArray[np.float64]:
+        """(n,): 0 to 1, halved where the image of the image lies 2 % of the diagonal away."""
+        return self.arrays["confidence"]
+
+    @property
+    def verdict(self) -> str:
+        """ "found" or "none"; ``statistics["reason"]`` says why."""
+        return self.statistics["verdict"]
+
+    def __repr__(self) -> str:
+        return (
+            f"IntrinsicSymmetry({self.shape!r}, {self.verdict}, "
+            f"confidence {self.statistics['confidence']:.3f})"
+        )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PartialSymmetries(AnalysisResult):
+    """Parts of a shape that a reflection, motion or similarity maps onto other parts.
+
+    ``transformations`` has the maps, the largest well-fitting patch first, with the points of both
+    patches. ``arrays["transformation"]`` is the first of them with a point in a patch, -1 where there
+    is none, ``arrays["side"]`` 0 in the patch that is mapped and 1 in that it falls on.
+    """
+
+    analysis = "partial_symmetries"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RecurringParts(AnalysisResult):
+    """The parts of a mesh that recur.
+
+    ``transformations`` has the maps from the first instance of a part to each of its instances, the
+    identity first, part after part: those that make up most of the feature lines come first.
+    ``arrays["part"]`` and ``arrays["instance"]`` have for each point the numbers of its part and of its
+    instance of that part, -1 for none.
+    """
+
+    analysis = "recurring_parts"
+
+    @property
+    def parts(self) -> list[list[Transformation]]:
+        """The maps to the instances of each part, the identity first."""
+        found: list[list[Transformation]] = []
+        for each in self.transformations:
+            if each.kind == "identity":
+                found.append([])
+            found[-1].append(each)
+        return found
+
+    def __repr__(self) -> str:
+        counts = ", ".join(str(len(part)) for part in self.parts)
+        return f"RecurringParts({self.shape!r}, instances of each part: {counts or 'none'})"
+
+
+RESULTS: dict[str, type[AnalysisResult]] = {
+    kind.analysis: kind
+    for kind in (
+        Symmetries,
+        PartialSymmetries,
+        RecurringParts,
+        SymmetryEmbedding,
+        IntrinsicSymmetry,
+    )
+}

@@ -1,0 +1,233 @@
+"""What operations give: a class each, with the arrays of the operation as fields."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import Mirror, Plane, operations
+from ..shapes import Shape
+from .outputs import plot, save
+from .summary import Summarised, value_text
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
+    from typing_extensions import Self
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OperationResult(Summarised):
+    """What an operation gives."""
+
+    operation: ClassVar[str]
+    """Its name in ``operations()``."""
+
+    given: Shape
+    """The shape before: the caller's own points where they could be read in place."""
+    shape: Shape
+    """The shape, moved or not: points and faces in the order of the input, then those added."""
+    mirror: Mirror
+    """The mirror that was used; one made by hand with the shape for its footprint."""
+    parameters: dict[str, Any]
+    """Every parameter of the operation, as used."""
+    statistics: dict[str, Any]
+    """Whatever else the operation reports."""
+
+    @classmethod
+    def from_fields(cls, made: dict[str, Any]) -> Self:
+        """From what the core gives."""
+        faces = made["faces"] if len(made["faces"]) else None
+        frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
+        return cls(
+            given=Shape(made["given"], made["given_faces"], space=made["space"]),
+            shape=Shape(made["points"], faces, space=frame or made["space"]),
+            mirror=made["mirror"],
+            parameters=made["parameters"],
+            statistics=made["statistics"],
+            **made["arrays"],
+            **cls._own_fields(made),
+        )
+
+    @staticmethod
+    def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
+        """Those that are no arrays of the operation."""
+        return {}
+
+    @property
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What the operation gives each point of ``shape``, by name."""
+        described = operations()[self.operation].arrays
+        own = {array.name: getattr(self, array.name) for array in described}
+        return {name: values for name, values in own.items() if values is not None}
+
+    @property
+    def summary(self) -> dict[str, str]:
+        """What it says in a few words, by name: operation, mirror and statistics, lengths with their
+        share of the diagonal."""
+        words = {"operation": self.operation, "mirror": self.mirror.kind}
+        for name, value in self.statistics.items():
+            if not name.endswith("_of_diagonal"):
+                words[name.replace("_", " ")] = value_text(
+                    name, value, self.statistics.get(f"{name}_of_diagonal")
+                )
+        return words
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.shape!r}, mirror: {self.mirror.kind})"
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the shape or its table, in the format of the suffix, whole or not at all.
+
+        ``.ply``: binary, ``arrays`` as properties of the points. ``.vtp``: for VTK, ParaView and
+        PyVista, which read no such properties. ``.csv`` and ``.npy``: ``arrays`` alone, a row a
+        point, in the latter a structured array. ``.json``: mirror, parameters, statistics and
+        ``arrays``. Raises InvalidParameter for another suffix, OSError where nothing can be written.
+        """
+        save(self, path)
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        clim: float | None = None,
+        camera: Any = None,
+        score: bool = True,
+    ) -> Plotter:
+        """Draws the shape over its mirror, coloured by what the operation says; needs PyVista.
+
+        Args:
+            path: a PNG to write off-screen, whole or not at all; without it a window opens.
+            clim: what the colours end at, above 0 and in % of the diagonal (of ``confidence``, a
+                number); without it what 98 % of the points stay below, at least 0.1.
+            camera: as for ``Result.plot``.
+            score: False: without the sentence above.
+        """
+        return plot(self, path, clim=clim, camera=camera, score=score)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Asymmetry(OperationResult):
+    """How far each point is from where the other side says it should be.
+
+    ``statistics``: "matched_share" and "unmatched_share", of that "unmatched_without_image",
+    "unmatched_past_rim", "unmatched_too_far" and "unmatched_turned", all as shares of the points;
+    over the matched points "mean", "rms", "median", "p75", "p95",
+    "p99" and "maximum" of the distances, "signed_mean" and "signed_deviation", in input units and,
+    with "_of_diagonal" behind the name, as shares of the "diagonal"; of a mesh "positive_area" and
+    "negative_area" with "area_index", (positive - negative) / (positive + negative); of a
+    watertight one the same of the volume. 0 means symmetric.
+    """
+
+    operation = "asymmetry"
+
+    vector: NDArray[np.float64]
+    """(n, 3) from the point to its place, input units; NaN without a counterpart."""
+    distance: NDArray[np.float64]
+    """(n,) its length."""
+    signed: NDArray[np.float64]
+    """(n,) its part along the outward normal: positive where the point lies too far in."""
+    lateral: NDArray[np.float64]
+    """(n,) its part away from the mirror."""
+    matched: NDArray[np.bool_]
+    """(n,) whether the point has a counterpart: none past a rim, too far away, or with another
+    normal."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Correspondences(OperationResult):
+    """Which point mirrors which. ``statistics``: "paired_share", and why the others are unmatched,
+    as those of an asymmetry."""
+
+    operation = "correspondences"
+
+    index: NDArray[np.int64]
+    """(n,) the mirror point, the point itself on the mirror, -1 for none."""
+    confidence: NDArray[np.float64]
+    """(n,) 0 to 1: the cosine between the normals, halved where the image lies a spacing away."""
+    face: NDArray[np.int64] | None = None
+    """(n,) of a mesh, the face that the image comes closest to; -1 for none."""
+    weights: NDArray[np.float64] | None = None
+    """(n, 3) of a mesh, the barycentric coordinates on that face."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Alignment(OperationResult):
+    """The shape laid so that its mirror plane is a coordinate plane."""
+
+    operation = "align"
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """(4, 4), a rotation and a shift, never a reflection: ``matrix @ (x, y, z, 1)``."""
+        return self.statistics["matrix"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Symmetrized(OperationResult):
+    """The shape made symmetric. ``statistics``: "paired_share", and why the others are unmatched,
+    as those of an asymmetry."""
+
+    operation = "symmetrize"
+
+    paired: NDArray[np.bool_]
+    """(n,) whether the point has a counterpart; else it stays."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Straightened(OperationResult):
+    """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
+    the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
+    nearest that has one."""
+
+    operation = "straighten"
+
+    @property
+    def plane(self) -> Plane:
+        """The plane that the mirror is laid into."""
+        return Plane(self.statistics["normal"], self.statistics["offset"])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Completed(OperationResult):
+    """The shape with what one side lacks filled in from the other."""
+
+    operation = "complete"
+
+    origin: NDArray[np.int64]
+    """(n,) of each point: 0 original, 1 mirrored, 2 of the seam between them."""
+    sources: NDArray[np.int64]
+    """(n,) of each point, the one of the input that its attributes come from."""
+    face_sources: NDArray[np.int64]
+    """(m,) the same of each face."""
+    patch: Shape
+    """What was added, with the points of the rim that its faces touch; its own numbering."""
+
+    @staticmethod
+    def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
+        points, faces = made["points"], made["faces"]
+        sources, face_sources = made["point_sources"], made["face_sources"]
+        is_unchanged = not len(sources) and not len(face_sources)
+        given_faces = 0 if made["given_faces"] is None else len(made["given_faces"])
+        return {
+            "sources": np.arange(len(points)) if is_unchanged else sources,
+            "face_sources": np.arange(len(faces)) if is_unchanged else face_sources,
+            "patch": _patch(points, len(made["given"]), faces[given_faces:]),
+        }
+
+
+RESULTS: dict[str, type[OperationResult]] = {
+    kind.operation: kind
+    for kind in (Asymmetry, Correspondences, Alignment, Completed, Symmetrized, Straightened)
+}
+
+
+def _patch(points: NDArray[np.float64], given: int, faces: NDArray[np.int64]) -> Shape:
+    """The faces with the points that they use; without faces, the points behind those given."""
+    if not len(faces):
+        return Shape(points[given:])
+    used, corners = np.unique(faces, return_inverse=True)
+    return Shape(points[used], corners.reshape(-1, 3))

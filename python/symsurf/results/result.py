@@ -1,0 +1,154 @@
+"""What a detection found."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import Mirror
+from ..reading.json_records import result_fields
+from ..shapes import Shape
+from .outputs import plot, save
+from .summary import Summarised, percent
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
+    from typing_extensions import TypeVar  # where ``Result`` alone is one of any mirror
+
+    Kind_co = TypeVar("Kind_co", bound=Mirror, default=Mirror, covariant=True)
+else:
+    from typing import TypeVar
+
+    Kind_co = TypeVar("Kind_co", bound=Mirror, covariant=True)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Result(Summarised, Generic[Kind_co]):
+    """What a detection found. No symmetry is a result too: one with a low score.
+
+    ``detect_plane`` gives a ``Result[Plane]``, and so on.
+    """
+
+    method: str
+    """The method that found it."""
+    mirror: Kind_co | Any
+    """A ``Mirror``; None where none is found, and for methods that find surface points only."""
+    surface_points: NDArray[np.float64]
+    """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
+    ``quadric`` and ``fixed_direction`` project them onto it. Input units."""
+    pairs: NDArray[np.int64]
+    """(m, 2) indices into the input: a point, and the point its image falls on."""
+    residuals: NDArray[np.float64]
+    """(m,) distances from the image to the partner; input units."""
+    score: float
+    """0: no symmetry, 1: as good as the sampling shows. The share of the shape that the mirror maps
+    onto it as well as one half of the points, drawn at random, says what the other half does. What
+    lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it; of
+    quadrics, height fields and free forms what chance maps lacks, too."""
+    candidates: list[Result[Kind_co]]
+    """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
+    theirs."""
+    parameters: dict[str, Any]
+    """Every parameter of the method, as used."""
+    statistics: dict[str, Any]
+    """Whatever else the method reports, such as "covered_share", of the points that the mirror moves
+    those with anything of the shape at their image, and, where there are some, how many
+    "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
+    have no partners.
+    "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
+    cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
+    the method is not for, which was an ``InputWarning``."""
+    seconds: float
+    points: NDArray[np.float64] | Any = None
+    """(n, 3) the input: the caller's own array where it could be read in place. Of a grid the points
+    that were chosen, which ``pairs`` are indices into. None of a candidate and of what ``load`` has read."""
+    faces: NDArray[np.int64] | None = None
+    """(m, 3) the triangles between them; None for a bare cloud."""
+
+    @property
+    def verdict(self) -> str:
+        """Either "found" where there is a mirror, "none" where there is none, or where nobody judged."""
+        return self.statistics.get("verdict", "none")
+
+    @property
+    def reason(self) -> str:
+        """Why, in a sentence; "" where nobody judged."""
+        return self.statistics.get("reason", "")
+
+    @property
+    def summary(self) -> dict[str, str]:
+        """What it says in a few words, by name: mirror, score, verdict, paired, median residual."""
+        words = {"mirror": self.mirror.kind if self.mirror is not None else "none"}
+        if "verdict" in self.statistics:
+            words |= {"verdict": self.verdict, "reason": self.reason}
+        words["score"] = f"{self.score:.3f}"
+        if self.points is not None:
+            count, paired = len(self.points), len(self.pairs)
+            words["paired"] = f"{percent(paired / count if count else 0)} of {count} points"
+        if len(self.residuals):
+            words["median residual"] = f"{np.median(self.residuals):.3g}"
+        words["method"] = self.method
+        return words
+
+    def __repr__(self) -> str:
+        words = [f"{name}: {text}" for name, text in self.summary.items() if name != "reason"]
+        return f"Result({', '.join(words)})"
+
+    @classmethod
+    def from_fields(cls, fields: dict[str, Any]) -> Result:
+        """A result from its fields by name, the candidates likewise."""
+        candidates = [cls.from_fields(candidate) for candidate in fields["candidates"]]
+        return cls(**fields | {"candidates": candidates})
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the result, in the format of the suffix.
+
+        ``.json``: everything but ``points`` and ``faces``, for ``load``; of a candidate its method,
+        mirror and score. ``.vtp``:
+        mirror, surface points, pairs and residuals for VTK and ParaView. ``.ply``: surface points
+        with residuals as quality. ``.txt``: comment lines starting with ``#``, then the surface
+        points, x,y,z a line; a sphere as its centre, then its radius.
+
+        Raises InvalidParameter for another suffix, OSError where nothing can be written. A file is
+        written whole or not at all.
+        """
+        save(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Result[Mirror]:
+        """What ``save`` has written as ``.json``, to the last digit, without ``points`` and ``faces``.
+
+        Raises InvalidParameter for another suffix, InvalidInput, naming the file, for one that is
+        missing, broken or no result.
+        """
+        return Result.from_fields(result_fields(path))
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        shape: Shape | None = None,
+        points: ArrayLike | None = None,
+        clim: float | None = None,
+        camera: Sequence[float] | Any = None,
+        score: bool = True,
+    ) -> Plotter:
+        """Draws the object coloured by residual, its mirror translucent, and the verdict above;
+        needs PyVista.
+
+        Args:
+            path: a PNG to write off-screen, whole or not at all; without it a window opens.
+            shape: another object with as many points, with its faces.
+            points: its points (n, 3) alone; without both, the points and faces of the detection.
+            clim: the residual, above 0 and in % of the diagonal, that the colours end at; without
+                it what 98 % of the residuals stay below, at least 0.1.
+            camera: a direction (3,) to look from, so that all is seen, or what PyVista takes for
+                ``Plotter.camera_position``, such as "xy"; without it across the mirror, from above.
+            score: False: without verdict and score above.
+        """
+        return plot(self, path, shape=shape, points=points, clim=clim, camera=camera, score=score)

@@ -1,0 +1,52 @@
+"""Point sets and meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..base.optional import require
+
+if TYPE_CHECKING:
+    import pyvista
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What a file holds, in its own units and order."""
+
+    points: NDArray[np.float64]
+    """(n, 3), as they stand in the file: some may not be finite."""
+    faces: NDArray[np.int64] | None = None
+    """(m, 3) indices of points, polygons as fans of triangles; None for a bare cloud."""
+    normals: NDArray[np.float64] | None = None
+    """(n, 3) as the file gives them; None where it gives none."""
+    space: str | None = None
+    """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
+
+    def __repr__(self) -> str:
+        faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"
+        normals = "no normals" if self.normals is None else "normals"
+        return f"Shape({len(self.points)} points, {faces}, {normals})"
+
+    @classmethod
+    def from_pyvista(cls, mesh: pyvista.DataSet) -> Shape:
+        """The points of a data set, the faces of its flat cells as triangles, its point normals.
+
+        Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
+        """
+        require("PyVista's meshes", "pyvista")
+        from .grids import shape_of
+
+        return cls(*shape_of(mesh))
+
+    def to_pyvista(self) -> pyvista.PolyData:
+        """The faces, or the points of a bare cloud as vertices, in double precision; the normals are
+        the active ones. ``from_pyvista`` makes the same shape of it. Needs PyVista."""
+        require("PyVista's meshes", "pyvista")
+        from .grids import poly_data
+
+        return poly_data(self.points, self.faces, self.normals)

@@ -1,0 +1,1 @@
+"""The thesis's experiments, made anew, beside the numbers that it prints."""
