@@ -139,12 +139,17 @@ void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vecto
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
+  const auto of_mesh = [&](MirrorFit found) {
+    if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
+      found.share = found.covered = found.exact = 1;
+    return found;
+  };
   if (const auto* plane = dynamic_cast<const Plane*>(&mirror)) {
     const Vector3 normal = frame.axes.transpose() * plane->normal();
     const double offset = plane->signed_distance(frame.centroid) / frame.size;
     Eigen::Isometry3d reflection(Matrix3(Matrix3::Identity() - 2 * normal * normal.transpose()));
     reflection.translation() = -2 * offset * normal;
-    return whole_of(point_fits(reflection, stride), stride, nullptr);
+    return of_mesh(whole_of(point_fits(reflection, stride), stride, nullptr));
   }
   std::optional<MirrorLayers> layers;
   MirrorSides sides(held_out);
@@ -162,9 +167,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                  stride, layers ? &*layers : nullptr, layers ? &sides : nullptr);
   MirrorFit found = whole_of(points, stride, layers ? &*layers : nullptr);
   if (layers) found.evidence = sides.evidence();
-  if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
-    found.share = found.covered = found.exact = 1;
-  return found;
+  return of_mesh(found);
 }
 
 std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map,
