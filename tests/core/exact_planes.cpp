@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "random_cloud.h"
+#include "test_mesh.h"
 
 namespace symsurf {
 namespace {
@@ -103,6 +104,84 @@ TEST(ExactPlanes, HaveANormalOfDefinedSign) {
     EXPECT_LT((normal - dynamic_cast<const Plane&>(*backward.mirror).normal()).norm(), 1e-9)
         << seed;
   }
+}
+
+// Fans on the caps of a prism mirror no triangle onto another but over one plane.
+TEST(ExactPlanes, OfAPrismAreFoundWhateverItsTriangles) {
+  for (const int sides : {3, 5, 6, 8}) {
+    Points points(2 * sides, 3);
+    Triangles faces(4 * sides - 4, 3);
+    Index face = 0;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      points.row(k) << std::cos(angle), std::sin(angle), 0;
+      points.row(sides + k) << std::cos(angle), std::sin(angle), 1.3;
+      const int next = (k + 1) % sides;
+      faces.row(face++) << k, next, sides + next;
+      faces.row(face++) << k, sides + next, sides + k;
+      if (k == 0 || next == 0) continue;
+      faces.row(face++) << 0, next, k;
+      faces.row(face++) << sides, sides + k, sides + next;
+    }
+    const Result result = detect(points, {.method = "plane", .faces = faces});
+    EXPECT_EQ(result.candidates.size() + 1, sides + 1) << sides;
+    EXPECT_EQ(result.pairs.rows(), 2 * sides) << sides;
+    EXPECT_LT(result.residuals.maxCoeff(), 1e-12) << sides;
+    EXPECT_EQ(result.score, 1) << sides;
+    for (const Result& candidate : result.candidates) EXPECT_EQ(candidate.score, 1) << sides;
+  }
+}
+
+// A plate of square cells, five of them with a hole.
+TestMesh plate(double thickness) {
+  TestMesh mesh;
+  constexpr Index around = 24;
+  for (int column = -2; column <= 2; ++column)
+    for (const double z : {0.0, thickness}) {
+      Points points(4 + around, 3);
+      Triangles faces(around + 4, 3);
+      for (Index q = 0; q < 4; ++q)
+        points.row(q) << column + (q == 0 || q == 3 ? 0.5 : -0.5), q < 2 ? 0.5 : -0.5, z;
+      for (Index k = 0; k < around; ++k) {
+        const double turn = 2 * std::numbers::pi * static_cast<double>(k) / around;
+        points.row(4 + k) << column + 0.3 * std::cos(turn), 0.3 * std::sin(turn), z;
+        faces.row(k) << 4 * k / around, 4 + k, 4 + (k + 1) % around;
+      }
+      for (Index q = 0; q < 4; ++q)
+        faces.row(around + q) << q, (q + 1) % 4, 4 + ((q + 1) * around / 4) % around;
+      mesh.add(points, faces);
+    }
+  return mesh;
+}
+
+TEST(ExactPlanes, OfAPlateWithHolesAreAllFound) {
+  for (const double thickness : {0.02, 0.1, 0.5}) {
+    TestMesh mesh = plate(thickness);
+    mesh.move(RandomCloud(3).rotation(), {1, 2, 3});
+    const Result result = detected(mesh, "plane");
+    EXPECT_EQ(result.score, 1) << thickness;
+    std::size_t exact = 1;
+    for (const Result& candidate : result.candidates) exact += candidate.score == 1;
+    EXPECT_EQ(exact, 3u) << thickness;
+    const Result one = detect(
+        mesh.vertices,
+        {.method = "plane", .parameters = {{"max_candidates", Index{1}}}, .faces = mesh.faces});
+    EXPECT_EQ(one.candidates.size(), 1u);
+  }
+}
+
+// The vertices of a box are mirrored by all of its planes, what is left of its faces by two. The
+// third plane is a candidate that scores less.
+TEST(ExactPlanes, ScoreLessWhereFacesAreMissing) {
+  TestMesh mesh;
+  mesh.add_box({-1, -2, -3}, {1, 2, 3});
+  mesh.faces = mesh.faces.bottomRows(10).eval();  // the side of low z is open
+  const Result result = detected(mesh, "plane");
+  EXPECT_EQ(result.score, 1);
+  ASSERT_EQ(result.candidates.size(), 2u);
+  EXPECT_EQ(result.candidates[0].score, 1);
+  EXPECT_LT(result.candidates[1].score, 1);
+  EXPECT_TRUE(is_plane(result.candidates[1], Vector3::UnitZ(), Vector3::Zero()));
 }
 
 }  // namespace

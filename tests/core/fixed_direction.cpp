@@ -60,6 +60,17 @@ TEST(FixedDirection, IsExactWherePartnersAre) {
       }
 }
 
+// It searches on a sixth of them, drawn with their images.
+TEST(FixedDirection, IsExactOfManyPointsOverAPlane) {
+  const auto flat = [](double, double) { return 0.0; };
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Surfaces surfaces(seed, 15000, flat, wide);
+    const Result result = found(surfaces.points);
+    EXPECT_LE(farthest_foot(result, surfaces.truth), 1e-9) << seed;
+    EXPECT_EQ(std::get<double>(result.statistics.at("exact_share")), 1) << seed;
+  }
+}
+
 Points kept(const Surfaces& surfaces, const std::function<bool(Index)>& keep) {
   std::vector<Index> rows;
   for (Index i = 0; i < surfaces.points.rows(); ++i)

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "cloud/unit_plane.h"
 #include "methods/parametric/sphere_step.h"
-#include "methods/parametric/unit_plane.h"
 #include "methods/sphere/sphere_measure.h"
 #include "random_cloud.h"
 

@@ -18,9 +18,10 @@ struct Options {
   std::uint64_t seed = 0;   ///< of the methods that draw at random
   /// Optional triangles between the points, which are then the vertices of a mesh: samples spread
   /// evenly over its surface find the mirror; score and candidates are those of the samples, pairs
-  /// those of the vertices. There are none on faces finer than their spacing, nor where a thousand
-  /// or more vertices lie evenly. A face without an area is passed over. The thesis's methods, and
-  /// processes that share out the points, see the points only.
+  /// those of the vertices. There are none where a thousand or more vertices lie evenly. A mirror
+  /// that maps vertices onto vertices, and the surface with them, scores 1. A face without an area
+  /// is passed over. The thesis's methods, and processes that share out the points, see the points
+  /// only.
   TrianglesView faces = {};
   /// Whether a point with a NaN or infinite coordinate is an error. Otherwise such points are left
   /// out, with their faces, and have no partners: Result::statistics has their number.

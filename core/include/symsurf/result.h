@@ -30,7 +30,7 @@ struct Result {
   /// points that the mirror moves, those with anything of the shape at their image; whatever else
   /// the method reports; and, where there are some, how many "nonfinite_points" were left out as
   /// not finite and how many "outliers" as lying far off: they have no partners.
-  /// "surface_samples": how many points were added on the faces. "boundary_points" of a
+  /// "surface_samples": how many points were sampled on the faces. "boundary_points" of a
   /// volumetric cloud, where the mirror and the score are those of its boundary: how many it has.
   /// "warning": a sentence for the caller, where the method is not for such a cloud.
   Values statistics;

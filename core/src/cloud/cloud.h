@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
+#include <symsurf/plane.h>
 #include <symsurf/points_view.h>
 #include <symsurf/triangles_view.h>
 
@@ -16,9 +17,10 @@ namespace symsurf {
 /// process; the rest, once validated, is that of all.
 struct Cloud {
   PointsView points;
-  PointsView normals;    ///< empty: none given; otherwise one line direction a point, sign ignored
-  TrianglesView faces;   ///< between the points, until their samples are among the points
-  PointsView vertices;   ///< of the mesh, where the points are samples of its faces
+  PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
+  TrianglesView faces;  ///< between the vertices where there are any, else the points
+  PointsView vertices;  ///< of the mesh, where the points are samples of its faces
+  std::vector<Plane> vertex_planes;  ///< that map the vertices onto themselves, all of them
   PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
   Partition partition;
   std::uint64_t seed = 0;

@@ -3,12 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/cloud.h"
 #include "cloud/surface_spacing.h"
+#include "spatial/triple_index.h"
 
 namespace symsurf {
 
@@ -57,9 +60,36 @@ SurfacePoints::SurfacePoints(Points positions, const Context& context, Index nei
   noise = median(std::move(deviations));
 }
 
+namespace {
+
+// By hashes of their distances from the frame's planes; of points that share one, all or none.
+std::vector<Index> drawn_with_images(const Points& all, Index count) {
+  constexpr double quantum = 0x1p-30;  // far above the rounding of doubles
+  std::vector<Index> rows;
+  std::vector<std::uint64_t> hashes(all.rows());
+  for (Index i = 0; i < all.rows(); ++i)
+    hashes[i] = hash_of(Vector3((all.row(i).cwiseAbs() / quantum).array().round()));
+  std::uint64_t limit = ~std::uint64_t{0};
+  if (count < all.rows()) {
+    std::vector<std::uint64_t> ranked = hashes;
+    std::nth_element(ranked.begin(), ranked.begin() + count, ranked.end());
+    limit = ranked[count];
+  }
+  for (Index i = 0; i < all.rows(); ++i)
+    if (hashes[i] < limit) rows.push_back(i);
+  return rows;
+}
+
+Points along_curve(const Points& points, const Context& context) {
+  return chosen_rows(points, spread_along_curve(points, points.rows(), context));
+}
+
+}  // namespace
+
 SurfacePoints::SurfacePoints(const Points& all, Index count, const Context& context)
-    : SurfacePoints(chosen_rows(all, spread_along_curve(all, count, context.stage(0, 0.3))),
-                    context.stage(0.3, 1)) {}
+    : SurfacePoints(
+          along_curve(chosen_rows(all, drawn_with_images(all, count)), context.stage(0, 0.3)),
+          context.stage(0.3, 1)) {}
 
 std::vector<Index> spread_along_curve(PointsView points, Index count, const Context& context) {
   const PointTree curve(points, context);

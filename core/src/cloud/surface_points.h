@@ -20,7 +20,8 @@ struct SurfacePoints {
 
   /// The planes are those through `neighbourhood` points, each point itself among them.
   SurfacePoints(Points positions, const Context& context, Index neighbourhood = ring);
-  /// Of `count` of the points, those of spread_along_curve().
+  /// Of `count` of the points, in the principal frame and drawn at random, along the Z-order curve.
+  /// Images over the frame's planes, as those of exact mirrors are, are drawn together.
   SurfacePoints(const Points& all, Index count, const Context& context);
 
   Index size() const { return points.rows(); }

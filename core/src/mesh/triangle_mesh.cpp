@@ -268,13 +268,4 @@ double surface_area(PointsView points, TrianglesView faces) {
   return area;
 }
 
-double longest_edge(PointsView points, TrianglesView faces) {
-  double squared = 0;
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c)
-      squared =
-          std::max(squared, (points[faces[f][c]] - points[faces[f][(c + 1) % 3]]).squaredNorm());
-  return std::sqrt(squared);
-}
-
 }  // namespace symsurf

@@ -15,9 +15,6 @@ void require_corners(TrianglesView faces, Index points);
 /// The area of the faces, in square input units.
 double surface_area(PointsView points, TrianglesView faces);
 
-/// The length of the longest edge of the faces; 0 for none.
-double longest_edge(PointsView points, TrianglesView faces);
-
 /// A triangle mesh in double precision with the neighbourhoods of its vertices (OpenMesh). Vertex i
 /// is point i, used by a face or not. Faces that a manifold with one winding has no room for are
 /// kept aside: areas, normals, neighbours and the boundary take them into account, loops do not.

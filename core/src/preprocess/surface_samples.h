@@ -4,11 +4,12 @@
 
 namespace symsurf {
 
-/// Even sampling of a triangle mesh: a lattice of points on every face larger than its spacing.
-/// The cloud's points become the vertices, used by a face or not, followed by the samples; its
-/// faces are used up. Mirrored faces get mirrored samples; two faces that make up a rectangle get
-/// the same grid whichever diagonal divides it. No samples where all faces are smaller, or many
-/// vertices lie evenly as they are. The pairs of the result are then those of the vertices.
+/// Even sampling of a triangle mesh by area: one point of a low-discrepancy sequence an equal share
+/// of the area of the faces in their order. Where planes map the mesh onto itself the samples of
+/// their one side are the images of those of the other, over up to three planes at right angles:
+/// whatever matches samples finds exact partners. The samples become the cloud's points, its points
+/// the vertices, used by a face or not. No samples where many vertices lie evenly as they are. The
+/// pairs of the result are then those of the vertices.
 class SurfaceSamples : public Stage {
  public:
   bool apply(Cloud& cloud, const Context& context) override;

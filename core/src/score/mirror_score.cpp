@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "cloud/surface_noise.h"
+#include "cloud/unit_plane.h"
 #include "mirrors/mirror_layers.h"
 #include "score/correspondence.h"
 #include "score/mirror_sides.h"
@@ -73,18 +74,7 @@ void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
   result.statistics["evidence"] = fit.evidence;
 }
 
-// In the principal frame.
-struct PlaneInFrame {
-  Vector3 normal;
-  double offset;  // normal . x + offset = 0
-};
-
-PlaneInFrame in_frame(const Plane& plane, const PrincipalFrame& frame) {
-  return {frame.axes.transpose() * plane.normal(),
-          plane.signed_distance(frame.centroid) / frame.size};
-}
-
-Eigen::Isometry3d reflection_over(const PlaneInFrame& plane) {
+Eigen::Isometry3d reflection_over(const UnitPlane& plane) {
   const Vector3& normal = plane.normal;
   Eigen::Isometry3d reflection(Matrix3(Matrix3::Identity() - 2 * normal * normal.transpose()));
   reflection.translation() = -2 * plane.offset * normal;
@@ -93,13 +83,13 @@ Eigen::Isometry3d reflection_over(const PlaneInFrame& plane) {
 
 // Next to a plane: turned both ways about the direction along it in which the cloud is thinnest and
 // the one across, and shifted to both sides.
-std::vector<PlaneInFrame> planes_beside(const PlaneInFrame& plane) {
+std::vector<UnitPlane> planes_beside(const UnitPlane& plane) {
   constexpr double angle = 0.2, shift = 0.025;  // radians, diagonals
   const Vector3& normal = plane.normal;
   const Vector3 thinnest = Vector3::UnitZ() - normal.z() * normal;
   const Vector3 first =
       thinnest.norm() > 1e-6 ? thinnest.normalized() : Vector3(normal.unitOrthogonal());
-  std::vector<PlaneInFrame> found;
+  std::vector<UnitPlane> found;
   for (const double side : {-1.0, 1.0}) {
     for (const Vector3& axis : {first, Vector3(normal.cross(first))}) {
       const Vector3 turned = Eigen::AngleAxisd(side * angle, axis) * normal;
@@ -120,6 +110,8 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
   // A surface is no mirror of the noise on its two sides.
   noise_ = measured_noise();
   moved_ = std::clamp(moved_by_noise * noise_, least_moved, most_moved);
+  if (!cloud.faces.empty())
+    mesh_.emplace(cloud.vertices, cloud.faces, cloud.frame.size, context.stage(0.5, 0.5));
   for (Index k = 0; k < coarse_.size(); ++k) {
     const Vector3& x = coarse_[k].sampled;
     const std::size_t split = k % splits;
@@ -178,8 +170,15 @@ void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vecto
 
 MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   const PrincipalFrame& frame = cloud_.frame;
-  if (const auto* plane = dynamic_cast<const Plane*>(&mirror))
-    return whole_of(point_fits(reflection_over(in_frame(*plane, frame)), stride), stride, nullptr);
+  const auto of_mesh = [&](MirrorFit found) {
+    if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
+      found.share = found.covered = found.exact = 1;
+    return found;
+  };
+  if (const auto* plane = dynamic_cast<const Plane*>(&mirror)) {
+    const Eigen::Isometry3d reflection = reflection_over(in_frame(*plane, frame));
+    return of_mesh(whole_of(point_fits(reflection, stride), stride, nullptr));
+  }
   std::optional<MirrorLayers> layers;
   MirrorSides sides(held_out);
   if (freedom_of(mirror.kind()).any_shape)
@@ -196,15 +195,15 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
                  stride, layers ? &*layers : nullptr, layers ? &sides : nullptr);
   MirrorFit found = whole_of(points, stride, layers ? &*layers : nullptr);
   if (layers) found.evidence = sides.evidence();
-  return found;
+  return of_mesh(found);
 }
 
 double MirrorScore::distinctive_share(const Plane& plane) const {
   constexpr double least = 0.1;  // of its weight, that a point keeps whatever it says
-  const PlaneInFrame here = in_frame(plane, cloud_.frame);
+  const UnitPlane here = in_frame(plane, cloud_.frame);
   // What the planes beside it map at each sample: the most, but for one of them.
   std::vector<std::array<double, 2>> beside(samples_.size(), {0, 0});
-  for (const PlaneInFrame& other : planes_beside(here))
+  for (const UnitPlane& other : planes_beside(here))
     for (const PointFit& point : point_fits(reflection_over(other))) {
       const double share = point.weight > 0 ? std::min(1.0, point.support / point.weight) : 0;
       auto& [most, next] = beside[point.point];

@@ -16,6 +16,7 @@
 #include "cloud/surfels.h"
 #include "score/ball.h"
 #include "score/cloud_halves.h"
+#include "score/mesh_symmetry.h"
 #include "spatial/nearest_points.h"
 #include "spatial/point_tree.h"
 
@@ -50,7 +51,8 @@ struct PointFit {
 /// The cloud is split at random into halves A and B. At points spread evenly over the cloud s is
 /// how well the image of B says what A says (BallSupport), and c, the ceiling, how well B itself
 /// does: the score is the sum of s over that of c. What the sampling, the noise and the distance of
-/// layers leave unsaid is so in both. A point whose image is a point of the cloud counts 1 in both.
+/// layers leave unsaid is so in both. A point whose image is a point of the cloud counts 1 in both,
+/// as all do of a mesh that the mirror maps onto itself.
 class MirrorScore {
  public:
   /// The cloud and its points must outlive the score. Collective, as all that follows.
@@ -107,6 +109,7 @@ class MirrorScore {
   double radius_;     // of the balls
   double noise_ = 0;  // standard deviation, in diagonals
   double moved_;      // displacement from which on a point counts in full
+  std::optional<MeshSymmetry> mesh_;
   std::vector<Sample> samples_;
 };
 

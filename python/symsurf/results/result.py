@@ -60,7 +60,7 @@ class Result(Summarised, Generic[Kind_co]):
     those with anything of the shape at their image, and, where there are some, how many
     "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
     have no partners.
-    "surface_samples": how many points were added on the faces. "boundary_points" of a volumetric
+    "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
     cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
     the method is not for, which was an ``InputWarning``."""
     seconds: float

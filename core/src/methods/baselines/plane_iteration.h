@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "methods/parametric/unit_plane.h"
+#include "cloud/unit_plane.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "cloud/exact_planes.h"
 #include "methods/free_form/bent_plane.h"
-#include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 
 namespace symsurf::perpendicular {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "methods/parametric/unit_plane.h"
+#include "cloud/unit_plane.h"
 #include "score/correspondence.h"
 
 namespace symsurf {

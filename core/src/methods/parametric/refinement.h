@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "cloud/unit_plane.h"
 #include "methods/parametric/candidate.h"
 #include "methods/parametric/plane_bend.h"
-#include "methods/parametric/unit_plane.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {

@@ -4,8 +4,8 @@
 
 #include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
+#include "cloud/unit_plane.h"
 #include "methods/parametric/candidate.h"
-#include "methods/parametric/unit_plane.h"
 
 namespace symsurf {
 

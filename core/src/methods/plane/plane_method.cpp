@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/maximise.h"
 #include "base/nelder_mead.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
+#include "cloud/exact_planes.h"
 #include "distributed/slabs.h"
 #include "methods/common_parameters.h"
-#include "methods/plane/exact_planes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
@@ -22,8 +23,7 @@ namespace symsurf {
 
 namespace {
 
-constexpr double least_best = 0.3;    // a best that explains less has the margins of one like this
-constexpr double maps_surface = 0.9;  // score of a plane that maps vertices onto vertices
+constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
 constexpr double worth_refining = 0.25;  // of the best score
 // Score below which planes are moved to its maximum: of 320 bodies of which a fifth is cut off 4
@@ -168,21 +168,6 @@ void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) 
   });
 }
 
-// Of a mesh whose vertices these are.
-std::vector<UnitPlane> exact_planes_of(PointsView vertices, const Cloud& cloud,
-                                       const Context& context) {
-  std::vector<UnitPlane> planes;
-  if (vertices.empty()) return planes;
-  const Context unreported = context.stage(0, 0);
-  const Cloud corners = checked_cloud(vertices, {}, 1, unreported);
-  const Surfels samples(corners, vertices.size(), unreported);
-  const PointTree tree(vertices, unreported);
-  const NearestPoints points(vertices, tree, context);
-  for (const UnitPlane& plane : exact_planes(corners, points, samples))
-    planes.push_back(in_frame(in_input_units(plane, corners.frame), cloud.frame));
-  return planes;
-}
-
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
@@ -211,6 +196,20 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   return planes;
 }
 
+bool are_alike(const UnitPlane& a, const UnitPlane& b) {
+  const double sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
+  return (a.normal - sign * b.normal).norm() < alike_planes &&
+         std::abs(a.offset - sign * b.offset) < alike_planes;
+}
+
+// Those that are none of the others.
+void drop_known(std::vector<UnitPlane>& planes, const std::vector<UnitPlane>& known) {
+  std::erase_if(planes, [&](const UnitPlane& plane) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const UnitPlane& other) { return are_alike(plane, other); });
+  });
+}
+
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
   const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
@@ -233,21 +232,24 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     return score.ranked("plane", mirrors);
   };
   const FullCloud whole(cloud, refinement, score);
-  // What maps vertices onto vertices may triangulate the surface otherwise: then the samples have
-  // no exact partners, or miss it.
-  std::vector<UnitPlane> planes = exact_planes_of(cloud.vertices, cloud, context.stage(0.45, 0.45));
-  Result best;
-  if (!planes.empty()) best = ranked(planes);
-  std::erase_if(best.candidates, [](const Result& r) { return r.score < maps_surface; });
-  if (!(best.score >= maps_surface)) {
+  std::vector<UnitPlane> planes;
+  for (const Plane& plane : cloud.vertex_planes) planes.push_back(in_frame(plane, cloud.frame));
+  if (cloud.vertices.empty()) {
     planes = exact_planes(cloud, points, coarse);
     for (UnitPlane& plane : planes) plane = refinement.exact(plane);
-    if (planes.empty())
-      planes = searched_planes(cloud, coarse, map, refinement, whole, promising,
-                               context.stage(0.46, 0.55));
+  }
+  Result best;
+  if (!planes.empty()) best = ranked(planes);
+  // Of planes of the vertices alone faces are missing on one side.
+  if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
+    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
+                                                  context.stage(0.46, 0.55));
+    drop_known(more, planes);
+    const std::size_t known = planes.size();
+    planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
     if (best.score < worth_polishing) {
-      for (UnitPlane& plane : planes) plane = whole.polished(plane);
+      for (std::size_t k = known; k < planes.size(); ++k) planes[k] = whole.polished(planes[k]);
       best = ranked(planes);
     }
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "methods/parametric/unit_plane.h"
+#include "cloud/unit_plane.h"
 
 namespace symsurf {
 

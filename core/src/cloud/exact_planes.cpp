@@ -1,10 +1,11 @@
-#include "methods/plane/exact_planes.h"
+#include "cloud/exact_planes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
+#include "cloud/distinct_points.h"
 
 namespace symsurf {
 
@@ -116,6 +117,18 @@ std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& poi
       if (std::abs(plane.distance(samples[k].sampled)) > rounding) return false;
     return true;
   });
+  return planes;
+}
+
+// How often a file repeats a point must not move the centroid.
+std::vector<Plane> exact_planes(PointsView points, const Context& context) {
+  const Points distinct = chosen_rows(points, distinct_points(points, context).first);
+  const Cloud cloud = checked_cloud(distinct, {}, 1, context);
+  const PointTree tree(distinct, context);
+  std::vector<Plane> planes;
+  for (const UnitPlane& plane : exact_planes(cloud, NearestPoints(distinct, tree, context),
+                                             Surfels(cloud, distinct.rows(), context)))
+    planes.push_back(in_input_units(plane, cloud.frame));
   return planes;
 }
 

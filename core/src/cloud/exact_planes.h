@@ -4,7 +4,7 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"
-#include "methods/parametric/unit_plane.h"
+#include "cloud/unit_plane.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -17,5 +17,8 @@ namespace symsurf {
 /// out are too many to try, as on a sphere. Collective.
 std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& points,
                                     const Surfels& samples);
+
+/// The same of points in this process, copies counted once, in input units.
+std::vector<Plane> exact_planes(PointsView points, const Context& context);
 
 }  // namespace symsurf
