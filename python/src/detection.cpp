@@ -36,12 +36,14 @@ py::dict detect_fields(const PointsArgument& points, const FacesArgument& faces,
 }
 
 py::dict match_fields(const PointsArgument& points, const Mirror& mirror, double pair_distance,
-                      bool refuse_nonfinite, const py::object& threads,
+                      double tolerance, bool refuse_nonfinite, const py::object& threads,
                       const py::object& progress) {
   const Context context = context_from(progress, threads);
-  return with_points(
-      without_gil([&] { return match(points, mirror, pair_distance, context, refuse_nonfinite); }),
-      points);
+  return with_points(without_gil([&] {
+                       return match(points, mirror, pair_distance, context, refuse_nonfinite,
+                                    tolerance);
+                     }),
+                     points);
 }
 
 double diagonal_of(const PointsArgument& points, const std::string& method_name,
@@ -59,8 +61,8 @@ void bind_detection(py::module_& module) {
              py::arg("normals"), py::arg("refuse_nonfinite"), py::arg("seed"), py::arg("threads"),
              py::arg("progress"), py::arg("parameters"), "The fields of symsurf.Result.");
   module.def("match", &match_fields, py::arg("points"), py::arg("mirror"), py::arg("pair_distance"),
-             py::arg("refuse_nonfinite"), py::arg("threads"), py::arg("progress"),
-             "The fields of symsurf.Result.");
+             py::arg("tolerance"), py::arg("refuse_nonfinite"), py::arg("threads"),
+             py::arg("progress"), "The fields of symsurf.Result.");
   module.def("diagonal", &diagonal_of, py::arg("points"), py::arg("method"),
              py::arg("refuse_nonfinite"),
              "What detect takes parameters of the unit 'diagonal' as fractions of.");

@@ -222,6 +222,33 @@ TEST(Auto, PrefersTheCylinderForTheBent) {
   }
 }
 
+// Bends of a hundredth of the diagonal, which a plane maps half: points of a bumpy body drawn apart
+// on both sides.
+TEST(Auto, SeesHowLittleAPlaneIsBent) {
+  constexpr Index count = 4000;
+  const auto radius = [](const Vector3& u) {
+    return 0.6 + 0.12 * std::sin(4 * u.y() + 1) + 0.1 * std::cos(3 * u.z()) +
+           0.1 * u.x() * u.x() * std::sin(5 * u.z());
+  };
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    Points straight = random.sphere(count);
+    for (auto u : straight.rowwise()) u *= radius(u.transpose());
+    const double sag = 0.01 * diagonal(straight), bend_radius = 0.7 * 0.7 / (2 * sag);
+    const Cylinder cylinder({-bend_radius, 0, 0}, {0, 0, 1}, bend_radius);
+    const Sphere sphere({-bend_radius, 0, 0}, bend_radius);
+    for (const Mirror* truth :
+         {static_cast<const Mirror*>(&cylinder), static_cast<const Mirror*>(&sphere)}) {
+      const Points bent = bend(straight, *truth, Bend::Restore);
+      const Result result = detect(bent);
+      ASSERT_TRUE(result.mirror) << seed;
+      EXPECT_EQ(result.mirror->kind(), truth->kind()) << seed << ' ' << result.reason();
+      const Points off = result.mirror->reflect(bent) - truth->reflect(bent);
+      EXPECT_LT(off.rowwise().norm().mean(), 0.002 * diagonal(bent)) << seed;
+    }
+  }
+}
+
 TEST(Bend, StraightensABentShapeAndBendsItBack) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Surfaces s = surfaces_around(seed, roof_tile, 0.25, 0.4);

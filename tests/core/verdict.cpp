@@ -2,6 +2,8 @@
 #include <symsurf/detect.h>
 #include <symsurf/errors.h>
 #include <symsurf/found_mirror.h>
+#include <symsurf/match.h>
+#include <symsurf/plane.h>
 
 #include <cmath>
 #include <string>
@@ -83,6 +85,55 @@ TEST(Verdict, OfAMirrorBelowAHighMinimum) {
   ASSERT_EQ(none.verdict(), "none");
   EXPECT_NE(none.reason().find("below the minimum_score of 1; "), std::string::npos)
       << none.reason();
+}
+
+// A flat sheet without a mirror slides over itself along any upright plane.
+TEST(Verdict, OfASheetThatSlides) {
+  const Vector3 corners[] = {{0, 0, 0}, {1.3, 0.1, 0}, {0.9, 0.8, 0}, {0.1, 0.5, 0}};
+  const auto is_inside = [&](const Vector3& x) {
+    for (int k = 0; k < 4; ++k)
+      if ((corners[(k + 1) % 4] - corners[k]).cross(x - corners[k]).z() < 0) return false;
+    return true;
+  };
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    Points points(3000, 3);
+    for (Index i = 0; i < points.rows();) {
+      const Vector3 x = 1.3 * random.in_box().cwiseProduct(Vector3(1, 1, 0));
+      if (is_inside(x)) points.row(i++) = x.transpose();
+    }
+    const Result result =
+        detect(Points(points * random.rotation().transpose()), {.method = "plane"});
+    EXPECT_EQ(result.verdict(), "none") << seed << ' ' << result.reason();
+  }
+}
+
+// Two sheets that face each other, one of which is thicker by half a hundredth of the diagonal.
+TEST(Verdict, DependsOnTheTolerance) {
+  const auto relief = [](double y, double z) { return 1 + 0.3 * std::sin(3 * y + z) + 0.3 * z; };
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    Points points(3000, 3);
+    for (Index i = 0; i < points.rows(); ++i) {
+      const double y = random.uniform(-1, 1), z = random.uniform(-1, 1), x = relief(y, z);
+      const double unlike = 0.02 * std::sin(4 * y) * std::cos(3 * z);
+      points.row(i) << (i % 2 == 0 ? x + unlike : -x), y, z;
+    }
+    const Plane plane(Vector3::UnitX(), 0);
+    double last = 0;
+    for (const double tolerance : {0.001, 0.004, 0.016}) {
+      const double score = match(points, plane, 0.05, {}, false, tolerance).score;
+      EXPECT_GT(score, last) << seed << ' ' << tolerance;
+      last = score;
+    }
+    EXPECT_GT(last, 0.9) << seed;
+    EXPECT_EQ(std::get<double>(
+                  detect(points, {.parameters = {{"tolerance", 0.01}}}).parameters.at("tolerance")),
+              0.01);
+  }
+  expect_error<InvalidParameter>("tolerance is 0.5; allowed is [0.0001, 0.1]", [] {
+    match(RandomCloud(0).box(50), Plane(Vector3::UnitX(), 0), 0.05, {}, false, 0.5);
+  });
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ struct Method {
   bool automatic = false;  ///< one of those that "auto" tries
 };
 
+/// Of the parameter "tolerance" of all methods, in diagonals: the sides of scanned faces and skulls
+/// differ by less.
+inline constexpr double usual_tolerance = 0.004;
+
 /// All methods, in the order front ends show them.
 const std::vector<Method>& methods();
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
+#include <symsurf/method.h>
 #include <symsurf/plane.h>
 #include <symsurf/points_view.h>
 #include <symsurf/triangles_view.h>
@@ -24,7 +25,8 @@ struct Cloud {
   PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
   Partition partition;
   std::uint64_t seed = 0;
-  double diagonal = 0;  ///< of the axis-aligned bounding box
+  double tolerance = usual_tolerance;  ///< of the score, in diagonals
+  double diagonal = 0;                 ///< of the axis-aligned bounding box
   PrincipalFrame frame;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "detection/pipeline.h"
+#include "methods/common_parameters.h"
 #include "preprocess/boundary_extraction.h"
 #include "preprocess/volumetric.h"
 #include "score/matching.h"
@@ -30,7 +31,8 @@ Result scored_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirr
   Result whole = scored(cloud, tree, mirror, context);
   if (is_exact(whole) || !is_volumetric(cloud, context)) return whole;
   const Points rows = chosen_rows(cloud.points, boundary_of(cloud, context));
-  const Cloud boundary = checked_cloud(rows, {}, 1, context);
+  Cloud boundary = checked_cloud(rows, {}, 1, context);
+  boundary.tolerance = cloud.tolerance;
   Result outer = scored(boundary, PointTree(rows, context), mirror, context);
   return outer.score > whole.score ? outer : whole;
 }
@@ -57,7 +59,8 @@ MethodImplementation matching(const Mirror& mirror, double pair_distance) {
 }  // namespace
 
 Result match(PointsView points, const Mirror& mirror, double pair_distance, const Context& context,
-             bool refuse_nonfinite) {
+             bool refuse_nonfinite, double tolerance) {
+  const ParameterValues values("match", {symsurf::tolerance()}, {{"tolerance", tolerance}});
   if (!(pair_distance >= 0 && std::isfinite(pair_distance)))
     throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
                            "; allowed is [0, inf)");
@@ -65,9 +68,10 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance, cons
   Cloud cloud;
   cloud.points = points;
   cloud.partition = Partition(points.size());
+  cloud.tolerance = values.real("tolerance");
   Result result =
       *run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
-  result.parameters = {{"pair_distance", pair_distance}};
+  result.parameters = {{"pair_distance", pair_distance}, {"tolerance", tolerance}};
   judge(result, true, usual_minimum_score);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -62,6 +62,7 @@ class ThinnedCloud {
     normals_ = chosen_rows(cloud.normals, rows);
     cloud_ = checked_cloud(points_, normals_, 1, context);
     cloud_.seed = cloud.seed;
+    cloud_.tolerance = cloud.tolerance;
   }
   const Cloud& cloud() const { return cloud_; }
 
@@ -235,6 +236,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   contest.scores["reason"] = reason;
   contest.best.statistics.merge(contest.scores);
   contest.best.parameters["minimum_score"] = values.real("minimum_score");
+  contest.best.parameters["tolerance"] = values.real("tolerance");
   return contest.best;
 }
 

@@ -26,4 +26,10 @@ Parameter minimum_score() {
                          "shape.");
 }
 
+Parameter tolerance() {
+  return Parameter::real("tolerance", usual_tolerance, 1e-4, 0.1, "diagonal",
+                         "How unlike the two sides may be: where an image lies so far from the "
+                         "shape, across its surface, the score counts it half.");
+}
+
 }  // namespace symsurf

@@ -16,7 +16,8 @@ Parameter max_candidates(Index usual, Index most, const std::string& kinds);
 
 Parameter pair_distance(double usual = 0.05);
 
-/// Of all methods; the registry adds it.
+/// Of all methods; the registry adds both.
 Parameter minimum_score();
+Parameter tolerance();
 
 }  // namespace symsurf

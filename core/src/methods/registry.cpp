@@ -14,7 +14,10 @@ const std::vector<MethodImplementation>& implementations() {
         normals_only_method(),  sphere_thesis_method(), plane_icp_method(),
         plane_svd_method(),
     };
-    for (MethodImplementation& each : all) each.parameters.push_back(minimum_score());
+    for (MethodImplementation& each : all) {
+      each.parameters.push_back(minimum_score());
+      each.parameters.push_back(tolerance());
+    }
     return all;
   }();
   return list;

@@ -22,7 +22,7 @@ namespace {
 constexpr Index sample_count = 500;                             // points whose support is measured
 constexpr double least_radius = 0.035, greatest_radius = 0.15;  // of the balls
 constexpr double points_in_ball = 18;  // cells, in the median, where the cloud is that dense
-constexpr Tolerance tolerance{0.004, 0.018};
+constexpr double far_off = 4.5;        // tolerances: the worst miss
 // One random split of so many points is as good as any; of fewer several are compared.
 constexpr Index many = 10000, most_splits = 4;
 // From which distance from the mirror on a point counts in full, near which any surface is
@@ -103,7 +103,10 @@ std::vector<UnitPlane> planes_beside(const UnitPlane& plane) {
 }  // namespace
 
 MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
-    : cloud_(cloud), points_(points), coarse_(cloud, sample_count, context.stage(0, 0.5)) {
+    : cloud_(cloud),
+      points_(points),
+      tolerance_{cloud.tolerance, far_off * cloud.tolerance},
+      coarse_(cloud, sample_count, context.stage(0, 0.5)) {
   const Index splits = std::clamp<Index>(many / cloud.partition.total(), 1, most_splits);
   for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, coarse_, k);
   radius_ = radius_for(splits_.front());
@@ -117,7 +120,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
     const std::size_t split = k % splits;
     const CloudHalves& halves = splits_[split];
     const Ball own(halves.one, x, radius_), other(halves.two, x, radius_);
-    const double ceiling = BallSupport(own, other, tolerance).support;
+    const double ceiling = BallSupport(own, other, tolerance_).support;
     samples_.push_back({x, split, own, std::max(least_ceiling, ceiling)});
   }
 }
@@ -258,7 +261,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     images.push_back(image);
   }
   if (asked.empty()) return {};
-  const std::vector<Vector3> partners = points_.nearest(images, tolerance.far * frame.size);
+  const std::vector<Vector3> partners = points_.nearest(images, tolerance_.far * frame.size);
   std::vector<double> partnered{0};
   for (std::size_t k = 0; k < asked.size(); ++k)
     if (partners[k].allFinite()) partnered.push_back(asked[k].distance);
@@ -275,7 +278,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     const double displacement = displaced(distance, in_full);
     if (displacement <= 0) continue;
     const Ball image = image_ball(sample);
-    const BallSupport found(sample.ball, image, tolerance);
+    const BallSupport found(sample.ball, image, tolerance_);
     if (sides && found.support > 0)
       add_sides(sample, image, frame.to_frame(images[k]) - sample.position, *sides);
     const double weight = displacement * sample.ceiling;

@@ -104,6 +104,7 @@ class MirrorScore {
 
   const Cloud& cloud_;
   const NearestPoints& points_;
+  Tolerance tolerance_;
   Surfels coarse_;
   std::vector<CloudHalves> splits_;
   double radius_;     // of the balls

@@ -92,6 +92,7 @@ def match(
     mirror: Result | _core.Mirror,
     pair_distance: float = 0.05,
     *,
+    tolerance: float = 0.004,
     nonfinite: str = "skip",
     absolute: bool = False,
     threads: int = 0,
@@ -106,6 +107,8 @@ def match(
         points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror, or a result that has one.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
+        tolerance: how unlike the two sides may be, as a fraction of the diagonal in [1e-4, 0.1]:
+            where an image lies so far from the shape, across its surface, the score counts it half.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threads, progress: as for ``detect``.
 
@@ -123,6 +126,6 @@ def match(
     shape = as_input(points)
     if absolute:
         pair_distance /= _core.diagonal(shape.points, "auto", refuse)
-    fields = _core.match(shape.points, mirror, pair_distance, refuse, threads, progress)
+    fields = _core.match(shape.points, mirror, pair_distance, tolerance, refuse, threads, progress)
     warn(fields["statistics"])
     return Result.from_fields(fields | {"mirror": mirror, "faces": shape.faces})
