@@ -27,7 +27,7 @@ constexpr double enough = 0.85, straight = 0.97, enough_covered = 0.6;
 constexpr double left = 0.4, tie = 0.01;
 // Beside one that maps enough it has to leave so much: sides that differ smoothly look bent, too.
 constexpr double left_of_little = 0.015;
-constexpr std::size_t bent_planes = 3;  // the best ones
+constexpr std::size_t planes_bent = 3;  // the best ones
 // Explained share of the shape that a free form has to gain. On 24 bent bodies of 10,000 points
 // with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
 // the best of the wrong ones 0.26 less at least, where a mirror was found.
@@ -196,7 +196,7 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
 void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& context) {
   std::vector<Plane> planes{dynamic_cast<const Plane&>(*contest.best.mirror)};
   for (const Result& other : contest.best.candidates)
-    if (planes.size() < bent_planes) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
+    if (planes.size() < planes_bent) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
   const ThinnedCloud thinned(cloud, context.stage(0, 0.2));
   const BentPlanes bent(thinned.cloud(), context.stage(0.2, 0.5));
   for (const Plane& plane : planes) {
