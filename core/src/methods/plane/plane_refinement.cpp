@@ -107,12 +107,13 @@ Index Refinement::stride_for(Index wanted) const {
   return std::max<Index>(1, (static_cast<Index>(samples_.size()) + wanted / 2) / wanted);
 }
 
-UnitPlane Refinement::quick(const UnitPlane& start) const {
-  return fitted(start, 0.02, stride_for(few_samples), 2);
+PlaneCandidate Refinement::quick(const UnitPlane& start) const {
+  const Index few = stride_for(few_samples);
+  return rated(fitted(start, 0.02, few, 2), few);
 }
 
-UnitPlane Refinement::careful(const UnitPlane& start) const {
-  return fitted(start, 0.01, stride_for(many_samples), 2);
+PlaneCandidate Refinement::careful(const UnitPlane& start) const {
+  return rated(fitted(start, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
 }
 
 // What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to

@@ -19,11 +19,11 @@ class Refinement {
   Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
              const Surfels& fine);
 
-  /// The plane after a few steps on a few samples.
-  UnitPlane quick(const UnitPlane& start) const;
+  /// The plane after a few steps on a few samples, with its support.
+  PlaneCandidate quick(const UnitPlane& start) const;
 
   /// The same on more samples.
-  UnitPlane careful(const UnitPlane& start) const;
+  PlaneCandidate careful(const UnitPlane& start) const;
 
   /// The plane fitted to all samples. Where partners are exact, it converges to rounding.
   UnitPlane refined(const UnitPlane& start) const;
