@@ -18,7 +18,6 @@ from vtk_data import (
     error_of,
     halved,
     mirror_data,
-    mirrored_shape,
     polydata,
 )
 from vtkmodules.util.numpy_support import vtk_to_numpy
