@@ -9,8 +9,10 @@
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
+#include "cloud/surface_spacing.h"
 #include "distributed/slabs.h"
 #include "methods/common_parameters.h"
+#include "methods/parametric/exact_pairs.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
@@ -194,6 +196,30 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   return planes;
 }
 
+// The planes of a mesh of which some vertices stand on both sides, as most do where a part of a
+// symmetric mesh was cut off or moved: through these, to rounding.
+void fit_to_vertices(std::vector<UnitPlane>& planes, const Cloud& cloud, const Context& context) {
+  const PointTree tree(cloud.vertices, context);
+  const NearestPoints vertices(cloud.vertices, tree, context);
+  const double spacing = surface_spacing(cloud.vertices, tree);
+  const PrincipalFrame& frame = cloud.frame;
+  std::vector<Vector3> corners;
+  for (Index i = 0; i < cloud.vertices.size(); ++i)
+    corners.push_back(frame.to_frame(cloud.vertices[i]));
+  const auto gaps = [&](const UnitPlane& plane, int /*step*/) {
+    std::vector<Vector3> images;
+    for (const Vector3& x : corners) images.push_back(frame.from_frame(plane.reflect(x)));
+    const std::vector<Vector3> partners = vertices.nearest(images, spacing);
+    std::vector<Gap> found;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (partners[i].allFinite())
+        found.push_back({corners[i], frame.to_frame(images[i]) - frame.to_frame(partners[i])});
+    return found;
+  };
+  for (UnitPlane& plane : planes)
+    plane = fitted_to_exact_pairs(plane, spacing / frame.size, gaps).value_or(plane);
+}
+
 bool are_alike(const UnitPlane& a, const UnitPlane& b) {
   const double sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
   return (a.normal - sign * b.normal).norm() < alike_planes &&
@@ -242,17 +268,17 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
     std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
                                                   context.stage(0.46, 0.55));
+    if (!cloud.vertices.empty()) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
     drop_known(more, planes);
-    const std::size_t known = planes.size();
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
     // Where much of a side is missing or unlike the other, the fit to partners is not the score's
-    // maximum. What gains little stays, as the fit is the more exact.
-    if (best.score < worth_polishing) {
+    // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
+    if (cloud.vertices.empty() && best.score < worth_polishing) {
       const double enough = best.score + least_gain;
-      for (std::size_t k = known; k < planes.size(); ++k) {
-        const UnitPlane plane = whole.polished(planes[k]);
-        if (score.fit(*mirror_of(plane, cloud)).share > enough) planes[k] = plane;
+      for (UnitPlane& plane : planes) {
+        const UnitPlane moved = whole.polished(plane);
+        if (score.fit(*mirror_of(moved, cloud)).share > enough) plane = moved;
       }
       best = ranked(planes);
     }
