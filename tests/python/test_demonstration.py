@@ -15,8 +15,9 @@ def test_mirrors_are_found_and_used():
         finding = find(case)
         assert finding.result.verdict == "found", case
         assert finding.result.mirror.kind == case.truth.kind
-        # The ant's sides differ by 0.5 % of the diagonal, and noise moves the airplane's.
-        limit = 0.5 if case.name == "ant" or case.change == "noisy" else 1e-3
+        # The ant's sides differ by 0.5 % of the diagonal, and noise moves the airplane's. The cylinder
+        # that it is bent about is fitted to samples of its faces.
+        limit = 0.5 if case.name == "ant" or case.change == "noisy" else 0.02
         assert finding.error < limit, case.change
         for deed in deeds(finding):
             done[case.name, deed.result.operation] = deed
