@@ -63,13 +63,13 @@ class JointCancellation : public Communicator {
 };
 
 Cloud cloud_of(PointsView points, PointsView normals, const Options& options,
-               const ParameterValues& values) {
+               double tolerance = usual_tolerance) {
   Cloud cloud;
   cloud.points = points;
   cloud.normals = normals;
   cloud.partition = Partition(points.size());
   cloud.seed = options.seed;
-  cloud.tolerance = values.real("tolerance");
+  cloud.tolerance = tolerance;
   return cloud;
 }
 
@@ -81,7 +81,7 @@ Result judged(Result result, const ParameterValues& values) {
 
 Result detect_in_one(PointsView points, const Options& options, const MethodImplementation& method,
                      const ParameterValues& values, const Context& context) {
-  Cloud cloud = cloud_of(points, options.normals, options, values);
+  Cloud cloud = cloud_of(points, options.normals, options, values.real("tolerance"));
   cloud.faces = options.faces;
   return judged(*run_pipeline(method, values, cloud, options.refuse_nonfinite, context), values);
 }
@@ -91,7 +91,7 @@ Result detect_distributed(PointsView own, const Options& options,
                           const MethodImplementation& method, const ParameterValues& values,
                           const Context& context) {
   const JointCancellation processes(context);
-  Cloud cloud = cloud_of(own, {}, options, values);
+  Cloud cloud = cloud_of(own, {}, options, values.real("tolerance"));
   cloud.partition = Partition(own.size(), &processes);
   const bool has_normals = cloud.partition.sum(options.normals.size()) > 0;
   if (method.preprocessing.distributed && !has_normals && cloud.partition.total() > small_cloud) {
@@ -102,7 +102,8 @@ Result detect_distributed(PointsView own, const Options& options,
   // The context of the host: the root is the one to be cancelled.
   return run_on_root(
       own, options.normals, *context.communicator(), [&](PointsView points, PointsView normals) {
-        return judged(*run_pipeline(method, values, cloud_of(points, normals, options, values),
+        return judged(*run_pipeline(method, values,
+                                    cloud_of(points, normals, options, values.real("tolerance")),
                                     options.refuse_nonfinite, context),
                       values);
       });
@@ -134,9 +135,7 @@ double diagonal(PointsView points, const Options& options, const Context& contex
     found = cloud.diagonal;
     return Result{};
   };
-  const ParameterValues values(method.name, method.parameters, options.parameters);
-  run_pipeline(measuring, {}, cloud_of(points, {}, options, values), options.refuse_nonfinite,
-               context);
+  run_pipeline(measuring, {}, cloud_of(points, {}, options), options.refuse_nonfinite, context);
   return found;
 }
 

@@ -199,8 +199,9 @@ void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& contex
     if (planes.size() < planes_bent) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
   const ThinnedCloud thinned(cloud, context.stage(0, 0.2));
   const BentPlanes bent(thinned.cloud(), context.stage(0.2, 0.5));
+  const Kinds kinds = simple_kinds(cloud.points.size());
   for (const Plane& plane : planes) {
-    Result result = bent.best_of(simple_kinds(cloud.points.size()), plane);
+    Result result = bent.best_of(kinds, plane);
     if (!result.mirror) continue;
     const MethodImplementation& kind = implementation(result.method);
     const bool wins = explains_more(result, contest.best);

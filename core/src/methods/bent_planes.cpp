@@ -28,16 +28,16 @@ Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
 
 Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
   Result best;
-  double most = -1;
+  MirrorFit most{.share = -1};
   for (const MethodImplementation* kind : kinds) {
     const std::shared_ptr<Mirror> mirror = kind->bent_from(bend, refinement_, cloud_.frame);
     const MirrorFit fit = score_.fit(*mirror);
-    if (fit.share <= most) continue;
-    most = fit.share;
+    if (fit.share <= most.share) continue;
+    most = fit;
     best.method = kind->name;
     best.mirror = mirror;
   }
-  if (best.mirror) score_.fill(best);
+  if (best.mirror) score_.fill(*best.mirror, most, best);
   return best;
 }
 

@@ -305,11 +305,7 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t
           layers ? layers->single() : 0};
 }
 
-void MirrorScore::fill(const Mirror& mirror, Result& result) const {
-  tell_of_best(mirror, fit(mirror), result);
-}
-
-void MirrorScore::tell_of_best(const Mirror& mirror, const MirrorFit& fit, Result& result) const {
+void MirrorScore::fill(const Mirror& mirror, const MirrorFit& fit, Result& result) const {
   tell(mirror.kind(), fit, result);
   const auto* plane = dynamic_cast<const Plane*>(&mirror);
   if (plane && result.score < beyond_doubt)
@@ -335,12 +331,15 @@ Result MirrorScore::ranked(const std::string& method,
   });
   Result best;
   for (const Ranked& one : found) {
-    Result& result = &one == &found.front() ? best : best.candidates.emplace_back();
+    const bool is_best = &one == &found.front();
+    Result& result = is_best ? best : best.candidates.emplace_back();
     result.method = method;
     result.mirror = one.mirror;
-    tell(one.mirror->kind(), one.fit, result);
+    if (is_best)
+      fill(*one.mirror, one.fit, result);
+    else
+      tell(one.mirror->kind(), one.fit, result);
   }
-  tell_of_best(*best.mirror, found.front().fit, best);
   cap_candidates(best);
   return best;
 }

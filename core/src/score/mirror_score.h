@@ -73,7 +73,9 @@ class MirrorScore {
   /// "covered_share" and, of a plane that may be one of chance, "distinctive_share".
   void fill(Result& result) const { fill(*result.mirror, result); }
   /// The same of a mirror that is not the result's own.
-  void fill(const Mirror& mirror, Result& result) const;
+  void fill(const Mirror& mirror, Result& result) const { fill(mirror, fit(mirror), result); }
+  /// The same of a mirror whose fit() is known.
+  void fill(const Mirror& mirror, const MirrorFit& fit, Result& result) const;
 
   /// The result with the best of at least one mirror, the others its candidates, best first.
   Result ranked(const std::string& method,
@@ -88,7 +90,6 @@ class MirrorScore {
   };
 
   MirrorFit fit(const Mirror& mirror, std::size_t stride) const;
-  void tell_of_best(const Mirror& mirror, const MirrorFit& fit, Result& result) const;
   // image(x) in input units; image_ball(sample), of the other half's image, in the principal frame.
   template <typename Image, typename ImageBall>
   std::vector<PointFit> point_fits(const Image& image, const ImageBall& image_ball,

@@ -276,11 +276,14 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
     if (cloud.vertices.empty() && best.score < worth_polishing) {
       const double enough = best.score + least_gain;
+      bool any_gains = false;
       for (UnitPlane& plane : planes) {
         const UnitPlane moved = whole.polished(plane);
-        if (score.fit(*mirror_of(moved, cloud)).share > enough) plane = moved;
+        if (score.fit(in_input_units(moved, cloud.frame)).share <= enough) continue;
+        plane = moved;
+        any_gains = true;
       }
-      best = ranked(planes);
+      if (any_gains) best = ranked(planes);
     }
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
