@@ -4,12 +4,14 @@
 #include <symsurf/errors.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace symsurf::meshlab {
 
 namespace {
+
+// pymeshlab passes percentages on in single precision, which holds 1e-38 to 1e38.
+constexpr double largest_length = 1e30;
 
 std::string quoted(const MeshModel& layer) { return "'" + layer.label().toStdString() + "'"; }
 
@@ -69,7 +71,7 @@ MeshModel& current_layer(MeshDocument& document) {
 double layer_diagonal(const MeshModel* layer) {
   if (!layer || layer->cm.bbox.IsNull()) return 1;
   const double diagonal = layer->cm.bbox.Diag();
-  return std::isfinite(diagonal) && diagonal > 0 ? diagonal : 1;
+  return diagonal > 1 / largest_length && diagonal < largest_length ? diagonal : 1;
 }
 
 LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals,

@@ -27,7 +27,7 @@ inline Point3m to_point(const Points& points, Index row) {
 MeshModel& current_layer(MeshDocument& document);
 
 /// The layer's bounding box's diagonal, what MeshLab shows lengths as percentages of; 1 where there
-/// is no box of finite size.
+/// is no box, or none whose percentages single precision holds.
 double layer_diagonal(const MeshModel* layer);
 
 /// Packs a layer, or of it the selected vertices and the corners of selected faces.

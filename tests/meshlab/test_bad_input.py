@@ -64,12 +64,11 @@ def layer(points) -> pymeshlab.MeshSet:
 
 
 # A layer without vertices is another case: MeshLab has none to begin with. A filter always leaves
-# out points that are not finite. A percentage of the extent of "just too large" is beyond the single
-# precision in which pymeshlab passes it on.
+# out points that are not finite.
 CLOUDS = [
     pytest.param(cloud, id=cloud.name)
     for cloud in tables.clouds()
-    if cloud.points and not cloud.refuses_nonfinite and cloud.name != "just too large"
+    if cloud.points and not cloud.refuses_nonfinite
 ]
 
 
