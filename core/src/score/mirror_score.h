@@ -28,11 +28,10 @@ class Plane;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
-  double share = 0;         ///< of the points that the mirror moves; sampling may take it past 1
-  double covered = 0;       ///< share of those that have anything of the cloud where their image is
-  double exact = 0;         ///< share of those whose image is a point of the cloud, to rounding
-  double single_layer = 0;  ///< of a mirror of any shape, how far any such cloud has one
-  double evidence = 0;      ///< of a mirror of any shape, that it is none of chance's, in nats
+  double share = 0;     ///< of the points that the mirror moves; sampling may take it past 1
+  double covered = 0;   ///< share of those that have anything of the cloud where their image is
+  double exact = 0;     ///< share of those whose image is a point of the cloud, to rounding
+  double evidence = 0;  ///< of a mirror of any shape, that it is none of chance's, in nats
 };
 
 /// What a map does with one of the points that the score is measured at.
@@ -97,8 +96,7 @@ class MirrorScore {
                                    MirrorSides* sides) const;
   static void add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
                         MirrorSides& sides);
-  MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride,
-                     const MirrorLayers* layers) const;
+  MirrorFit whole_of(const std::vector<PointFit>& points, std::size_t stride) const;
   double radius_for(const CloudHalves& halves) const;
   double measured_noise() const;
   ThinnedHalf mirrored(const ThinnedHalf& half, const Mirror& mirror) const;
@@ -115,14 +113,12 @@ class MirrorScore {
   std::vector<Sample> samples_;
 };
 
-/// The score: what is left of a fit after what mirrors of its kind fit by chance.
+/// The score: the share that a mirror maps, the less the freer its kind, and of one of any shape
+/// times the probability that it is none of chance's.
 double score_of(const MirrorFit& fit, std::string_view kind);
 
-/// The same without the evidence of its sides, which says how sure a mirror is and not how well it
-/// fits: what mirrors are ranked by. 0: chance fits as well. Sampling may take it past 1.
-double beyond_chance(const MirrorFit& fit, std::string_view kind);
-
-/// The order of mirrors: as beyond_chance(), but first those over which all partners are exact.
+/// The order of mirrors: as the score without that probability, which says how sure a mirror is
+/// and not how well it fits; those over which all partners are exact first.
 double merit(const MirrorFit& fit, std::string_view kind);
 
 /// Whether every point that the result's mirror moves has an exact partner: no mirror is better.
