@@ -1,7 +1,7 @@
-# make setup | demo | wheel | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy | sanitize | fuzz |
-# bench | accuracy | compare: each sets up what it needs first, and only what is missing.
+# make setup | demo | wheel | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy |
+# sanitize | fuzz | bench | accuracy | ablation | compare: each sets up what it needs first, and only what is missing.
 .PHONY: setup demo wheel vtk-wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
-  bench-meshlab accuracy compare
+  bench-meshlab accuracy ablation compare
 
 setup:
 	@.ci/setup python tests
@@ -70,6 +70,12 @@ bench:
 accuracy:
 	@.ci/setup accuracy
 	@cd tests && ../build/venv/bin/python -m accuracy $(OPTIONS)
+
+# What each mechanism of the core is worth, the table of docs/developer/ablation.md: builds a copy of the core in
+# which it can be switched off; OPTIONS="--mechanisms sphere" measures less.
+ablation:
+	@.ci/setup accuracy
+	@cd tests && ../build/venv/bin/python -m ablation $(OPTIONS)
 
 # symsurf's planes beside those of others that the registries have, on the same points: a quarter of
 # an hour; OPTIONS="--seeds 1" asks for less.

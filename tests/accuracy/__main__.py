@@ -26,6 +26,8 @@ from . import (
     planes,
     recurring,
     scores,
+    single_kinds,
+    spheres,
     symmetries,
     without_mirror,
 )
@@ -35,7 +37,7 @@ from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
            intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, recurring,
-           scores, symmetries, without_mirror)  # fmt: skip
+           scores, single_kinds, spheres, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -12,7 +12,6 @@
 #include "base/nelder_mead.h"
 #include "expect_error.h"
 #include "methods/parametric/unit_sphere.h"
-#include "methods/sphere/sphere_measure.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -187,24 +186,6 @@ TEST(SphereMethod, FindsTheSphereAmidNestedBalls) {
     const SphereErrors errors = found_errors(points, Sphere(Vector3::Zero(), 2.5));
     EXPECT_LE(errors.e_c, 1e-6);
     EXPECT_LE(errors.e_r, 1e-6);
-  }
-}
-
-TEST(SphereMeasure, HasTheGradientItSays) {
-  RandomCloud random(1);
-  const SphereMeasure measure(random.box(200));
-  for (int k = 0; k < 10; ++k) {
-    const Vector3 normal = random.direction();
-    const UnitSphere sphere{random.in_box(), normal, k == 0 ? 0 : random.uniform(-1, 1)};
-    const SphereMeasure::Coefficients s = random.uniform(0.5, 2) * sphere.coefficients();
-    SphereMeasure::Coefficients gradient;
-    measure(s, &gradient);
-    for (int i = 0; i < 5; ++i) {
-      constexpr double h = 1e-6;
-      const SphereMeasure::Coefficients d = h * SphereMeasure::Coefficients::Unit(i);
-      const double numeric = (measure(s + d) - measure(s - d)) / (2 * h);
-      EXPECT_NEAR(gradient[i], numeric, 1e-4 * (1 + std::abs(numeric)));
-    }
   }
 }
 

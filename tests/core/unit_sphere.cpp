@@ -7,7 +7,6 @@
 
 #include "cloud/unit_plane.h"
 #include "methods/parametric/sphere_step.h"
-#include "methods/sphere/sphere_measure.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -54,21 +53,6 @@ TEST(UnitSphere, HasNoImageBeyondTwiceItsRadius) {
   EXPECT_FALSE(sphere.reflect({0, 0, 0}).allFinite());
 }
 
-TEST(UnitSphere, KeepsItsPlaceInCoefficientsOfAnyLength) {
-  RandomCloud random(3);
-  for (const double curvature : curvatures) {
-    const UnitSphere sphere = random_sphere(random, curvature);
-    const auto abc = sphere.coefficients();
-    EXPECT_NEAR(abc.segment<3>(1).squaredNorm() - 4 * abc[0] * abc[4], 1, 1e-14);
-    const UnitSphere again = UnitSphere::of(random.uniform(0.1, 10) * abc);
-    for (int k = 0; k < 20; ++k) {
-      const Vector3 x = 0.5 * random.in_box();
-      EXPECT_NEAR(again.distance(x), sphere.distance(x), 1e-14);
-    }
-  }
-}
-
-// Wrong slopes would not converge quadratically.
 TEST(UnitSphere, IsFoundFromItsPairsInAFewSteps) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
     for (const double curvature : curvatures) {
@@ -89,22 +73,6 @@ TEST(UnitSphere, IsFoundFromItsPairsInAFewSteps) {
         EXPECT_NEAR(sphere.distance(cloud.row(i)), truth.distance(cloud.row(i)), 1e-13)
             << curvature;
     }
-}
-
-TEST(SphereMeasure, IsThatOfThePlaneWhereCurvatureVanishes) {
-  RandomCloud random(4);
-  const Points points = random.box(200);
-  const SphereMeasure spheres(points);
-  const SymmetryMeasure planes(points);
-  for (int k = 0; k < 10; ++k) {
-    const UnitSphere sphere = random_sphere(random, 0);
-    Eigen::Vector4d plane;
-    plane << sphere.normal, -sphere.normal.dot(sphere.point);
-    Eigen::Vector4d plane_gradient;
-    SphereMeasure::Coefficients gradient;
-    EXPECT_NEAR(spheres(sphere.coefficients(), &gradient), planes(plane, &plane_gradient), 1e-10);
-    EXPECT_NEAR((gradient.tail<4>() - plane_gradient).norm(), 0, 1e-8);
-  }
 }
 
 }  // namespace

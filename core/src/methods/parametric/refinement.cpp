@@ -116,13 +116,11 @@ Candidate<Shape> ParametricRefinement::fitted(const Candidate<Shape>& start, Ind
 template <typename Shape>
 Candidate<Shape> ParametricRefinement::fitted_to_exact_pairs(const Candidate<Shape>& start) const {
   constexpr Index wanted = 1200;
+  std::vector<Vector3> positions;
+  for (std::size_t i = 0; i < samples_.size(); i += stride_for(wanted))
+    positions.push_back(samples_[i].position);
   const std::optional<Shape> exact =
-      symsurf::fitted_to_exact_pairs(start.shape, spacing_, [&](const Shape& shape, int /*step*/) {
-        std::vector<Gap> gaps;
-        for (const Match& match : matches(shape, spacing_, stride_for(wanted)))
-          gaps.push_back({match.sample->position, match.gap});
-        return gaps;
-      });
+      symsurf::fitted_to_exact_pairs(start.shape, positions, points_, cloud_.frame, spacing_);
   if (!exact) return start;
   Candidate<Shape> candidate = start;
   candidate.shape = *exact;

@@ -7,6 +7,10 @@
 
 namespace symsurf {
 
+namespace {
+
+// Mirrors over the plane of the two loosest changes of one: from one to the next, images move by
+// half the spacing of the points.
 template <typename Shape>
 std::vector<Shape> shapes_around(const Shape& shape,
                                  const Eigen::Matrix<double, Eigen::Dynamic, 2>& loosest,
@@ -19,6 +23,8 @@ std::vector<Shape> shapes_around(const Shape& shape,
       around.push_back(shape.changed(step * spacing * loosest * Eigen::Vector2d(i, j)));
   return around;
 }
+
+}  // namespace
 
 template <typename Shape>
 Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
@@ -45,9 +51,6 @@ Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
   return candidate;
 }
 
-template std::vector<UnitSphere> shapes_around(const UnitSphere&,
-                                               const Eigen::Matrix<double, Eigen::Dynamic, 2>&,
-                                               double);
 template Candidate<UnitSphere> slid_along_surfaces(Candidate<UnitSphere>,
                                                    const ParametricRefinement&);
 template Candidate<UnitCylinder> slid_along_surfaces(Candidate<UnitCylinder>,

@@ -6,16 +6,10 @@
 
 namespace symsurf {
 
-/// Mirrors around one, over the plane of its two loosest changes (ParametricRefinement::loosest):
-/// from one to the next, images move by half the spacing of the points.
-template <typename Shape>
-std::vector<Shape> shapes_around(const Shape& shape,
-                                 const Eigen::Matrix<double, Eigen::Dynamic, 2>& loosest,
-                                 double spacing);
-
 /// Where noise or a dent hides which points are partners, surfaces alone distinguish mirrors that
 /// slide along them, and a fit creeps: slides the mirror over the plane of its loosest changes, for
-/// as long as another position explains clearly more.
+/// as long as another position explains clearly more. Without it one of ten dented balls loses its
+/// cylinder.
 template <typename Shape>
 Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
                                      const ParametricRefinement& refinement);

@@ -15,9 +15,8 @@ class SphereStep;
 
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:
 /// F(x) = k/2 |x - p|^2 + n . (x - p) = 0 through the point p with the unit normal n there. The
-/// sign of k is the side it bends to. It is a |x|^2 + b . x + c with |b|^2 - 4 a c = 1
-/// (Pratt, Direct least-squares fitting of algebraic surfaces, 1987): a = k/2, b = n - k p,
-/// c = k/2 |p|^2 - n . p.
+/// sign of k is the side it bends to (Pratt, Direct least-squares fitting of algebraic surfaces,
+/// 1987).
 struct UnitSphere {
   using Step = SphereStep;
 
@@ -53,23 +52,6 @@ struct UnitSphere {
     const Vector3 u = up / length;
     const double along = u.dot(v);
     return ((v - along * u) / stretch - along * u).normalized();
-  }
-
-  /// (a, b, c) as above.
-  Eigen::Vector<double, 5> coefficients() const {
-    Eigen::Vector<double, 5> abc;
-    const Vector3 b = normal - curvature * point;
-    abc << curvature / 2, b, curvature / 2 * point.squaredNorm() - normal.dot(point);
-    return abc;
-  }
-
-  /// Of (a, b, c) of any length, |b|^2 > 4 a c; its point is the one nearest to the origin.
-  static UnitSphere of(Eigen::Vector<double, 5> abc) {
-    abc /= std::sqrt(abc.segment<3>(1).squaredNorm() - 4 * abc[0] * abc[4]);
-    const Vector3 b = abc.segment<3>(1);
-    const double length = b.norm(), distance = 2 * abc[4] / (1 + length);
-    const Vector3 up = length > 0 ? Vector3(b / length) : Vector3(Vector3::UnitX());
-    return {-distance * up, length < 2 * abc[0] * distance ? Vector3(-up) : up, 2 * abc[0]};
   }
 
   UnitSphere changed(const Change& by) const {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/maximise.h"
-#include "base/nelder_mead.h"
 #include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
@@ -18,7 +16,6 @@
 #include "methods/registry.h"
 #include "score/distributed_matching.h"
 #include "score/mirror_score.h"
-#include "score/symmetry_measure.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {
@@ -27,13 +24,8 @@ namespace {
 
 constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
-constexpr double worth_refining = 0.25;  // of the best score
-// Score below which planes are moved to its maximum, and what that has to gain over the best: a
-// tenth of clutter beside a nearly symmetric body leaves .76, and makes other planes gain .02.
-constexpr double worth_polishing = 0.75, least_gain = 0.03;
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
 constexpr double alike_planes = 0.05;  // planes closer than this are one
-constexpr Index measured = 150;        // surfels that the measure is taken over
 
 struct Effort {
   Search search;
@@ -49,18 +41,6 @@ constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.6};
 // few pairs define the mirror, and patches distinguish it badly from others.
 constexpr double unexplained = 0.15;
 constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
-
-// Hruda et al.: from the candidate to the measure's maximum next to it, where that explains more.
-void maximise_measure(const Surfels& surfels, const SurfelMap& map, PlaneCandidate& candidate) {
-  const SymmetryMeasure measure(surfels.positions(measured));
-  Eigen::Vector4d p;
-  p << candidate.shape.normal, candidate.shape.offset;
-  p = maximise<4>(measure, p, 0.02, 5);
-  const double length = p.head<3>().norm();
-  const UnitPlane plane{p.head<3>() / length, p[3] / length};
-  const double support = support_share(surfels, map, plane, 0.02, 3, contradiction);
-  if (support > candidate.support) candidate = {plane, support};
-}
 
 std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
   return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
@@ -83,7 +63,6 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
   suppress_non_maxima(candidates, alike_planes, effort.started);
   context.report(0.5);
-  maximise_measure(surfels, map, candidates.front());
   drop_far_below_best(candidates, effort.far_below_best);
   suppress_non_maxima(candidates, alike_planes, effort.refined_well);
   for (PlaneCandidate& candidate : candidates)
@@ -121,20 +100,6 @@ class FullCloud {
   }
 
   PlaneCandidate glanced(const PlaneCandidate& c) const { return {c.shape, share(c.shape)}; }
-
-  // The score's maximum next to a plane.
-  UnitPlane polished(const UnitPlane& plane) const {
-    constexpr double step = 0.02, precision = 5e-4;  // radians and diagonals
-    int evaluations = 80;
-    const Matrix3 axes =
-        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), plane.normal).toRotationMatrix();
-    const auto moved = [&](const Vector3& by) -> UnitPlane {
-      return {(axes * Vector3(by.x(), by.y(), 1)).normalized(), plane.offset + by.z()};
-    };
-    const auto share_of = [&](const Vector3& by) { return share(moved(by)); };
-    const Vector3 start = Vector3::Zero();
-    return moved(nelder_mead<3>(share_of, start, step, precision, evaluations));
-  }
 
  private:
   double share(const UnitPlane& plane) const {
@@ -181,9 +146,6 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
   improve(candidates, context.stage(0.7, 0.75),
           [&](const PlaneCandidate& c) { return whole.glanced(c); });
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
-  std::erase_if(candidates, [best = candidates.front().support](const PlaneCandidate& c) {
-    return c.support < worth_refining * best;
-  });
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
     candidates.push_back({{Vector3::UnitZ(), 0}, 0});
@@ -206,18 +168,9 @@ void fit_to_vertices(std::vector<UnitPlane>& planes, const Cloud& cloud, const C
   std::vector<Vector3> corners;
   for (Index i = 0; i < cloud.vertices.size(); ++i)
     corners.push_back(frame.to_frame(cloud.vertices[i]));
-  const auto gaps = [&](const UnitPlane& plane, int /*step*/) {
-    std::vector<Vector3> images;
-    for (const Vector3& x : corners) images.push_back(frame.from_frame(plane.reflect(x)));
-    const std::vector<Vector3> partners = vertices.nearest(images, spacing);
-    std::vector<Gap> found;
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      if (partners[i].allFinite())
-        found.push_back({corners[i], frame.to_frame(images[i]) - frame.to_frame(partners[i])});
-    return found;
-  };
   for (UnitPlane& plane : planes)
-    plane = fitted_to_exact_pairs(plane, spacing / frame.size, gaps).value_or(plane);
+    plane = fitted_to_exact_pairs(plane, corners, vertices, frame, spacing / frame.size)
+                .value_or(plane);
 }
 
 bool are_alike(const UnitPlane& a, const UnitPlane& b) {
@@ -272,19 +225,6 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     drop_known(more, planes);
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
-    // Where much of a side is missing or unlike the other, the fit to partners is not the score's
-    // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
-    if (cloud.vertices.empty() && best.score < worth_polishing) {
-      const double enough = best.score + least_gain;
-      bool any_gains = false;
-      for (UnitPlane& plane : planes) {
-        const UnitPlane moved = whole.polished(plane);
-        if (score.fit(in_input_units(moved, cloud.frame)).share <= enough) continue;
-        plane = moved;
-        any_gains = true;
-      }
-      if (any_gains) best = ranked(planes);
-    }
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);

@@ -85,13 +85,12 @@ std::vector<Refinement::Match> Refinement::matches(const UnitPlane& plane, doubl
   return found;
 }
 
-double Refinement::support(const UnitPlane& plane, const std::vector<Match>& found,
-                           Index stride) const {
+double Refinement::support(const UnitPlane& plane, Index stride) const {
   double moved = 0, support = 0;
   Index looked = 0;
   for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
     moved += displaced(plane.distance(samples_[i].smoothed), score_tolerance);
-  for (const Match& match : found) {
+  for (const Match& match : matches(plane, reach, stride)) {
     const Sample& s = samples_[match.sample];
     const double weight = displaced(plane.distance(s.smoothed), score_tolerance);
     const Vector3 gap = smoothed_gap(plane, match);
@@ -116,37 +115,30 @@ PlaneCandidate Refinement::careful(const UnitPlane& start) const {
   return rated(fitted(start, 0.01, stride_for(many_samples), 2), stride_for(ranking_samples));
 }
 
-// What explains more: a fit to all that roughly agrees, as near-symmetric shapes need, or one to
-// what agrees closely, which nothing beside a hole pulls away.
+// To all that roughly agrees, then to what agrees closely, which nothing beside a hole pulls away.
 UnitPlane Refinement::refined(const UnitPlane& start) const {
   constexpr double wide = 0.01;
   const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
   constexpr int steps = 12;
-  const Index many = stride_for(many_samples), ranking = stride_for(ranking_samples);
-  const UnitPlane rough = fitted(start, wide, many, steps);
-  const std::vector<Match> around = matches(rough, reach, ranking);
-  const double roughly = support(rough, around, ranking);
-  const PlaneCandidate closely = rated(fitted(rough, narrow, many, steps, around), ranking);
-  const bool close = closely.support > roughly;
-  const UnitPlane plane =
-      fitted(close ? closely.shape : rough, close ? narrow : std::max(wide / 2, narrow), 1, 2);
-  return exact(plane);
+  const Index many = stride_for(many_samples);
+  const UnitPlane close = fitted(fitted(start, wide, many, steps), narrow, many, steps);
+  return exact(fitted(close, narrow, 1, 2));
 }
 
 PlaneCandidate Refinement::rated(const UnitPlane& plane, Index stride) const {
-  return {plane, support(plane, matches(plane, reach, stride), stride)};
+  return {plane, support(plane, stride)};
 }
 
 // Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
 // the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
 // nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
 // plane has moved by a part of the spacing, or has converged between them.
-UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps,
-                             std::vector<Match> found) const {
+UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, int steps) const {
   constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
   constexpr double along_surface = 0.01;  // partners hold the plane hardly where they may slide
   const double stale = 0.1 * spacing_, converged = 0.02 * spacing_;
-  double moved = found.empty() ? std::numeric_limits<double>::infinity() : 0;
+  std::vector<Match> found;
+  double moved = std::numeric_limits<double>::infinity();
   for (int step = 0; step < steps; ++step) {
     if (moved > stale) {
       found = matches(plane, std::min(reach, 4 * tolerance + spacing_), stride);
@@ -184,19 +176,10 @@ UnitPlane Refinement::fitted(UnitPlane plane, double tolerance, Index stride, in
 }
 
 UnitPlane Refinement::exact(const UnitPlane& start) const {
-  return fitted_to_exact_pairs(start, spacing_,
-                               [&](const UnitPlane& plane, int step) {
-                                 // A first look at few is mostly the last.
-                                 const Index looked =
-                                     stride_for(step == 0 ? few_samples : many_samples);
-                                 std::vector<Gap> gaps;
-                                 for (const Match& match : matches(plane, spacing_, looked)) {
-                                   const Vector3& x = samples_[match.sample].point;
-                                   gaps.push_back({x, plane.reflect(x) - match.partner});
-                                 }
-                                 return gaps;
-                               })
-      .value_or(start);
+  std::vector<Vector3> positions;
+  for (std::size_t i = 0; i < samples_.size(); i += stride_for(many_samples))
+    positions.push_back(samples_[i].point);
+  return fitted_to_exact_pairs(start, positions, points_, cloud_.frame, spacing_).value_or(start);
 }
 
 }  // namespace symsurf

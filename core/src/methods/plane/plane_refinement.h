@@ -52,10 +52,8 @@ class Refinement {
   const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
   std::vector<Match> matches(const UnitPlane& plane, double limit, Index stride) const;
-  double support(const UnitPlane& plane, const std::vector<Match>& found, Index stride) const;
-  // `found`: the plane's partners, where they are known.
-  UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps,
-                   std::vector<Match> found = {}) const;
+  double support(const UnitPlane& plane, Index stride) const;
+  UnitPlane fitted(UnitPlane plane, double tolerance, Index stride, int steps) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;

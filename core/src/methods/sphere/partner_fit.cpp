@@ -5,7 +5,6 @@
 
 #include "base/math.h"
 #include "methods/parametric/sphere_step.h"
-#include "methods/parametric/surface_slide.h"
 #include "score/correspondence.h"
 
 namespace symsurf {
@@ -20,11 +19,7 @@ constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
 constexpr double exact = 1e-3;
 constexpr double near = 1.1;
-constexpr Index on_the_way = 120, second_look = 300;
-constexpr std::size_t tried_starts = 24, attempts = 6;
-constexpr double worth_refining = 0.03;
 constexpr double flatter = 0.2;  // a sphere may become, or bend more; curvature times diagonal
-constexpr double clearly_nearer = 0.08;
 
 double beyond_chance(double share) { return (share - by_chance) / (1 - by_chance); }
 
@@ -142,65 +137,8 @@ Points PartnerFit::unpaired_points(const UnitSphere& sphere) const {
   return rest;
 }
 
-double PartnerFit::nearness(const UnitSphere& sphere, Index wanted) const {
-  Index asked;
-  double sum = 0;
-  const double reach = near * spacing_;
-  for (const Correspondence& pair : correspondences(sphere, wanted, reach, &asked))
-    sum += biweight(pair.gap.norm() / reach);
-  return sum / static_cast<double>(at_least_a_quarter(asked, wanted));
-}
-
-double PartnerFit::closeness(const UnitSphere& sphere) const {
-  constexpr Index wanted = 3000;
-  Index asked;
-  double roughly = 0, exactly = 0;
-  const double reach = near * spacing_, exact_reach = 10 * exact * spacing_;
-  for (const Correspondence& pair : correspondences(sphere, wanted, reach, &asked)) {
-    const double gap = pair.gap.norm();
-    roughly += biweight(gap / reach);
-    exactly += biweight(gap / exact_reach);
-  }
-  const auto of_all = static_cast<double>(at_least_a_quarter(asked, wanted));
-  return (roughly / of_all + exactly / of_all) / 2;
-}
-
-SphereCandidate PartnerFit::slid(const SphereCandidate& start,
-                                 const Eigen::Matrix<double, 4, 2>& loosest) const {
-  struct Position {
-    UnitSphere sphere;
-    double nearness;
-  };
-  std::vector<Position> positions;
-  const auto sort = [&] {
-    std::stable_sort(positions.begin(), positions.end(),
-                     [](const Position& a, const Position& b) { return a.nearness > b.nearness; });
-  };
-  for (const UnitSphere& there : shapes_around(start.shape, loosest, spacing_))
-    positions.push_back({there, nearness(there, on_the_way)});
-  if (positions.empty()) return start;
-  sort();
-  const double usual = positions[positions.size() / 2].nearness;
-  const auto excess = [&](double nearness) {
-    return (nearness - usual) / std::max(1 - usual, 0.1);
-  };
-  positions.resize(std::min(tried_starts, positions.size()));
-  for (Position& position : positions) position.nearness = nearness(position.sphere, second_look);
-  sort();
-
-  SphereCandidate best = start;
-  for (std::size_t i = 0; i < std::min(attempts, positions.size()); ++i) {
-    if (excess(positions[i].nearness) < worth_refining) break;
-    const UnitSphere sphere = refined(positions[i].sphere, second_look, 5);
-    const double partnered = excess(nearness(sphere, look));
-    if (partnered < clearly_nearer || partnered <= best.partnered) continue;
-    best.shape = sphere;
-    best.partnered = partnered;
-  }
-  return best;
-}
-
-UnitSphere PartnerFit::refined(UnitSphere sphere, Index most, int steps) const {
+UnitSphere PartnerFit::refined(UnitSphere sphere, Index most) const {
+  constexpr int steps = 12;
   double reach = 0.75 * spacing_;
   for (int step = 0; step < steps; ++step) {
     SphereStep sum(sphere);

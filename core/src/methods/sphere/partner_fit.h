@@ -23,18 +23,8 @@ class PartnerFit {
   /// was where points have no partners.
   SphereCandidate operator()(const SphereCandidate& start) const;
 
-  /// The same through noise that moves partners apart by about their spacing: slides the sphere
-  /// over the plane of its two loosest changes (ParametricRefinement::loosest), to where images
-  /// come clearly nearer to points than elsewhere on the way.
-  SphereCandidate slid(const SphereCandidate& start,
-                       const Eigen::Matrix<double, 4, 2>& loosest) const;
-
   /// The same sphere on up to `most` of the points, to rounding where partners are exact.
-  UnitSphere refined(UnitSphere sphere, Index most, int steps = 12) const;
-
-  /// How close images come to points, in [0, 1]: half for those within about the spacing, half for
-  /// exact partners.
-  double closeness(const UnitSphere& sphere) const;
+  UnitSphere refined(UnitSphere sphere, Index most) const;
 
   /// The points, in input units, whose images have no point near them.
   Points unpaired_points(const UnitSphere& sphere) const;
@@ -51,9 +41,6 @@ class PartnerFit {
   std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
   std::vector<Correspondence> correspondences(const UnitSphere& sphere, Index wanted, double reach,
                                               Index* asked = nullptr) const;
-  /// Mean of (1 - gap^2 / s^2)^2, s about the spacing, over about `wanted` points that the sphere
-  /// moves.
-  double nearness(const UnitSphere& sphere, Index wanted) const;
   Index at_least_a_quarter(Index asked, Index wanted) const;
   double paired_share(const UnitSphere& sphere, Index wanted) const;
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "base/maximise.h"
 #include "methods/parametric/pair_hypotheses.h"
 #include "methods/sphere/large_spheres.h"
-#include "methods/sphere/sphere_measure.h"
 
 namespace symsurf {
 
@@ -18,8 +16,6 @@ constexpr Index pairs_tried = 40000, pairs_kept = 4000;
 constexpr std::array curvatures{0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0, 3.6, 4.3, 5.2, 6.5, 8.0, 10.0};
 
 constexpr Index started = 48;          // candidates that are refined on the surfels
-constexpr std::size_t maximised = 3;   // of these, have their measure maximised
-constexpr Index measured = 500;        // surfels that the measure is taken over
 constexpr double least_support = 0.6;  // of the best; others are not fitted
 
 // Spheres that mirror a pair of surfels onto each other, normals included. A pair fixes a point and
@@ -43,23 +39,6 @@ void drop_weakly_supported(std::vector<SphereCandidate>& candidates) {
   std::erase_if(candidates, [&](const SphereCandidate& c) { return c.support < least; });
 }
 
-// From each of the best candidates to the maximum next to it of Hruda's measure, where that
-// explains more.
-void maximise_measure(const Surfels& surfels, const SurfelMap& map,
-                      std::vector<SphereCandidate>& candidates, const Context& context) {
-  const SphereMeasure of_surfels(surfels.positions(measured));
-  const auto measure = [&](const auto& sphere, auto* gradient) {
-    context.check();
-    return of_surfels(sphere, gradient);
-  };
-  for (std::size_t i = 0; i < std::min(maximised, candidates.size()); ++i) {
-    const UnitSphere sphere =
-        UnitSphere::of(maximise<5>(measure, candidates[i].shape.coefficients(), 0.02, 8));
-    const double support = support_share(surfels, map, sphere, 0.02, 3);
-    if (support > candidates[i].support) candidates[i] = {sphere, support};
-  }
-}
-
 }  // namespace
 
 std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
@@ -74,7 +53,6 @@ std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const Sur
   std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
   if (!candidates.empty()) {
     suppress_non_maxima(surfels, candidates, alike_spheres, started);
-    maximise_measure(surfels, map, candidates, context);
     drop_weakly_supported(candidates);
   }
   for (SphereCandidate& candidate : candidates) {

@@ -13,7 +13,7 @@ using SphereCandidate = Candidate<UnitSphere>;
 constexpr double alike_spheres = 0.04;
 
 /// The best `count` spheres that differ, on the thinned cloud alone: from pairs of surfels, of any
-/// radius, refined on the surfels; the first of them at a maximum of Hruda's measure. Behind them
+/// radius, refined on the surfels. Behind them
 /// the best of those that fit the surfels no better than a plane.
 std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,

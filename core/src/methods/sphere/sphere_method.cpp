@@ -10,7 +10,6 @@
 #include "methods/sphere/large_spheres.h"
 #include "methods/sphere/partner_fit.h"
 #include "methods/sphere/sphere_candidates.h"
-#include "methods/sphere/support_maximum.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 
@@ -18,16 +17,10 @@ namespace symsurf {
 
 namespace {
 
-constexpr std::size_t finalists = 8;          // are fitted to the full cloud
-constexpr std::size_t polished_spheres = 3;   // and of these, to ever more of it
-constexpr double promising = 0.8;             // and from here on worth sliding
-constexpr double symmetric = 0.35;            // more than what shapes without a mirror explain
-constexpr double on_surfaces = 0.97;          // of its support before
-constexpr double partnered_by_chance = 0.25;  // fewer partners than that prove nothing
-constexpr double least_rest = 0.25;           // of the cloud: worth a search of its own
-constexpr double partnered_exactly = 0.8;     // partners that need no surfaces
+constexpr std::size_t finalists = 8;         // are fitted to the full cloud
+constexpr std::size_t polished_spheres = 3;  // and of these, to ever more of it
+constexpr double least_rest = 0.25;          // of the cloud: worth a search of its own
 constexpr Index patches_again = 3;  // times as many, where no sphere found has partners of its own
-constexpr int most_slides = 3;      // of one sphere, at the most
 
 // Points of the full cloud that a fit looks at, and its steps: more for fewer spheres.
 struct Effort {
@@ -42,37 +35,6 @@ bool any_partnered(const std::vector<SphereCandidate>& candidates) {
                      [](const SphereCandidate& c) { return c.partnered > 0; });
 }
 
-// Through noise some images come near points by chance: that outweighs no surface.
-void drop_chance_partners(std::vector<SphereCandidate>& candidates) {
-  double most = 0;
-  for (const SphereCandidate& c : candidates) most = std::max(most, c.support);
-  for (SphereCandidate& c : candidates)
-    if (c.partnered < partnered_by_chance && c.support < on_surfaces * most) c.partnered = 0;
-}
-
-// As far as each slide brings it nearer, and off no surface.
-SphereCandidate slid(SphereCandidate candidate, const ParametricRefinement& refinement,
-                     const PartnerFit& partner_fit) {
-  for (int k = 0; k < most_slides; ++k) {
-    SphereCandidate next = partner_fit.slid(candidate, refinement.loosest(candidate.shape));
-    if (next.partnered <= candidate.partnered) break;
-    next.support = refinement.support(next.shape, of_finalist.samples);
-    if (next.support < on_surfaces * candidate.support) break;
-    candidate = next;
-  }
-  return candidate;
-}
-
-// Onto partners; where noise hides these, and it is worth the time, along the surfaces before.
-SphereCandidate through_noise(const SphereCandidate& fitted, bool is_best,
-                              const ParametricRefinement& refinement,
-                              const PartnerFit& partner_fit) {
-  const SphereCandidate on_partners = slid(fitted, refinement, partner_fit);
-  if (on_partners.partnered >= partnered_by_chance || !is_best || fitted.support < symmetric)
-    return on_partners;
-  return slid(slid_along_surfaces(fitted, refinement), refinement, partner_fit);
-}
-
 SphereCandidate fitted(const SphereCandidate& candidate, Effort effort,
                        const ParametricRefinement& refinement) {
   return refinement.fitted(candidate, effort.samples, effort.steps);
@@ -85,7 +47,7 @@ void fit_each(std::vector<SphereCandidate>& candidates, const ParametricRefineme
 }
 
 // Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
-// own.
+// own: both spheres of two half balls are found of 8 in 8, not of 6.
 std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCandidate& best,
                                              const PartnerFit& whole, Index sample_size,
                                              const Context& context) {
@@ -139,18 +101,13 @@ std::vector<SphereCandidate> searched_spheres(const Cloud& cloud, const Surfels&
 void refine(std::vector<SphereCandidate>& candidates, const Surfels& surfels,
             const ParametricRefinement& refinement, const PartnerFit& partner_fit) {
   for (SphereCandidate& candidate : candidates)
-    if (candidate.partnered == 0) {
-      candidate = fitted(candidate, of_finalist, refinement);
-      if (candidate.merit() >= promising * candidates.front().merit())
-        candidate =
-            through_noise(candidate, &candidate == &candidates.front(), refinement, partner_fit);
-    }
-  drop_chance_partners(candidates);
+    if (candidate.partnered == 0) candidate = fitted(candidate, of_finalist, refinement);
   suppress_non_maxima(surfels, candidates, alike_spheres, finalists);
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate = refinement.fitted_to_exact_pairs(fitted(candidate, of_polished, refinement));
+      candidate = refinement.fitted_to_exact_pairs(
+          fitted(slid_along_surfaces(candidate, refinement), of_polished, refinement));
     else
       candidate.shape = partner_fit.refined(candidate.shape, of_polished.samples);
   }
@@ -175,14 +132,10 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       cloud, surfels, rough, sample_size, refinement, partner_fit, context.stage(0.6, 0.7));
   if (candidates.empty()) return best;
   refine(candidates, surfels, refinement, partner_fit);
-  const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
-  drop_planes(refinement, score, cloud.frame, candidates);
+  drop_flat(candidates);
   if (candidates.empty()) return best;
+  const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
   suppress_non_maxima(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
-
-  SphereCandidate& first = candidates.front();
-  if (first.partnered == 0 || partner_fit.closeness(first.shape) < partnered_exactly)
-    first.shape = at_support_maximum(first, refinement).shape;
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
@@ -206,7 +159,7 @@ MethodImplementation sphere_method() {
   method.title = "Mirror sphere";
   method.summary =
       "Finds the sphere that mirrors the shape best, of any radius: candidates from pairs of "
-      "points, Hruda's measure over all pairs, refined on the full cloud.";
+      "points, refined on the full cloud.";
   method.parameters = {
       surfels_searched(700, "the sphere"),
       max_candidates(5, 7, "spheres"),

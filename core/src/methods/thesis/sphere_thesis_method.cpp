@@ -11,7 +11,6 @@
 #include "methods/common_parameters.h"
 #include "methods/registry.h"
 #include "score/matching.h"
-#include "score/symmetry_measure.h"
 #include "spatial/voxel_grid.h"
 
 namespace symsurf {
@@ -36,8 +35,11 @@ bool mirrored(const Vector3& x, const Vector3& centre, double radius, Vector3& i
   return length > 0;
 }
 
+// Wendland's function of the distance in supports.
 double phi(double squared, double support) {
-  return squared < support * support ? wendland(std::sqrt(squared) / support) : 0;
+  if (squared >= support * support) return 0;
+  const double u = std::sqrt(squared) / support, v = 1 - u;
+  return v * v * v * v * v * (8 * u * u + 5 * u + 1);
 }
 
 // A grid over a few hundred points: each voxel lists those within reach of some position in it, so
