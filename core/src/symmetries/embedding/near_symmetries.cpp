@@ -1,11 +1,10 @@
-#include "symmetries/embedding/near_symmetries.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
 #include "base/nearest_orthogonal.h"
 #include "cloud/farthest_points.h"
+#include "symmetries/embedding/factored_embedding.h"
 #include "symmetries/exact_isometries.h"
 
 namespace symsurf {
@@ -53,10 +52,7 @@ class NearSearch {
   }
 
   Eigen::Isometry3d about_centre(const Matrix3& linear) const {
-    Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-    map.linear() = linear;
-    map.translation() = found_.centre - linear * found_.centre;
-    return map;
+    return map_taking(linear, found_.centre, found_.centre);
   }
 
   void add_exact(const Eigen::Isometry3d& map) {
@@ -83,20 +79,12 @@ class NearSearch {
   Eigen::Isometry3d fitted(Eigen::Isometry3d map, const std::vector<Index>& points) const {
     const double parity = map.linear().determinant() < 0 ? -1 : 1;
     for (int step = 0; step < fitting_steps; ++step) {
-      Vector3 from = Vector3::Zero(), onto = Vector3::Zero();
-      Matrix3 products = Matrix3::Zero();
-      for (const Index i : points) {
-        const Vector3 x = rows_.col(i);
-        const Vector3 y = rows_.col(tree_.nearest(image(map, i)).index);
-        from += x;
-        onto += y;
-        products += y * x.transpose();
-      }
-      const auto count = static_cast<double>(points.size());
-      products -= onto * from.transpose() / count;
-      const Matrix3 linear = nearest_orthogonal(products, parity);
-      map = about_centre(linear);
-      map.pretranslate((onto - linear * from) / count);
+      std::vector<std::pair<Vector3, Vector3>> pairs;
+      for (const Index i : points)
+        pairs.emplace_back(rows_.col(i), rows_.col(tree_.nearest(image(map, i)).index));
+      const Eigen::Isometry3d fit = nearest_isometry(pairs, parity);
+      map = about_centre(fit.linear());
+      map.pretranslate(fit.translation());
     }
     return map;
   }

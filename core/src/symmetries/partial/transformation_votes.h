@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "symmetries/partial/height_signature.h"
-#include "symmetries/pieces/thinned_surface.h"
+#include "symmetries/partial/thinned_surface.h"
 
 namespace symsurf {
 

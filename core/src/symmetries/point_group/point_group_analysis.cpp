@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
 #include "base/parallel.h"
 #include "detection/pipeline.h"
 #include "mesh/closest_point_on_mesh.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/point_group/symmetry_search.h"
 #include "symmetries/point_group/symmetry_test.h"
-#include "symmetries/transformation_kind.h"
 
 namespace symsurf {
 
@@ -114,11 +114,8 @@ bool deviates_little(Symmetries& found, const Deviation& deviation, double toler
   if (tolerance > 0)
     for (const SymmetryAxis& axis : found.axes) {
       if (axis.order != 0) continue;
-      for (const Matrix3& turned : any_turns(axis.direction, turns)) {
-        Matrix4& map = maps.emplace_back(Matrix4::Identity());
-        map.topLeftCorner<3, 3>() = turned;
-        map.topRightCorner<3, 1>() = axis.point - turned * axis.point;
-      }
+      for (const Matrix3& turned : any_turns(axis.direction, turns))
+        maps.push_back(map_taking(turned, axis.point, axis.point).matrix());
     }
   const std::vector<double> deviations = deviation.of(maps, looked, context);
   found.max_deviations.assign(

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
 #include "symmetries/exact_isometries.h"
 #include "symmetries/point_group/element_search.h"
 #include "symmetries/point_group/point_group.h"
@@ -41,11 +42,11 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
     found.axes.push_back({found.centre, axes * axis.direction, axis.order});
   found.inversion = group.inversion();
   for (const Matrix3& element : group.elements) {
-    Matrix4 matrix = Matrix4::Identity();
-    if (!element.isIdentity(0))  // else it would be one but for rounding
-      matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
-    matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
-    found.elements.push_back(matrix);
+    if (element.isIdentity(0))  // else it would be one but for rounding
+      found.elements.emplace_back(Matrix4::Identity());
+    else
+      found.elements.push_back(
+          map_taking(axes * element * axes.transpose(), found.centre, found.centre).matrix());
   }
   found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
   found.missing = vote.missing;

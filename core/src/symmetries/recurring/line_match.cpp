@@ -130,20 +130,7 @@ Eigen::Isometry3d LineMatching::fitted(const LineMatch& match) const {
       pairs.emplace_back(line.middle() + arm * wing, image.middle() + arm * *partner);
     }
   }
-  Vector3 from = Vector3::Zero(), onto = Vector3::Zero();
-  for (const auto& [x, y] : pairs) {
-    from += x;
-    onto += y;
-  }
-  from /= static_cast<double>(pairs.size());
-  onto /= static_cast<double>(pairs.size());
-  Matrix3 products = Matrix3::Zero();
-  for (const auto& [x, y] : pairs) products += (y - onto) * (x - from).transpose();
-  const double parity = match.map.linear().determinant() > 0 ? 1 : -1;
-  Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-  map.linear() = nearest_orthogonal(products, parity);
-  map.translation() = onto - map.linear() * from;
-  return map;
+  return nearest_isometry(pairs, match.map.linear().determinant() > 0 ? 1 : -1);
 }
 
 std::optional<LineMatch> LineMatching::grown(Index line, Index image, Pose pose) const {
@@ -154,9 +141,8 @@ std::optional<LineMatch> LineMatching::grown(Index line, Index image, Pose pose)
     const Matrix3 before = basis(start, end, one.wings, {false, false});
     const Matrix3 after =
         basis(graph_.corners[other.start], graph_.corners[other.end], other.wings, pose);
-    match.map.linear() = after * before.transpose();
-    match.map.translation() = (graph_.corners[other.start] + graph_.corners[other.end]) / 2 -
-                              match.map.linear() * (start + end) / 2;
+    match.map = map_taking(after * before.transpose(), (start + end) / 2,
+                           (graph_.corners[other.start] + graph_.corners[other.end]) / 2);
   }
   constexpr int rounds = 5;
   for (int round = 0; round < rounds; ++round) {

@@ -1,11 +1,8 @@
-#include "symmetries/recurring/part_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "symmetries/recurring/closed_lines.h"
-#include "symmetries/recurring/part_union.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 

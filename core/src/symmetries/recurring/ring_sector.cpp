@@ -1,10 +1,9 @@
-#include "symmetries/recurring/ring_sector.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/math.h"
+#include "symmetries/recurring/connected_lines.h"
 
 namespace symsurf {
 

@@ -1,10 +1,9 @@
-#include "symmetries/recurring/seed_part.h"
-
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
-#include "symmetries/recurring/ring_sector.h"
+#include "symmetries/recurring/connected_lines.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 
