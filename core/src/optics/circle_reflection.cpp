@@ -1,8 +1,8 @@
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/Polynomials>
 
 #include "optics/reflection_search.h"
 
@@ -34,9 +34,11 @@ std::vector<double> TurnPolynomial::zeros() const {
   quartic << constant + two.real() + one.real(), 4 * two.imag() + 2 * one.imag(),
       2 * constant - 6 * two.real(), 2 * one.imag() - 4 * two.imag(),
       constant + two.real() - one.real();
-  const Eigen::PolynomialSolver<double, 4> solver(quartic);
+  Matrix4 companion = Matrix4::Zero();
+  companion.bottomLeftCorner<3, 3>().setIdentity();
+  companion.col(3) = -quartic.head<4>() / quartic[4];
   std::vector<double> angles;
-  for (const std::complex<double>& t : solver.roots()) {
+  for (const std::complex<double>& t : companion.eigenvalues()) {
     constexpr double real = 1e-6;  // of a double root's halves: the root of rounding
     if (std::abs(t.imag()) > real * (1 + std::abs(t))) continue;
     double angle = from + 2 * std::atan(t.real());
