@@ -16,28 +16,6 @@ namespace {
 // least have four times as much.
 constexpr double least_hold = 1e-3;
 
-// Those of the largest connected part; of equal ones the first.
-std::vector<Index> largest_part(const std::vector<Index>& seeds, const SurfacePoints& points) {
-  std::vector<char> waiting(points.size(), 0);
-  for (const Index i : seeds) waiting[i] = 1;
-  std::vector<Index> largest;
-  for (const Index seed : seeds) {
-    if (!waiting[seed]) continue;
-    waiting[seed] = 0;
-    std::vector<Index> part{seed};
-    for (std::size_t k = 0; k < part.size(); ++k)
-      for (int n = 0; n < SurfacePoints::ring; ++n) {
-        const Index other = points.neighbours(part[k], n);
-        if (!waiting[other]) continue;
-        waiting[other] = 0;
-        part.push_back(other);
-      }
-    if (part.size() > largest.size()) largest = std::move(part);
-  }
-  std::sort(largest.begin(), largest.end());
-  return largest;
-}
-
 // The points of the discs whose votes a cluster holds.
 std::vector<Index> seeds_of(const VoteCluster& cluster,
                             const std::vector<TransformationVote>& votes,
@@ -48,7 +26,7 @@ std::vector<Index> seeds_of(const VoteCluster& cluster,
                        [&](Index i, double) { seeds.push_back(i); });
   std::sort(seeds.begin(), seeds.end());
   seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-  return largest_part(seeds, points);
+  return seeds;
 }
 
 // Whether a map hardly moves most of the patch, as the identity does.
