@@ -9,7 +9,7 @@
 
 #include "expect_error.h"
 #include "random_cloud.h"
-#include "symmetries/transformation_kind.h"
+#include "symmetries/analysis_registry.h"
 
 namespace symsurf {
 namespace {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -119,25 +121,15 @@ class Unrolled final : public Chart {
   Vector3 centre_;
 };
 
-// Arc length along a line across the mirror, against the line's projection on the tangent plane.
-class ArcLength {
- public:
-  void add(double projected, double length) {
-    projected_.push_back(projected);
-    length_.push_back(length);
-  }
-  double length(double projected) const { return between(projected_, length_, projected); }
-  double projected(double length) const { return between(length_, projected_, length); }
-
- private:
-  static double between(const std::vector<double>& from, const std::vector<double>& to, double at) {
-    const auto next = std::lower_bound(from.begin() + 1, from.end() - 1, at) - from.begin();
-    const double share = (at - from[next - 1]) / (from[next] - from[next - 1]);
-    return to[next - 1] + share * (to[next] - to[next - 1]);
-  }
-
-  std::vector<double> projected_, length_;
-};
+// The value at a key, between the two nearest ones; of at least two.
+double between(const std::map<double, double>& values, double key) {
+  auto next = values.lower_bound(key);
+  if (next == values.begin()) ++next;
+  if (next == values.end()) --next;
+  const auto last = std::prev(next);
+  const double share = (key - last->first) / (next->first - last->first);
+  return last->second + share * (next->second - last->second);
+}
 
 // Feet projected on the tangent plane in the middle, each coordinate stretched to arc length.
 class Spread final : public Chart {
@@ -168,11 +160,12 @@ class Spread final : public Chart {
 
   Eigen::Vector2d flatten(const Vector3& foot) const override {
     const Vector3 d = axes_.transpose() * (foot - origin_);
-    return {arcs_[0].length(d.x()), arcs_[1].length(d.y())};
+    return {between(lengths_[0], d.x()), between(lengths_[1], d.y())};
   }
 
   bool lift(const Eigen::Vector2d& at, Vector3& foot, Vector3& normal) const override {
-    return above({arcs_[0].projected(at.x()), arcs_[1].projected(at.y())}, foot, normal);
+    return above({between(projections_[0], at.x()), between(projections_[1], at.y())}, foot,
+                 normal);
   }
 
  private:
@@ -204,9 +197,10 @@ class Spread final : public Chart {
       high = std::max(high, at);
     }
     const double step = std::max((high - low) / samples, 1e-12);  // also where nothing extends
-    std::vector<std::pair<double, double>> back{{0, 0}}, ahead{{0, 0}};
-    for (auto* side : {&back, &ahead}) {
-      const double sign = side == &ahead ? 1 : -1, end = side == &ahead ? high : -low;
+    std::map<double, double>& lengths = lengths_[axis] = {{0, 0}};
+    for (const double sign : {-1.0, 1.0}) {
+      const double end = sign > 0 ? high : -low;
+      double length = 0;
       Vector3 last = origin_;
       for (double at = step; at < end + step; at += step) {
         context.check();
@@ -215,17 +209,18 @@ class Spread final : public Chart {
         Vector3 foot, normal;
         // Where the line leaves the mirror, lengths go on as in the plane.
         if (!above(where, foot, normal)) foot = last + sign * step * axes_.col(axis);
-        side->push_back({sign * at, side->back().second + sign * (foot - last).norm()});
+        length += (foot - last).norm();
+        lengths[sign * at] = sign * length;
         last = foot;
       }
     }
-    for (auto at = back.rbegin(); at != back.rend(); ++at) arcs_[axis].add(at->first, at->second);
-    for (std::size_t k = 1; k < ahead.size(); ++k) arcs_[axis].add(ahead[k].first, ahead[k].second);
-    if (back.size() + ahead.size() < 3) arcs_[axis].add(step, step);
+    if (lengths.size() < 2) lengths[step] = step;
+    for (const auto& [projected, length] : lengths) projections_[axis][length] = projected;
   }
 
   const Mirror& mirror_;
-  std::array<ArcLength, 2> arcs_;
+  // Of lines across the mirror: arc length by the projection on the tangent plane, and back.
+  std::array<std::map<double, double>, 2> lengths_, projections_;
 };
 
 // Laid out over an object that lies about the origin and is 1 long. The mirror must outlive it.

@@ -3,7 +3,11 @@
 #include <symsurf/mirror.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
+
+#include "base/math.h"
 
 namespace symsurf {
 
@@ -43,6 +47,26 @@ Mesh grid_mesh(const GridCells& cells, const Context& context, const Surface& su
       mesh.triangles.row(t++) << a, e, d;
     }
   return mesh;
+}
+
+/// The triangles for which keep(number) is true, and their vertices.
+template <typename Keep>
+Mesh part_of(const Mesh& mesh, const Keep& keep) {
+  std::vector<Index> number(mesh.vertices.rows(), -1), vertices;
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (!keep(t)) continue;
+    std::array<Index, 3>& corners = triangles.emplace_back();
+    for (int c = 0; c < 3; ++c) {
+      Index& vertex = number[mesh.triangles(t, c)];
+      if (vertex < 0) {
+        vertex = static_cast<Index>(vertices.size());
+        vertices.push_back(mesh.triangles(t, c));
+      }
+      corners[c] = vertex;
+    }
+  }
+  return {mesh.vertices(vertices, Eigen::indexing::all), rows_of(triangles)};
 }
 
 }  // namespace symsurf

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -258,31 +257,11 @@ Mesh HeightField::mesh_over(PointsView object, int resolution, const Context& co
         kept[static_cast<std::size_t>(r) * columns + c] = 1;
   }
 
-  std::vector<Index> vertex(static_cast<std::size_t>(columns + 1) * (rows + 1), -1);
-  std::vector<Vector3> vertices;
-  std::vector<std::array<Index, 3>> triangles;
-  const auto corner = [&](int c, int r) {
-    Index& index = vertex[static_cast<std::size_t>(r) * (columns + 1) + c];
-    if (index < 0) {
-      const Eigen::RowVector2d at = low + size.cwiseProduct(Eigen::RowVector2d(c, r));
-      const Vector3 flat_point =
-          origin_ + across_ * (centre + at * principal.transpose()).transpose();
-      index = static_cast<Index>(vertices.size());
-      vertices.push_back(foot(flat_point));
-    }
-    return index;
-  };
-  for (int r = 0; r < rows; ++r) {
-    context.check();
-    for (int c = 0; c < columns; ++c) {
-      if (!kept[static_cast<std::size_t>(r) * columns + c]) continue;
-      const Index a = corner(c, r), b = corner(c + 1, r);
-      const Index d = corner(c, r + 1), e = corner(c + 1, r + 1);
-      triangles.push_back({a, b, e});
-      triangles.push_back({a, e, d});
-    }
-  }
-  return {rows_of(vertices), rows_of(triangles)};
+  const Mesh grid = grid_mesh({columns, rows}, context, [&](double s, double t) -> Vector3 {
+    const Eigen::RowVector2d at = low + (high - low).cwiseProduct(Eigen::RowVector2d(s, t));
+    return foot(origin_ + across_ * (centre + at * principal.transpose()).transpose());
+  });
+  return part_of(grid, [&](Index t) { return kept[t / 2]; });  // two triangles a cell
 }
 
 }  // namespace symsurf

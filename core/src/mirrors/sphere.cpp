@@ -23,18 +23,6 @@ std::pair<double, double> disc_from_square(double s, double t) {
   return {b, 2 * quarter - quarter * a / b};
 }
 
-void drop_empty_triangles(Mesh& mesh, double side) {
-  Index kept = 0;
-  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-    const Vector3 a = mesh.vertices.row(mesh.triangles(t, 0));
-    const Vector3 b = mesh.vertices.row(mesh.triangles(t, 1));
-    const Vector3 c = mesh.vertices.row(mesh.triangles(t, 2));
-    if ((b - a).cross(c - a).norm() < 1e-9 * side * side) continue;
-    mesh.triangles.row(kept++) = mesh.triangles.row(t).eval();
-  }
-  mesh.triangles.conservativeResize(kept, 3);
-}
-
 }  // namespace
 
 Sphere::Sphere(const Vector3& centre, double radius) : centre_(centre), radius_(radius) {
@@ -87,15 +75,22 @@ Mesh Sphere::mesh_over(PointsView object, int resolution, const Context& context
   if (opening > 0.9 * pi) opening = pi;
 
   const Vector3 e1 = pole.unitOrthogonal(), e2 = pole.cross(e1);
-  Mesh mesh = grid_mesh({resolution, resolution}, context, [&](double s, double t) -> Vector3 {
-    const auto [rho, angle] = disc_from_square(s, t);
-    const double polar = opening * rho;
-    return centre_ + radius_ * (std::cos(polar) * pole +
-                                std::sin(polar) * (std::cos(angle) * e1 + std::sin(angle) * e2));
-  });
+  const Mesh mesh =
+      grid_mesh({resolution, resolution}, context, [&](double s, double t) -> Vector3 {
+        const auto [rho, angle] = disc_from_square(s, t);
+        const double polar = opening * rho;
+        return centre_ +
+               radius_ * (std::cos(polar) * pole +
+                          std::sin(polar) * (std::cos(angle) * e1 + std::sin(angle) * e2));
+      });
   // Where the cap closes to the whole sphere its rim is one point.
-  if (opening == pi) drop_empty_triangles(mesh, radius_ * pi / resolution);
-  return mesh;
+  if (opening < pi) return mesh;
+  const double side = radius_ * pi / resolution;
+  return part_of(mesh, [&](Index t) {
+    const Matrix3 corners = mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
+    const Vector3 one = corners.row(1) - corners.row(0), other = corners.row(2) - corners.row(0);
+    return one.cross(other).norm() >= 1e-9 * side * side;
+  });
 }
 
 }  // namespace symsurf

@@ -113,28 +113,6 @@ Vector3 closest_point(const Surface& surface, const Vector3& p) {
   return {search.at.x(), search.at.y(), surface(search.at.x(), search.at.y())};
 }
 
-// Where the surface is undefined the grid has holes.
-Mesh without_holes(const Mesh& grid) {
-  Mesh mesh;
-  std::vector<Index> renamed(grid.vertices.rows(), -1);
-  mesh.vertices.resize(grid.vertices.rows(), 3);
-  Index rows = 0;
-  for (Index v = 0; v < grid.vertices.rows(); ++v) {
-    if (!grid.vertices.row(v).allFinite()) continue;
-    renamed[v] = rows;
-    mesh.vertices.row(rows++) = grid.vertices.row(v);
-  }
-  mesh.vertices.conservativeResize(rows, 3);
-  mesh.triangles.resize(grid.triangles.rows(), 3);
-  Index kept = 0;
-  for (const auto& t : grid.triangles.rowwise()) {
-    const Index a = renamed[t[0]], b = renamed[t[1]], c = renamed[t[2]];
-    if (a >= 0 && b >= 0 && c >= 0) mesh.triangles.row(kept++) << a, b, c;
-  }
-  mesh.triangles.conservativeResize(kept, 3);
-  return mesh;
-}
-
 }  // namespace
 
 SurfaceMirror::SurfaceMirror(const Surface& surface, Mapping mapping)
@@ -202,7 +180,10 @@ Mesh SurfaceMirror::mesh_over(PointsView object, int resolution, const Context& 
     const double x = low.x() + s * size.x(), y = low.y() + t * size.y();
     return position({x, y, surface_(x, y)});
   });
-  return without_holes(grid);
+  // Where the surface is undefined the grid has holes.
+  return part_of(grid, [&](Index t) {
+    return grid.vertices(grid.triangles.row(t), Eigen::indexing::all).allFinite();
+  });
 }
 
 }  // namespace symsurf

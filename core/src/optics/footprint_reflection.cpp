@@ -1,5 +1,3 @@
-#include "optics/footprint_reflection.h"
-
 #include <symsurf/free_form.h>
 #include <symsurf/height_field.h>
 #include <symsurf/surface_mirror.h>
@@ -9,6 +7,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "optics/reflection_search.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "optics/quadric_reflection.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 
 #include "base/math.h"
 #include "base/symmetric_eigen.h"
-#include "optics/real_zeros.h"
+#include "optics/reflection_search.h"
 
 namespace symsurf {
 

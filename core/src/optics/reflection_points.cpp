@@ -14,10 +14,8 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/cloud.h"
-#include "optics/circle_reflection.h"
-#include "optics/footprint_reflection.h"
 #include "optics/light_path.h"
-#include "optics/quadric_reflection.h"
+#include "optics/reflection_search.h"
 
 namespace symsurf {
 

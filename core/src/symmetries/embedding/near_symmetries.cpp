@@ -1,20 +1,17 @@
-#include "symmetries/embedding/near_symmetries.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
 #include "base/nearest_orthogonal.h"
 #include "cloud/farthest_points.h"
+#include "symmetries/embedding/factored_embedding.h"
+#include "symmetries/exact_isometries.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr double rounding = 1e-6;  // diameters between an image and its partner: single precision
-constexpr double least_radius = 0.3;     // of the largest, of points that define a map
-constexpr double least_sine = 0.3;       // of the angle between two of them
-constexpr Index most_bases = 4'000'000;  // pairs that are tried for the base
+constexpr double least_sine = 0.3;                       // of the angle between two base points
 constexpr std::size_t most_exact = 512, most_near = 32;  // maps
 constexpr Index landmarks = 120;                         // of points without exact partners
 constexpr Index compared = 1000;         // points that an approximate map is fitted to
@@ -25,19 +22,20 @@ constexpr double same_map = 0.1;    // Frobenius norm of the difference of two r
 
 using Maps = std::vector<NearSymmetry>;
 
-class Search {
+class NearSearch {
  public:
-  Search(PointsView points, const PointTree& tree, const Context& context)
+  NearSearch(PointsView points, const PointTree& tree, const Context& context)
       : tree_(tree), context_(context) {
     found_.centre = points.matrix().colwise().mean().transpose();
     rows_ = (points.matrix().rowwise() - found_.centre.transpose()).transpose();
     radii_ = rows_.colwise().norm();
     found_.diameter = 2 * radii_.maxCoeff();
-    found_.maps = {{Eigen::Isometry3d::Identity(), 0}};
   }
 
-  NearSymmetries run(double tolerance) {
-    add_exact();  // of a planar cloud also the reflection in its plane
+  NearSymmetries run(PointsView points, double tolerance) {
+    for (const Matrix3& linear : exact_isometries(points, tree_, context_, most_exact))
+      add_exact(about_centre(linear));
+    // Of a planar cloud the reflection in its plane keeps all points in their places.
     if (!found_.exact) add_near(tolerance);
     return std::move(found_);
   }
@@ -45,37 +43,8 @@ class Search {
  private:
   using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-  double tolerance() const { return rounding * found_.diameter; }
-
-  // By which the base is known among the points: the fewer alike the fewer maps to try.
-  std::vector<Index> as_far(double radius, double within) const {
-    std::vector<Index> alike;
-    for (Index i = 0; i < radii_.size(); ++i)
-      if (std::abs(radii_[i] - radius) <= within) alike.push_back(i);
-    return alike;
-  }
-
-  // Of each point how many have its radius.
-  std::vector<Index> counts_of_radii() const {
-    std::vector<double> sorted(radii_.begin(), radii_.end());
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<Index> counts;
-    for (const double radius : radii_)
-      counts.push_back(std::upper_bound(sorted.begin(), sorted.end(), radius + tolerance()) -
-                       std::lower_bound(sorted.begin(), sorted.end(), radius - tolerance()));
-    return counts;
-  }
-
   bool is_wide(Index a, Index b) const {
     return rows_.col(a).cross(rows_.col(b)).norm() > least_sine * radii_[a] * radii_[b];
-  }
-
-  static Matrix3 frame(const Vector3& one, const Vector3& other) {
-    Matrix3 axes;
-    axes.col(0) = one.normalized();
-    axes.col(2) = one.cross(other).normalized();
-    axes.col(1) = axes.col(2).cross(axes.col(0));
-    return axes;
   }
 
   Vector3 image(const Eigen::Isometry3d& map, Index i) const {
@@ -83,68 +52,18 @@ class Search {
   }
 
   Eigen::Isometry3d about_centre(const Matrix3& linear) const {
-    Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-    map.linear() = linear;
-    map.translation() = found_.centre - linear * found_.centre;
-    return map;
+    return map_taking(linear, found_.centre, found_.centre);
   }
 
-  bool is_known(const Maps& maps, const Matrix3& linear, double apart) const {
-    return std::any_of(maps.begin(), maps.end(), [&](const NearSymmetry& other) {
-      return (other.map.linear() - linear).norm() < apart;
-    });
-  }
-
-  void add_exact() {
-    const std::vector<Index> counts = counts_of_radii();
-    const double least = least_radius * found_.diameter / 2;
-    const auto rarest = [&](const auto& allowed) {
-      Index best = -1;
-      for (Index i = 0; i < radii_.size(); ++i)
-        if (radii_[i] >= least && allowed(i) &&
-            (best < 0 || counts[i] < counts[best] ||
-             (counts[i] == counts[best] && radii_[i] > radii_[best])))
-          best = i;
-      return best;
-    };
-    const Index a = rarest([](Index) { return true; });
-    const Index b = rarest([&](Index i) { return is_wide(a, i); });
-    if (b < 0) return;
-    const std::vector<Index> as_a = as_far(radii_[a], tolerance());
-    const std::vector<Index> as_b = as_far(radii_[b], tolerance());
-    const auto pairs = static_cast<Index>(as_a.size() * as_b.size());
-    const auto stride = static_cast<std::size_t>(std::max<Index>(1, pairs / most_bases));
-    const double apart = (rows_.col(a) - rows_.col(b)).norm();
-    const Matrix3 base = frame(rows_.col(a), rows_.col(b));
-    for (std::size_t i = 0; i < as_a.size(); i += stride) {
-      context_.check();
-      for (const Index j : as_b) {
-        if (std::abs((rows_.col(as_a[i]) - rows_.col(j)).norm() - apart) > 2 * tolerance())
-          continue;
-        const Matrix3 onto = frame(rows_.col(as_a[i]), rows_.col(j));
-        for (const double side : {1.0, -1.0})
-          add_if_exact(onto * Vector3(1, 1, side).asDiagonal() * base.transpose());
-        if (found_.maps.size() >= most_exact) return;
-      }
-    }
-  }
-
-  void add_if_exact(const Matrix3& linear) {
-    const Eigen::Isometry3d map = about_centre(linear);
-    constexpr double apart = 1e-4;  // two turns of less than that are one
-    if (is_known(found_.maps, linear, apart)) return;
-    const double limit = 4 * tolerance() * tolerance();
+  void add_exact(const Eigen::Isometry3d& map) {
     double squares = 0;
-    bool moves = false;
     for (Index i = 0; i < rows_.cols(); ++i) {
-      const Neighbour partner = tree_.nearest(image(map, i), limit);
-      if (partner.index < 0) return;
+      const Neighbour partner = tree_.nearest(image(map, i));
       squares += partner.squared_distance;
-      moves = moves || partner.index != i;
+      found_.exact = found_.exact || (!found_.maps.empty() && partner.index != i);
     }
-    found_.exact = found_.exact || moves;
-    found_.maps.push_back(
-        {map, std::sqrt(squares / static_cast<double>(rows_.cols())) / found_.diameter});
+    const double mean = squares / static_cast<double>(rows_.cols());
+    found_.maps.push_back({map, std::sqrt(mean) / found_.diameter});
   }
 
   double deviation(const Eigen::Isometry3d& map, const std::vector<Index>& points) const {
@@ -160,20 +79,12 @@ class Search {
   Eigen::Isometry3d fitted(Eigen::Isometry3d map, const std::vector<Index>& points) const {
     const double parity = map.linear().determinant() < 0 ? -1 : 1;
     for (int step = 0; step < fitting_steps; ++step) {
-      Vector3 from = Vector3::Zero(), onto = Vector3::Zero();
-      Matrix3 products = Matrix3::Zero();
-      for (const Index i : points) {
-        const Vector3 x = rows_.col(i);
-        const Vector3 y = rows_.col(tree_.nearest(image(map, i)).index);
-        from += x;
-        onto += y;
-        products += y * x.transpose();
-      }
-      const auto count = static_cast<double>(points.size());
-      products -= onto * from.transpose() / count;
-      const Matrix3 linear = nearest_orthogonal(products, parity);
-      map = about_centre(linear);
-      map.pretranslate((onto - linear * from) / count);
+      std::vector<std::pair<Vector3, Vector3>> pairs;
+      for (const Index i : points)
+        pairs.emplace_back(rows_.col(i), rows_.col(tree_.nearest(image(map, i)).index));
+      const Eigen::Isometry3d fit = nearest_isometry(pairs, parity);
+      map = about_centre(fit.linear());
+      map.pretranslate(fit.translation());
     }
     return map;
   }
@@ -192,7 +103,7 @@ class Search {
     // How far an image lies from the nearest landmark at most.
     const double within = (rows_.col(few.back()) - rows_.col(nearest_before(few))).norm();
     const double apart = (rows_.col(a) - rows_.col(b)).norm();
-    const Matrix3 base = frame(rows_.col(a), rows_.col(b));
+    const Matrix3 base = basis_of(rows_.col(a), rows_.col(b));
     Maps rough;
     for (const Index i : few) {
       context_.check();
@@ -202,7 +113,7 @@ class Search {
             !(rows_.col(i).cross(rows_.col(j)).norm() > 0) ||
             std::abs((rows_.col(i) - rows_.col(j)).norm() - apart) > 2 * within)
           continue;
-        const Matrix3 onto = frame(rows_.col(i), rows_.col(j));
+        const Matrix3 onto = basis_of(rows_.col(i), rows_.col(j));
         for (const double side : {1.0, -1.0}) {
           const Eigen::Isometry3d map =
               about_centre(onto * Vector3(1, 1, side).asDiagonal() * base.transpose());
@@ -227,7 +138,11 @@ class Search {
     });
     for (const NearSymmetry& map : near) {
       if (map.deviation > tolerance || found_.maps.size() == most_near) break;
-      if (!is_known(found_.maps, map.map.linear(), same_map)) found_.maps.push_back(map);
+      const bool is_known =
+          std::any_of(found_.maps.begin(), found_.maps.end(), [&](const NearSymmetry& other) {
+            return (other.map.linear() - map.map.linear()).norm() < same_map;
+          });
+      if (!is_known) found_.maps.push_back(map);
     }
   }
 
@@ -252,7 +167,7 @@ class Search {
 
 NearSymmetries near_symmetries(PointsView points, const PointTree& tree, double tolerance,
                                const Context& context) {
-  return Search(points, tree, context).run(tolerance);
+  return NearSearch(points, tree, context).run(points, tolerance);
 }
 
 }  // namespace symsurf

@@ -5,7 +5,6 @@
 #include "base/symmetric_eigen.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/embedding/factored_embedding.h"
-#include "symmetries/transformation_kind.h"
 
 namespace symsurf {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "symmetries/intrinsic/surface_basis.h"
+#include "symmetries/intrinsic/connected_surface.h"
 
 namespace symsurf {
 

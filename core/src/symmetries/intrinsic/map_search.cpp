@@ -8,15 +8,16 @@
 #include <string>
 #include <utility>
 
-#include "symmetries/intrinsic/orientation.h"
+#include "base/math.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr Index most_signs = 8;    // functions all of whose signs are tried
-constexpr Index looked_at = 16;    // among the first so many
-constexpr Index fewest_signs = 3;  // with which a map is determined
+constexpr Index most_products = 10;  // functions whose products tell the orientation
+constexpr Index most_signs = 8;      // functions all of whose signs are tried
+constexpr Index looked_at = 16;      // among the first so many
+constexpr Index fewest_signs = 3;    // with which a map is determined
 // Shares of an eigenvalue that it is away from others. A pose mixes functions whose eigenvalues are
 // near each other, yet such functions may be all that distinguishes two limbs: each share is tried.
 constexpr double alone = 0.02;
@@ -31,6 +32,86 @@ constexpr double most_kept = 0.6;    // orientation beyond which no round revers
 constexpr double same_map = 0.3;     // of the norm of the difference of unrelated maps
 constexpr double least_reversal = 0.3;
 constexpr double least_move = 0.03;  // in longest distances; the identity moves nothing
+
+// Whether a map of a surface onto itself turns it over, as reflections do, by the products
+// df ^ dg of eigenfunctions' differentials: isometries keep them up to this sign.
+class Orientation {
+ public:
+  Orientation(const ConnectedSurface& surface, const SurfaceBasis& basis,
+              const SampledPoints& samples);
+
+  // The mean correlation of the products before and after: 1 for an isometry that keeps the
+  // orientation, -1 for one that reverses it; 0 without triangles. `images`: of the samples, by
+  // their positions among these.
+  double of(const FunctionalMap& map, const std::vector<Index>& images) const;
+
+ private:
+  using Rows = Eigen::MatrixXd;
+
+  // Means about each sample of the products of each pair of functions, a row a sample.
+  Rows products(const Rows& functions) const;
+
+  std::vector<Index> vertices_;    // of the triangles at samples
+  std::vector<Triangles> around_;  // those of each sample, by positions among the vertices
+  Rows values_;                    // of the basis, at the vertices
+  Eigen::VectorXd weights_;
+  Rows own_;  // products of the basis's functions
+};
+
+Orientation::Orientation(const ConnectedSurface& surface, const SurfaceBasis& basis,
+                         const SampledPoints& samples)
+    : weights_(samples.weights) {
+  std::vector<Index> sample_of(surface.points.rows(), -1), position(surface.points.rows(), -1);
+  for (std::size_t s = 0; s < samples.vertices.size(); ++s)
+    sample_of[samples.vertices[s]] = static_cast<Index>(s);
+  std::vector<std::vector<std::array<Index, 3>>> around(samples.vertices.size());
+  for (Index t = 0; t < surface.triangles.rows(); ++t)
+    for (int c = 0; c < 3; ++c) {
+      const Index sample = sample_of[surface.triangles(t, c)];
+      if (sample < 0) continue;
+      std::array<Index, 3>& corners = around[sample].emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        Index& at = position[surface.triangles(t, k)];
+        if (at < 0) {
+          at = static_cast<Index>(vertices_.size());
+          vertices_.push_back(surface.triangles(t, k));
+        }
+        corners[k] = at;
+      }
+    }
+  for (const auto& triangles : around) around_.push_back(rows_of(triangles));
+  values_ = basis.functions(vertices_, Eigen::indexing::all);
+  own_ = products(values_.leftCols(std::min(most_products, values_.cols())));
+}
+
+Orientation::Rows Orientation::products(const Rows& functions) const {
+  const Index count = functions.cols();
+  Rows means = Rows::Zero(static_cast<Index>(around_.size()), count * (count - 1) / 2);
+  for (Index s = 0; s < means.rows(); ++s) {
+    for (Index t = 0; t < around_[s].rows(); ++t) {
+      const auto corners = around_[s].row(t);
+      const Eigen::RowVectorXd one = functions.row(corners[1]) - functions.row(corners[0]);
+      const Eigen::RowVectorXd other = functions.row(corners[2]) - functions.row(corners[0]);
+      Index pair = 0;
+      for (Index f = 0; f < count; ++f)
+        for (Index g = 0; g < f; ++g) means(s, pair++) += one[f] * other[g] - one[g] * other[f];
+    }
+    if (around_[s].rows() > 0) means.row(s) /= static_cast<double>(around_[s].rows());
+  }
+  return means;
+}
+
+double Orientation::of(const FunctionalMap& map, const std::vector<Index>& images) const {
+  const Index count = std::min({most_products, values_.cols(), map.cols()});
+  const Rows mapped = products(values_.leftCols(map.rows()) * map.leftCols(count));
+  double sum = 0;
+  for (Index pair = 0; pair < mapped.cols(); ++pair) {
+    const Eigen::VectorXd here = mapped.col(pair), there = own_(images, pair);
+    const double squares = weights_.dot(here.cwiseAbs2()) * weights_.dot(there.cwiseAbs2());
+    if (squares > 0) sum += weights_.dot(here.cwiseProduct(there)) / std::sqrt(squares);
+  }
+  return mapped.cols() == 0 ? 0 : sum / static_cast<double>(mapped.cols());
+}
 
 // The functions whose eigenvalues stand alone, so that a symmetry can but change their signs.
 std::vector<Index> functions_alone(const Eigen::VectorXd& values, double share) {

@@ -65,13 +65,12 @@ HeightSignature HeightSignature::from_behind() const {
   return other;
 }
 
-DescribedPoint described(const SurfacePoints& surface, Index i, double radius) {
+std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, double radius) {
   constexpr std::size_t enough = 20;
   std::vector<Neighbour> around;
   const Vector3 x = surface.point(i);
   surface.tree.within(x, radius, [&](Index j, double squared) { around.push_back({j, squared}); });
-  DescribedPoint point;
-  if (around.size() < enough) return point;
+  if (around.size() < enough) return {};
   std::sort(around.begin(), around.end());
   Vector3 mean = Vector3::Zero();
   double weights = 0;
@@ -85,10 +84,10 @@ DescribedPoint described(const SurfacePoints& surface, Index i, double radius) {
   }
   mean /= weights;
   const LeastEigen least = least_eigen_of(scatter / weights - mean * mean.transpose());
-  if (!(least.next > 1e-6 * least.greatest)) return point;
+  if (!(least.next > 1e-6 * least.greatest)) return {};
   Vector3 normal = least.vector;
 
-  HeightSignature& signature = point.signature;
+  HeightSignature signature;
   signature.radius = radius;
   for (int pass = 0; pass < 2; ++pass) {
     signature.frame = frame_along(normal);
@@ -112,14 +111,11 @@ DescribedPoint described(const SurfacePoints& surface, Index i, double radius) {
     const Vector3 slope = -2 * (h[13] * signature.frame.col(0) + h[14] * signature.frame.col(1));
     normal = (normal + slope).normalized();
   }
-  point.is_described = true;
-  // Seen from the side from which it is a bowl.
-  if (signature.even[0] < 0) signature = signature.from_behind();
-  return point;
+  return signature.even[0] < 0 ? signature.from_behind() : signature;
 }
 
-std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignature& onto,
-                               bool reflected) {
+std::optional<DiscMatch> best_match(const HeightSignature& from, const HeightSignature& onto,
+                                    bool reflected) {
   std::array<std::complex<double>, 5> by_order{};
   double squares = 0, mean = 0;
   for (int w = 0; w < HeightSignature::turning; ++w) {
@@ -131,8 +127,7 @@ std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignatur
     const double gap = from.even[e] - onto.even[e];
     mean += gap * gap;
   }
-  std::vector<DiscMatch> found;
-  if (!(squares > 0)) return found;
+  if (!(squares > 0)) return {};
   const auto overlap = [&](double angle) {
     double sum = 0;
     for (int m = 1; m <= 4; ++m)
@@ -143,18 +138,14 @@ std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignatur
   std::array<double, steps> values;
   constexpr double step = 2 * std::numbers::pi / steps;
   for (int k = 0; k < steps; ++k) values[k] = overlap(k * step);
-  for (int k = 0; k < steps; ++k) {
-    const double before = values[(k + steps - 1) % steps], here = values[k],
-                 after = values[(k + 1) % steps];
-    if (!(here > before && here >= after)) continue;
-    const double bend = before - 2 * here + after;
-    const double angle = (k + (before - after) / (2 * bend)) * step;
-    const double left = std::max(0.0, squares - 2 * overlap(angle)) + mean;
-    found.push_back({angle, std::sqrt(2 * left / squares)});
-  }
-  std::sort(found.begin(), found.end(),
-            [](const DiscMatch& a, const DiscMatch& b) { return a.residual < b.residual; });
-  return found;
+  const auto greatest = std::max_element(values.begin(), values.end());
+  const auto k = static_cast<int>(greatest - values.begin());
+  const double before = values[(k + steps - 1) % steps], after = values[(k + 1) % steps];
+  const double bend = before - 2 * *greatest + after;
+  if (!(bend < 0)) return {};
+  const double angle = (k + (before - after) / (2 * bend)) * step;
+  const double left = std::max(0.0, squares - 2 * overlap(angle)) + mean;
+  return DiscMatch{angle, std::sqrt(2 * left / squares)};
 }
 
 Eigen::Affine3d laid_onto(const HeightSignature& from, const HeightSignature& onto, bool reflected,

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "cloud/surface_points.h"
@@ -31,12 +32,9 @@ struct HeightSignature {
   HeightSignature from_behind() const;
 };
 
-/// Of the points about a point within a radius; `is_described` says whether there are enough.
-struct DescribedPoint {
-  HeightSignature signature;
-  bool is_described = false;
-};
-DescribedPoint described(const SurfacePoints& surface, Index i, double radius);
+/// Of the points about a point within a radius, seen from the side on which they are a bowl; none
+/// where they are few.
+std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, double radius);
 
 /// A turn of one disc that lays it on another, reflected or not.
 struct DiscMatch {
@@ -44,9 +42,9 @@ struct DiscMatch {
   double residual = 0;  ///< of what is left, to the mean length of the two signatures
 };
 
-/// The best turn, and others nearly as good.
-std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignature& onto,
-                               bool reflected);
+/// The best turn.
+std::optional<DiscMatch> best_match(const HeightSignature& from, const HeightSignature& onto,
+                                    bool reflected);
 
 /// The similarity that lays one disc on the other.
 Eigen::Affine3d laid_onto(const HeightSignature& from, const HeightSignature& onto, bool reflected,

@@ -19,33 +19,24 @@ constexpr double least_waviness = 0.25;
 struct Disc {
   Index point;
   HeightSignature signature;
-  bool asks;  // others are only found
 };
 
+// Those that vary enough.
 std::vector<Disc> described_discs(const ThinnedSurface& surface, double radius,
                                   const Context& context) {
   const SurfacePoints& all = surface.points();
-  std::vector<DescribedPoint> points(all.size());
+  std::vector<std::optional<HeightSignature>> signatures(all.size());
   constexpr Index grain = 64;
   parallel_for(context, all.size(), grain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) points[i] = described(all, i, radius);
+    for (Index i = begin; i < end; ++i) signatures[i] = described(all, i, radius);
   });
   std::vector<Disc> discs;
-  for (Index i = 0; i < all.size(); ++i) {
-    if (!points[i].is_described) continue;
-    const HeightSignature& signature = points[i].signature;
-    discs.push_back({i, signature, true});
-    // Where neither side is the bowl, seen from both.
-    constexpr double even_enough = 0.3;
-    if (signature.even[0] < even_enough * signature.waviness())
-      discs.push_back({i, signature.from_behind(), false});
-  }
-  return discs;
-}
-
-std::vector<Disc> wavy_ones(std::vector<Disc> discs) {
   std::vector<double> waviness;
-  for (const Disc& disc : discs) waviness.push_back(disc.signature.waviness());
+  for (Index i = 0; i < all.size(); ++i)
+    if (signatures[i]) {
+      discs.push_back({i, *signatures[i]});
+      waviness.push_back(signatures[i]->waviness());
+    }
   if (discs.empty()) return discs;
   constexpr double flat = 1e-6;  // of the radius: rounding
   const double least = std::max(flat, least_waviness * quantile(waviness, 0.8));
@@ -59,15 +50,15 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
                                                      const VoteOptions& options,
                                                      const Context& context) {
   constexpr Index alike = 8, most_asking = 3000;
-  constexpr double greatest_residual = 0.5, nearly = 1.2;
+  constexpr double greatest_residual = 0.5;
   std::vector<double> ratios{1};
   if (options.scales) ratios = {1, std::sqrt(0.5), std::sqrt(2.0), 0.5, 2};
   std::vector<std::vector<Disc>> discs;
   for (std::size_t k = 0; k < ratios.size(); ++k)
-    discs.push_back(wavy_ones(described_discs(
+    discs.push_back(described_discs(
         surface, options.radius * ratios[k],
         context.stage(0.5 * static_cast<double>(k) / static_cast<double>(ratios.size()),
-                      0.5 * static_cast<double>(k + 1) / static_cast<double>(ratios.size())))));
+                      0.5 * static_cast<double>(k + 1) / static_cast<double>(ratios.size()))));
   std::vector<Disc> found;
   for (const auto& scale : discs) found.insert(found.end(), scale.begin(), scale.end());
   if (found.empty()) return {};
@@ -86,7 +77,7 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
     std::vector<Neighbour> likest;
     for (Index k = begin; k < end; ++k) {
       const Disc& disc = found[k];
-      if (!disc.asks || k % stride != 0) continue;
+      if (k % stride != 0) continue;
       likest.clear();
       const auto wanted = static_cast<std::size_t>(alike);
       tree.search(invariants[k], infinity, [&](std::uint32_t other, double squared) {
@@ -100,18 +91,14 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
         for (const bool reflected : {false, true}) {
           if (!(reflected ? options.reflections : options.motions)) continue;
           const Disc& onto = found[other.index];
-          const std::vector<DiscMatch> turns = matches(disc.signature, onto.signature, reflected);
-          for (std::size_t t = 0; t < std::min<std::size_t>(2, turns.size()); ++t) {
-            if (turns[t].residual > greatest_residual ||
-                turns[t].residual > nearly * turns[0].residual)
-              break;
-            const double share = turns[t].residual / greatest_residual;
-            const Eigen::Affine3d map =
-                laid_onto(disc.signature, onto.signature, reflected, turns[t].angle);
-            const double weight = 1 - share * share;
-            votes.push_back({disc.point, onto.point, map, weight});
-            votes.push_back({onto.point, disc.point, map.inverse(), weight});
-          }
+          const std::optional<DiscMatch> match =
+              best_match(disc.signature, onto.signature, reflected);
+          if (!match || match->residual > greatest_residual) continue;
+          const double share = match->residual / greatest_residual, weight = 1 - share * share;
+          const Eigen::Affine3d map =
+              laid_onto(disc.signature, onto.signature, reflected, match->angle);
+          votes.push_back({disc.point, onto.point, map, weight});
+          votes.push_back({onto.point, disc.point, map.inverse(), weight});
         }
     }
   });

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "symmetries/partial/height_signature.h"
-#include "symmetries/pieces/thinned_surface.h"
+#include "symmetries/partial/thinned_surface.h"
 
 namespace symsurf {
 
@@ -24,15 +24,14 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
                                                      const VoteOptions& options,
                                                      const Context& context);
 
-/// Votes around a mode of their density, the heaviest mode first.
+/// Votes around one in whose neighbourhood they are densest.
 struct VoteCluster {
-  Eigen::Affine3d map = Eigen::Affine3d::Identity();  ///< of the vote nearest to the mode
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();  ///< of that one
   std::vector<Index> votes;
-  double mass = 0;
 };
 
-/// Mean shift (Comaniciu and Meer 2002) in the space of turns, shifts and scales, as in Mitra et
-/// al. (2006). Reflections and motions are two such spaces.
+/// Where votes are densest in the space of turns, shifts and scales (Mitra et al. 2006), of
+/// reflections and of motions, the densest first.
 std::vector<VoteCluster> vote_clusters(const std::vector<TransformationVote>& votes,
                                        std::size_t most, const Context& context);
 

@@ -9,12 +9,13 @@ namespace symsurf {
 
 namespace {
 
-constexpr double rounding = 1e-6;
+// Between matrices and directions: those of a small set are known to single precision, and the
+// least turn of a thousand points is more.
+constexpr double same = 1e-3;
 
 bool contains(const std::vector<Matrix3>& elements, const Matrix3& element) {
-  return std::any_of(elements.begin(), elements.end(), [&](const Matrix3& other) {
-    return (other - element).cwiseAbs().maxCoeff() < rounding;
-  });
+  return std::any_of(elements.begin(), elements.end(),
+                     [&](const Matrix3& other) { return (other - element).isZero(same); });
 }
 
 // The group that the generators make.
@@ -28,17 +29,26 @@ std::vector<Matrix3> closed(const std::vector<Matrix3>& generators) {
   return elements;
 }
 
-std::string name_of(Index order, const AxialElements& has) {
+// Schoenflies'.
+std::string name_of(const PointGroup& group) {
+  const std::vector<PointGroup::Axis> axes = group.axes();
+  const std::vector<Vector3> normals = group.plane_normals();
+  if (axes.empty()) return !normals.empty() ? "Cs" : group.inversion() ? "Ci" : "C1";
+  const Index order = axes[0].order;
+  if (axes.size() > 1 && axes[1].order > 2) {
+    const std::string name = order == 3 ? "T" : order == 4 ? "O" : "I";
+    return name + (group.inversion() ? "h" : normals.empty() ? "" : "d");
+  }
   const std::string n = order == 0 ? "∞" : std::to_string(order);
-  if (order == 1) return has.vertical || has.across ? "Cs" : has.rotary ? "Ci" : "C1";
-  const bool dihedral = has.twofold || (has.vertical && (has.across || has.rotary));
-  if (dihedral && has.across) return "D" + n + "h";
-  if (dihedral && has.rotary) return "D" + n + "d";
-  if (dihedral) return "D" + n;
-  if (has.vertical) return "C" + n + "v";
-  if (has.across) return "C" + n + "h";
-  if (has.rotary) return "S" + std::to_string(2 * order);
-  return "C" + n;
+  const bool across = std::any_of(normals.begin(), normals.end(), [&](const Vector3& normal) {
+    return are_parallel(normal, axes[0].direction, same);
+  });
+  // Of D2 and its kin each of three axes may stand first.
+  if (axes.size() > 1) return "D" + n + (across ? "h" : normals.empty() ? "" : "d");
+  if (across) return "C" + n + "h";
+  if (!normals.empty()) return "C" + n + "v";
+  const bool rotary = static_cast<Index>(group.elements.size()) > order && order > 0;
+  return rotary ? "S" + std::to_string(2 * order) : "C" + n;
 }
 
 }  // namespace
@@ -64,42 +74,46 @@ PointGroup axial_group(Index order, const AxialElements& has) {
   if (has.rotary) generators.push_back(turn(z, std::numbers::pi / n) * reflection(z));
   if (has.vertical) generators.push_back(reflection(x));
   if (has.twofold) generators.push_back(turn(x, std::numbers::pi));
-  return {name_of(order, has), closed(generators), order == 0};
+  return PointGroup(closed(generators), order == 0);
 }
 
-PointGroup inversion_group() { return {"Ci", closed({-Matrix3::Identity()})}; }
+PointGroup inversion_group() { return PointGroup({Matrix3::Identity(), -Matrix3::Identity()}); }
 
-PointGroup reflection_group() { return {"Cs", closed({reflection(Vector3::UnitZ())})}; }
+PointGroup reflection_group() { return axial_group(1, {.across = true}); }
 
-PointGroup spherical_group() { return {"K", closed({-Matrix3::Identity()}), false, true}; }
+PointGroup spherical_group() {
+  PointGroup group = inversion_group();
+  group.name = "K";
+  group.all = true;
+  return group;
+}
 
 PointGroup polyhedral_group(Index highest_order, bool inversion, bool mirror) {
   constexpr double third = 2 * std::numbers::pi / 3;
   std::vector<Matrix3> generators{turn(Vector3::UnitZ(), std::numbers::pi),
                                   turn(Vector3::Ones(), third)};
-  std::string name = "T";
-  if (highest_order == 4) {
-    name = "O";
+  if (highest_order == 4)
     generators.push_back(turn(Vector3::UnitZ(), std::numbers::pi / 2));
-  } else if (highest_order == 5) {
-    name = "I";
+  else if (highest_order == 5)
     generators.push_back(turn(Vector3(0, 1, std::numbers::phi), 2 * std::numbers::pi / 5));
-  }
-  if (inversion) {
-    name += "h";
+  if (inversion)
     generators.push_back(-Matrix3::Identity());
-  } else if (mirror && highest_order == 3) {
-    name += "d";
+  else if (mirror && highest_order == 3)
     generators.push_back(reflection(Vector3(1, -1, 0)));
-  }
-  return {name, closed(generators)};
+  return PointGroup(closed(generators));
+}
+
+PointGroup::PointGroup(std::vector<Matrix3> elements, bool continuous)
+    : elements(std::move(elements)), continuous(continuous) {
+  name = name_of(*this);
 }
 
 std::vector<Vector3> PointGroup::plane_normals() const {
   std::vector<Vector3> normals;
   if (all) return normals;
   for (const Matrix3& element : elements) {
-    if (element.determinant() > 0 || std::abs(element.trace() - 1) > rounding) continue;
+    if (element.determinant() > 0 || element.trace() < 0 || !(element * element).isIdentity(same))
+      continue;
     // I - 2 n n': its longest column with I taken away is along n.
     const Matrix3 moved = Matrix3::Identity() - element;
     Index longest;
@@ -113,18 +127,16 @@ std::vector<PointGroup::Axis> PointGroup::axes() const {
   if (all) return {{Vector3::UnitX(), 0}, {Vector3::UnitY(), 0}, {Vector3::UnitZ(), 0}};
   std::vector<Axis> found;
   for (const Matrix3& element : elements) {
-    if (element.determinant() < 0 || element.trace() > 3 - rounding) continue;
-    // Orthogonal to what the turn moves along: its axis is the null space of R - I.
-    Eigen::JacobiSVD<Matrix3> svd(element - Matrix3::Identity(), Eigen::ComputeFullV);
-    const Vector3 direction = svd.matrixV().col(2);
-    if (continuous && std::abs(direction.z()) > 1 - rounding) continue;
-    const auto same = std::find_if(found.begin(), found.end(), [&](const Axis& axis) {
-      return are_parallel(axis.direction, direction, rounding);
+    if (element.determinant() < 0 || element.isIdentity(same)) continue;
+    const Vector3 direction = Eigen::AngleAxisd(element).axis();
+    if (continuous && std::abs(direction.z()) > 1 - same) continue;
+    const auto known = std::find_if(found.begin(), found.end(), [&](const Axis& axis) {
+      return are_parallel(axis.direction, direction, same);
     });
-    if (same == found.end())
+    if (known == found.end())
       found.push_back({direction, 2});
     else
-      ++same->order;  // an axis of order n has n - 1 turns
+      ++known->order;  // an axis of order n has n - 1 turns
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Axis& a, const Axis& b) { return a.order > b.order; });

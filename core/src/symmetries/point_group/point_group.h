@@ -7,15 +7,19 @@
 
 namespace symsurf {
 
-/// A point group in its standard orientation: the main axis along z, and along x, in this order of
-/// preference, the normal of a mirror that holds the main axis or an axis of order 2.
+/// A point group. Those that are made here stand upright: the main axis along z, and along x, in
+/// this order of preference, the normal of a mirror that holds the main axis or an axis of order 2.
 struct PointGroup {
   struct Axis {
     Vector3 direction;
     Index order;  ///< 0: continuous
   };
 
-  std::string name = "C1";
+  PointGroup() = default;
+  /// Named by its elements, the identity first; `continuous`: with any turn about z.
+  explicit PointGroup(std::vector<Matrix3> elements, bool continuous = false);
+
+  std::string name = "C1";                             ///< Schoenflies'
   std::vector<Matrix3> elements{Matrix3::Identity()};  ///< the identity first
   bool continuous = false;                             ///< any turn about z is an element, too
   bool all = false;                                    ///< K: any turn is
@@ -33,7 +37,7 @@ struct AxialElements {
   bool twofold = false;   ///< axes of order 2 across it, one along x
 };
 
-/// `order` 0: continuous. The elements are completed to a group, which is then named.
+/// `order` 0: continuous.
 PointGroup axial_group(Index order, const AxialElements& elements);
 
 PointGroup inversion_group();   ///< Ci

@@ -8,16 +8,72 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
+#include "base/parallel.h"
 #include "detection/pipeline.h"
+#include "mesh/closest_point_on_mesh.h"
 #include "symmetries/analysis_registry.h"
-#include "symmetries/point_group/deviation.h"
 #include "symmetries/point_group/symmetry_search.h"
 #include "symmetries/point_group/symmetry_test.h"
-#include "symmetries/transformation_kind.h"
 
 namespace symsurf {
 
 namespace {
+
+// How far maps take a shape off itself: the greatest distance from the image of a vertex to the
+// surface, of a cloud from that of a point to the nearest point (Hodan et al. 2020, who call a map
+// a symmetry up to a limit of it).
+class Deviation {
+ public:
+  // The points must stay alive.
+  Deviation(PointsView points, TrianglesView faces, const Context& context);
+
+  // Of each map, in the unit of the points; looks at about as many images in all.
+  std::vector<double> of(const std::vector<Matrix4>& maps, Index looked,
+                         const Context& context) const;
+
+ private:
+  double squared_distance(const Vector3& x) const;
+
+  PointsView points_;
+  std::vector<Index> vertices_;
+  PointTree tree_;
+  std::optional<ClosestPointOnMesh> surface_;
+};
+
+Deviation::Deviation(PointsView points, TrianglesView faces, const Context& context)
+    : points_(points), tree_(points, context) {
+  if (!faces.empty()) surface_.emplace(points, faces, context);
+  std::vector<bool> is_vertex(points.size(), faces.empty());
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 3; ++c) is_vertex[faces[f][c]] = true;
+  for (const Index i : tree_.order())
+    if (is_vertex[i] && points[i].allFinite()) vertices_.push_back(i);
+}
+
+double Deviation::squared_distance(const Vector3& x) const {
+  return surface_ ? (*surface_)(x).squared_distance : tree_.nearest(x).squared_distance;
+}
+
+std::vector<double> Deviation::of(const std::vector<Matrix4>& maps, Index looked,
+                                  const Context& context) const {
+  const auto count = static_cast<Index>(vertices_.size()), all = static_cast<Index>(maps.size());
+  const Index stride = std::max<Index>(1, count * all / looked);
+  std::vector<double> deviations(maps.size(), 0);
+  parallel_for(context, all, 1, [&](Index begin, Index end) {
+    for (Index m = begin; m < end; ++m) {
+      if (maps[m].isIdentity(0)) continue;
+      double greatest = 0;
+      for (Index k = 0; k < count; k += stride) {
+        context.check();
+        const Vector3 image = (maps[m] * points_[vertices_[k]].homogeneous()).head<3>();
+        greatest = std::max(greatest, squared_distance(image));
+      }
+      deviations[m] = std::sqrt(greatest);
+    }
+  });
+  return deviations;
+}
 
 void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Context& context,
                     AnalysisResult& result) {
@@ -26,7 +82,7 @@ void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Con
   options.minimum_score = values.real("minimum_score");
   options.tolerance = values.real("tolerance");
   Symmetries found = find_symmetries(cloud.points, options, context);
-  constexpr double rounding = 1e-6;  // radians and diagonals; the elements are a group to less
+  constexpr double rounding = 1e-5;  // radians and diagonals: that of sets in single precision
   for (const Matrix4& element : found.elements)
     result.transformations.push_back(
         {kind_of(element, found.centre, rounding, rounding * cloud.diagonal),
@@ -58,11 +114,8 @@ bool deviates_little(Symmetries& found, const Deviation& deviation, double toler
   if (tolerance > 0)
     for (const SymmetryAxis& axis : found.axes) {
       if (axis.order != 0) continue;
-      for (const Matrix3& turned : any_turns(axis.direction, turns)) {
-        Matrix4& map = maps.emplace_back(Matrix4::Identity());
-        map.topLeftCorner<3, 3>() = turned;
-        map.topRightCorner<3, 1>() = axis.point - turned * axis.point;
-      }
+      for (const Matrix3& turned : any_turns(axis.direction, turns))
+        maps.push_back(map_taking(turned, axis.point, axis.point).matrix());
     }
   const std::vector<double> deviations = deviation.of(maps, looked, context);
   found.max_deviations.assign(

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
 #include "cloud/surface_spacing.h"
 #include "score/correspondence.h"
 #include "spatial/point_tree.h"
@@ -25,10 +26,7 @@ Matrix3 cross_matrix(const Vector3& v) {
 }  // namespace
 
 Eigen::Isometry3d GroupPose::placed(const Matrix3& element) const {
-  Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-  map.linear() = axes * element * axes.transpose();
-  map.translation() = centre - map.linear() * centre;
-  return map;
+  return map_taking(axes * element * axes.transpose(), centre, centre);
 }
 
 GroupPose GroupPose::along(const Vector3& z, const Vector3& centre) {

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
+#include "symmetries/exact_isometries.h"
 #include "symmetries/point_group/element_search.h"
-#include "symmetries/point_group/exact_group.h"
 #include "symmetries/point_group/point_group.h"
 #include "symmetries/point_group/symmetry_test.h"
 
@@ -27,28 +28,25 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
   return pose;
 }
 
-Symmetries described(const PlacedGroup& placed, const OrbitVote& vote,
+Symmetries described(const PointGroup& group, const GroupPose& pose, const OrbitVote& vote,
                      const PrincipalFrame& frame) {
-  const auto to_input = [&](const Vector3& direction) -> Vector3 {
-    return frame.axes * (placed.pose.axes * direction);
-  };
+  const Matrix3 axes = frame.axes * pose.axes;
   Symmetries found;
-  found.group = placed.group.name;
-  found.centre = frame.from_frame(placed.pose.centre);
-  for (const Vector3& normal : placed.group.plane_normals()) {
-    const Vector3 unit = placed.pose.axes * normal;
-    found.planes.push_back(in_input_units({unit, -unit.dot(placed.pose.centre)}, frame));
+  found.group = group.name;
+  found.centre = frame.from_frame(pose.centre);
+  for (const Vector3& normal : group.plane_normals()) {
+    const Vector3 unit = pose.axes * normal;
+    found.planes.push_back(in_input_units({unit, -unit.dot(pose.centre)}, frame));
   }
-  for (const PointGroup::Axis& axis : placed.group.axes())
-    found.axes.push_back({found.centre, to_input(axis.direction), axis.order});
-  found.inversion = placed.group.inversion();
-  for (const Matrix3& element : placed.group.elements) {
-    const Matrix3 axes = frame.axes * placed.pose.axes;
-    Matrix4 matrix = Matrix4::Identity();
-    if (!element.isIdentity(0))  // else it would be one but for rounding
-      matrix.topLeftCorner<3, 3>() = axes * element * axes.transpose();
-    matrix.topRightCorner<3, 1>() = found.centre - matrix.topLeftCorner<3, 3>() * found.centre;
-    found.elements.push_back(matrix);
+  for (const PointGroup::Axis& axis : group.axes())
+    found.axes.push_back({found.centre, axes * axis.direction, axis.order});
+  found.inversion = group.inversion();
+  for (const Matrix3& element : group.elements) {
+    if (element.isIdentity(0))  // else it would be one but for rounding
+      found.elements.emplace_back(Matrix4::Identity());
+    else
+      found.elements.push_back(
+          map_taking(axes * element * axes.transpose(), found.centre, found.centre).matrix());
   }
   found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
   found.missing = vote.missing;
@@ -75,7 +73,7 @@ class SymmetrySearch {
         if (std::optional<Symmetries> found = verified(*placed)) return *found;
     if (std::optional<Symmetries> found = axial()) return *found;
     if (std::optional<Symmetries> found = of_two()) return *found;
-    Symmetries none = described({{}, {}}, {.support = 1}, cloud_.frame);
+    Symmetries none = described({}, {}, {.support = 1}, cloud_.frame);
     accepts_(none);
     return none;
   }
@@ -118,12 +116,7 @@ class SymmetrySearch {
       if (off >= nearest) continue;
       nearest = off;
       const Vector3 other = cosine * a.dot(b) < 0 ? Vector3(-ideal[k]) : ideal[k];
-      const auto basis = [](const Vector3& u, const Vector3& v) {
-        Matrix3 m;
-        m << u, u.cross(v).normalized(), u.cross(u.cross(v).normalized());
-        return m;
-      };
-      pose = GroupPose{basis(a, b) * basis(ideal[0], other).transpose(), centre_};
+      pose = GroupPose{basis_of(a, b) * basis_of(ideal[0], other).transpose(), centre_};
     }
     if (!pose) return {};
     const auto has = [&](const Matrix3& element) {
@@ -259,7 +252,7 @@ class SymmetrySearch {
     }
     const auto passed = test_.passed(placed.pose, elements, continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
-    Symmetries found = described({placed.group, passed->pose}, passed->vote, cloud_.frame);
+    Symmetries found = described(placed.group, passed->pose, passed->vote, cloud_.frame);
     if (!accepts_(found)) return {};
     return found;
   }
@@ -272,14 +265,25 @@ class SymmetrySearch {
   Vector3 centre_ = Vector3::Zero();
 };
 
+// That of all isometries of a small set, such as landmarks or the atoms of a molecule; C1 of
+// others.
+PointGroup exact_group(const Cloud& cloud, const Context& context) {
+  constexpr Index most_points = 1000;
+  if (cloud.points.size() > most_points) return {};
+  Points points(cloud.points.size(), 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    points.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
+  return PointGroup(exact_isometries(points, PointTree(points, context), context));
+}
+
 }  // namespace
 
 Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
                              const std::function<bool(Symmetries&)>& accepts,
                              const Context& context) {
   if (is_set)
-    if (const std::optional<PlacedGroup> exact = exact_group(cloud, context)) {
-      Symmetries found = described(*exact, {.support = 1}, cloud.frame);
+    if (const PointGroup exact = exact_group(cloud, context); exact.elements.size() > 1) {
+      Symmetries found = described(exact, {}, {.support = 1}, cloud.frame);
       if (accepts(found)) return found;
     }
   return SymmetrySearch(cloud, minimum_score, accepts, context).run();

@@ -5,13 +5,22 @@
 
 #include "score/mirror_score.h"
 #include "spatial/point_tree.h"
-#include "symmetries/point_group/orbit_vote.h"
 #include "symmetries/point_group/symmetry_fit.h"
 
 namespace symsurf {
 
 /// Of the surfels that an element moves so many must come so near to others, in diagonals.
 constexpr double rough_tolerance = 0.015, rough_support = 0.45;
+
+/// What the orbits of a cloud's points say of a group: of the images of a point under all elements,
+/// how many lie on the cloud.
+struct OrbitVote {
+  double support = 0;   ///< share of the images on the surface, of those where the cloud has points
+  double fit = 0;       ///< the mean of their supports, a measure of how close they come
+  double missing = 0;   ///< share of the images that do
+  double outliers = 0;  ///< share of the points that too few of their images confirm
+  double share() const { return support * (1 - missing); }
+};
 
 /// Whether elements of a point group map a cloud onto itself: their pose is fitted, then the orbits
 /// of the points vote.

@@ -1,12 +1,12 @@
-#include "symmetries/recurring/closed_lines.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/math.h"
+#include "base/nearest_orthogonal.h"
 #include "base/symmetric_eigen.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 
@@ -109,10 +109,9 @@ std::optional<RecurringPart::Instance> taken_to(const Rims& from, const Rims& on
     if (alike && cosine > most) {
       most = cosine;
       RecurringPart::Instance instance;
-      instance.map.linear() =
-          Eigen::Quaterniond::FromTwoVectors(from.circles[0].normal, circles[0].normal)
-              .toRotationMatrix();
-      instance.map.translation() = onto.centre() - instance.map.linear() * from.centre();
+      const auto turn =
+          Eigen::Quaterniond::FromTwoVectors(from.circles[0].normal, circles[0].normal);
+      instance.map = map_taking(turn.toRotationMatrix(), from.centre(), onto.centre());
       for (const Circle& circle : circles) instance.lines.push_back(circle.line);
       best = instance;
     }

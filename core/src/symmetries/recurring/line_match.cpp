@@ -53,7 +53,7 @@ bool LineMatching::agrees(const Eigen::Isometry3d& map, const FeatureLine& line,
     return false;
   if (line.has_ends()) {
     const Vector3 &start = graph_.corners[image.start], &end = graph_.corners[image.end];
-    if ((map * graph_.corners[line.start] - (reversed ? end : start)).norm() > near ||
+    if ((map * graph_.corners[line.start] - (reversed ? end : start)).norm() > tolerance_ ||
         (map * graph_.corners[line.end] - (reversed ? start : end)).norm() > near)
       return false;
     for (int step = 1; step < FeatureLine::steps; ++step)
@@ -107,8 +107,6 @@ std::vector<std::pair<Index, Index>> LineMatching::reached(const Eigen::Isometry
 }
 
 Eigen::Isometry3d LineMatching::fitted(const LineMatch& match) const {
-  // Of each line its samples, and points into the faces beside it, without which one line is free
-  // to turn.
   std::vector<std::pair<Vector3, Vector3>> pairs;
   for (const auto& [from, onto] : match.lines) {
     const FeatureLine &line = graph_.lines[from], &image = graph_.lines[onto];
@@ -121,29 +119,8 @@ Eigen::Isometry3d LineMatching::fitted(const LineMatch& match) const {
     for (int step = 0; step < FeatureLine::steps; ++step)
       pairs.emplace_back(line.samples[step],
                          sample(image, graph_.corners[image.end], step, reversed));
-    for (const Vector3& wing : line.wings) {
-      const Vector3 turned = match.map.linear() * wing;
-      const auto partner = std::max_element(
-          image.wings.begin(), image.wings.end(),
-          [&](const Vector3& a, const Vector3& b) { return turned.dot(a) < turned.dot(b); });
-      const double arm = line.length / 4;
-      pairs.emplace_back(line.middle() + arm * wing, image.middle() + arm * *partner);
-    }
   }
-  Vector3 from = Vector3::Zero(), onto = Vector3::Zero();
-  for (const auto& [x, y] : pairs) {
-    from += x;
-    onto += y;
-  }
-  from /= static_cast<double>(pairs.size());
-  onto /= static_cast<double>(pairs.size());
-  Matrix3 products = Matrix3::Zero();
-  for (const auto& [x, y] : pairs) products += (y - onto) * (x - from).transpose();
-  const double parity = match.map.linear().determinant() > 0 ? 1 : -1;
-  Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
-  map.linear() = nearest_orthogonal(products, parity);
-  map.translation() = onto - map.linear() * from;
-  return map;
+  return nearest_isometry(pairs, match.map.linear().determinant() > 0 ? 1 : -1);
 }
 
 std::optional<LineMatch> LineMatching::grown(Index line, Index image, Pose pose) const {
@@ -154,16 +131,16 @@ std::optional<LineMatch> LineMatching::grown(Index line, Index image, Pose pose)
     const Matrix3 before = basis(start, end, one.wings, {false, false});
     const Matrix3 after =
         basis(graph_.corners[other.start], graph_.corners[other.end], other.wings, pose);
-    match.map.linear() = after * before.transpose();
-    match.map.translation() = (graph_.corners[other.start] + graph_.corners[other.end]) / 2 -
-                              match.map.linear() * (start + end) / 2;
+    match.map = map_taking(after * before.transpose(), (start + end) / 2,
+                           (graph_.corners[other.start] + graph_.corners[other.end]) / 2);
   }
   constexpr int rounds = 5;
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::pair<Index, Index>> lines = reached(match.map, line, image, pose.reversed);
     if (lines.size() <= match.lines.size()) break;
     match.lines = std::move(lines);
-    if (line == image && !pose.reversed && !pose.reflected) break;
+    const bool is_own = line == image && !pose.reversed && !pose.reflected;
+    if (is_own || match.lines.size() < 2) break;  // one line would be free to turn
     match.map = fitted(match);
   }
   if (match.lines.empty()) return {};

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "symmetries/recurring/seed_part.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 

@@ -1,11 +1,8 @@
-#include "symmetries/recurring/part_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "symmetries/recurring/closed_lines.h"
-#include "symmetries/recurring/part_union.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 
@@ -14,9 +11,6 @@ namespace {
 // Lines that one is compared with, and what all comparisons may cost: a pair of lines that few are
 // connected with costs 1, of those that many are more. To walk over so few lines costs as much.
 constexpr std::size_t most_alike = 20000, most_cost = 40000, many = 100, few = 25;
-
-// Of the tolerance: shorter lines begin no match, where nearly any direction fits.
-constexpr double least_seed = 3;
 
 class PartSearch {
  public:
@@ -28,8 +22,7 @@ class PartSearch {
         matching_(graph, tolerance, taken_) {
     for (std::size_t k = 0; k < graph.lines.size(); ++k) {
       const FeatureLine& line = graph.lines[k];
-      if (line.start != line.end && line.length > least_seed * tolerance)
-        by_length_.push_back(static_cast<Index>(k));
+      if (line.start != line.end) by_length_.push_back(static_cast<Index>(k));
     }
     std::stable_sort(by_length_.begin(), by_length_.end(), [&](Index a, Index b) {
       return graph.lines[a].length < graph.lines[b].length;

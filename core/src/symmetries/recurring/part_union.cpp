@@ -1,9 +1,8 @@
-#include "symmetries/recurring/part_union.h"
-
 #include <algorithm>
 #include <optional>
 
 #include "base/math.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 

@@ -3,8 +3,7 @@
 
 #include "symmetries/analysis_registry.h"
 #include "symmetries/recurring/part_points.h"
-#include "symmetries/recurring/part_search.h"
-#include "symmetries/transformation_kind.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 
@@ -13,14 +12,6 @@ namespace {
 // Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
 // after.
 constexpr double named_angle = 0.02, named_share = 0.1;
-
-Matrix4 in_units_of(const Cloud& cloud, const Eigen::Isometry3d& map) {
-  Matrix4 input = Matrix4::Identity();
-  input.topLeftCorner<3, 3>() = map.linear();
-  input.topRightCorner<3, 1>() = cloud.frame.centroid + cloud.diagonal * map.translation() -
-                                 map.linear() * cloud.frame.centroid;
-  return input;
-}
 
 void run_recurring_parts(const Cloud& cloud, const ParameterValues& values, const Context& context,
                          AnalysisResult& result) {
@@ -54,7 +45,10 @@ void run_recurring_parts(const Cloud& cloud, const ParameterValues& values, cons
         cloud.points.matrix()(points.members[p][0], Eigen::indexing::all).colwise().mean();
     for (std::size_t k = 0; k < parts[p].instances.size(); ++k) {
       Transformation transformation;
-      transformation.matrix = in_units_of(cloud, parts[p].instances[k].map);
+      Eigen::Isometry3d map = parts[p].instances[k].map;
+      map.translation() *= cloud.diagonal;
+      const Eigen::Translation3d from_centroid(cloud.frame.centroid);
+      transformation.matrix = (from_centroid * map * from_centroid.inverse()).matrix();
       const Vector3 moved = (transformation.matrix * middle.homogeneous()).head<3>() - middle;
       // But the first none is the identity, however little it moves.
       transformation.kind =

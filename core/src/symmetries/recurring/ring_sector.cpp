@@ -1,10 +1,9 @@
-#include "symmetries/recurring/ring_sector.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/math.h"
+#include "symmetries/recurring/connected_lines.h"
 
 namespace symsurf {
 
@@ -53,31 +52,15 @@ RingSector ring_sector(const ConnectedLines& around, const std::vector<LocalMatc
   if (found.turns.empty()) return found;
   std::vector<const LocalMatch*> turns;
   for (const LocalMatch& turn : found.turns) turns.push_back(&turn);
-  const Eigen::Isometry3d& next = found.turns[1].map;
   const auto is_in_ring = [&](std::size_t line) { return found.turns.front().images[line] >= 0; };
-  const auto chord = [&](std::size_t line) {
-    return (next * around.middle(line) - around.middle(line)).norm();
-  };
-  double farthest = 0, nearest = infinity;
-  for (std::size_t line = 0; line < around.size(); ++line)
-    if (is_in_ring(line)) {
-      farthest = std::max(farthest, chord(line));
-      nearest = std::min(nearest, chord(line));
-    }
-  // A sector begins with a line far from the axis, as the tip of a tooth is: with that which gives
-  // the most compact one.
-  constexpr double stands_out = 0.75, less = 1 - 1e-6;
-  const double far = nearest + stands_out * (farthest - nearest);
+  // Of the sectors that begin with a line each, the most compact one.
+  constexpr double less = 1 - 1e-6;
   std::vector<char> seen(around.graph().lines.size(), 0);
   double least = infinity;
   for (std::size_t line = 0; line < around.size(); ++line) {
-    if (!is_in_ring(line) || seen[around.number(line)] || chord(line) < far) continue;
+    if (!is_in_ring(line) || seen[around.number(line)]) continue;
     for (const LocalMatch& turn : found.turns) seen[turn.images[line]] = 1;
-    // Of what lies as near on both of its sides, that on the same one is taken.
-    constexpr double aside = 0.05;  // of the distance to the next sector
-    const Vector3 tip = around.middle(line);
-    LocalLines own =
-        around.disjoint(turns, static_cast<std::int32_t>(line), tip + aside * (next * tip - tip));
+    LocalLines own = around.disjoint(turns, static_cast<std::int32_t>(line), around.middle(line));
     const double spread = spread_of(own, around);
     if (own.size() < found.lines.size() ||
         (own.size() == found.lines.size() && spread >= less * least))

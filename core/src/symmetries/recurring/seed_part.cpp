@@ -1,10 +1,8 @@
-#include "symmetries/recurring/seed_part.h"
-
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
-#include "symmetries/recurring/ring_sector.h"
+#include "symmetries/recurring/connected_lines.h"
+#include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
 
@@ -52,10 +50,6 @@ std::vector<LocalMatch> matches_of(Index seed, const std::vector<Index>& alike,
   return matches;
 }
 
-bool is_translation(const LocalMatch& match) {
-  return (match.map.linear() - Matrix3::Identity()).norm() < same_turn;
-}
-
 // Considers parts around a seed.
 class PartOfSeed {
  public:
@@ -63,8 +57,7 @@ class PartOfSeed {
       : around_(around), matches_(matches) {}
 
   RecurringPart run() {
-    consider_levels([](const LocalMatch&) { return true; });
-    consider_levels(is_translation);
+    consider_levels();
     // A whole that recurs is a part, and no ring of its sectors.
     if (std::none_of(candidates_.begin(), candidates_.end(),
                      [](const RecurringPart& part) { return part.is_whole; })) {
@@ -77,24 +70,17 @@ class PartOfSeed {
 
  private:
   // What all of the matches that hold at least so much have in common, level by level.
-  template <typename Chosen>
-  void consider_levels(const Chosen& chosen) {
+  void consider_levels() {
     std::vector<double> levels;
-    for (const LocalMatch& match : matches_)
-      if (chosen(match)) levels.push_back(match.length);
+    for (const LocalMatch& match : matches_) levels.push_back(match.length);
     std::sort(levels.rbegin(), levels.rend());
-    constexpr double same_level = 0.98;
-    std::vector<double> kept;
-    for (std::size_t k = 0; k + 1 <= levels.size(); ++k)
-      if (k + 1 == levels.size() || levels[k + 1] < same_level * levels[k])
-        kept.push_back(levels[k]);
-    const std::size_t stride = kept.size() / most_levels + 1;
-    for (std::size_t k = 0; k < kept.size(); k += stride) {
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    const std::size_t stride = levels.size() / most_levels + 1;
+    for (std::size_t k = 0; k < levels.size(); k += stride) {
       std::vector<const LocalMatch*> level;
       for (const LocalMatch& match : matches_)
-        if (chosen(match) && match.length >= kept[k]) level.push_back(&match);
+        if (match.length >= levels[k]) level.push_back(&match);
       consider(around_.common(level), matches_);
-      consider(around_.disjoint(level, 0, around_.middle(0)), matches_);
     }
   }
 
@@ -122,31 +108,7 @@ class PartOfSeed {
     }
     // A pair is one only as a whole: of two halves of a body all lines go on to the other.
     const std::size_t least = is_whole ? 2 : 3;
-    if (found.instances.size() >= least && !is_halved(found))
-      candidates_.push_back(std::move(found));
-  }
-
-  // Whether a reflection or half-turn takes the first instance to one that it touches, or that a
-  // line joins it to: these are halves of a part that is symmetric.
-  bool is_halved(const RecurringPart& part) const {
-    const FeatureLines& graph = around_.graph();
-    std::unordered_set<Index> own;
-    for (const Index line : part.lines)
-      for (const Index corner : {graph.lines[line].start, graph.lines[line].end})
-        if (corner >= 0)
-          for (const Index next : graph.at[corner])
-            own.insert({graph.lines[next].start, graph.lines[next].end});
-    return std::any_of(
-        part.instances.begin() + 1, part.instances.end(),
-        [&](const RecurringPart::Instance& instance) {
-          const Eigen::Isometry3d twice = instance.map * instance.map;
-          const Vector3 middle = around_.middle(0);
-          return (twice.linear() - Matrix3::Identity()).norm() < 2 * same_turn &&
-                 (twice * middle - middle).norm() < same_turn * part.length &&
-                 std::any_of(instance.lines.begin(), instance.lines.end(), [&](Index line) {
-                   return own.count(graph.lines[line].start) || own.count(graph.lines[line].end);
-                 });
-        });
+    if (found.instances.size() >= least) candidates_.push_back(std::move(found));
   }
 
   const ConnectedLines& around_;

@@ -1,4 +1,4 @@
-#include "symmetries/pieces/thinned_surface.h"
+#include "symmetries/partial/thinned_surface.h"
 
 #include <algorithm>
 #include <cmath>

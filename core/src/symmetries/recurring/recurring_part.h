@@ -30,4 +30,18 @@ std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts
 RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
                         const LineMatching& matching, const Context& context);
 
+/// Parts of closed lines without corners, as the rims of holes are: circles of one size, and other
+/// curves by their principal axes.
+std::vector<RecurringPart> closed_line_parts(const FeatureLines& graph, double tolerance,
+                                             const Context& context);
+
+/// Joins parts whose instances lie to each other the same way, as a frame and its panes do.
+std::vector<RecurringPart> united(std::vector<RecurringPart> parts, const FeatureLines& graph,
+                                  double tolerance);
+
+/// The recurring parts of a graph of feature lines (Bokeloh et al. 2009), those that save most
+/// first, at most `count`. No line is in two instances.
+std::vector<RecurringPart> part_search(const FeatureLines& graph, double tolerance, Index count,
+                                       const Context& context);
+
 }  // namespace symsurf

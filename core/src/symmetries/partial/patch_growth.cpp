@@ -1,4 +1,4 @@
-#include "symmetries/pieces/patch_growth.h"
+#include "symmetries/partial/patch_growth.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
