@@ -42,7 +42,7 @@ struct Freedom {
   double cost = 0, by_chance = 0;
   // Of a kind that may have any height over each position.
   struct Evidence {
-    double open, closed;  // nats, to begin with: where the cloud closes around it in a single layer
+    double open, closed;  // nats, to begin with: closed where MirrorLayers has a single one
   };
   std::optional<Evidence> any_shape = {};
 };
@@ -201,7 +201,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   MirrorFit found = whole_of(points, stride);
   if (freedom.any_shape) {
     const auto [open, closed] = *freedom.any_shape;
-    found.evidence = open + layers.single() * (closed - open) + sides.evidence() +
+    found.evidence = (layers.single() > 0 ? closed : open) + sides.evidence() +
                      parts * std::log(std::clamp(found.share, 0.01, 1.0));
   }
   return of_mesh(found);
