@@ -22,6 +22,21 @@ Candidate<UnitPlane> touching_plane(const UnitSphere& sphere) {
   return {{up, sphere.distance(Vector3::Zero())}};
 }
 
+Candidate<UnitPlane> fitted_plane(const ParametricRefinement& refinement,
+                                  const UnitSphere& sphere) {
+  return refinement.fitted(touching_plane(sphere), looked_at, 6);
+}
+
+template <typename IsPlane>
+void drop(const IsPlane& is_plane, std::vector<SphereCandidate>& candidates) {
+  std::erase_if(candidates, [](const SphereCandidate& c) { return c.shape.radius() > widest; });
+  std::vector<SphereCandidate> spheres;
+  std::remove_copy_if(
+      candidates.begin(), candidates.end(), std::back_inserter(spheres),
+      [&](const SphereCandidate& c) { return could_be_plane(c.shape) && is_plane(c); });
+  if (!spheres.empty()) candidates = std::move(spheres);
+}
+
 }  // namespace
 
 std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
@@ -39,20 +54,24 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
   return taken;
 }
 
-void drop_flat(std::vector<SphereCandidate>& candidates) {
-  std::erase_if(candidates, [](const SphereCandidate& c) { return !(c.shape.radius() < widest); });
+void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
+  drop(
+      [&](const SphereCandidate& c) {
+        return c.partnered == 0 && fitted_plane(refinement, c.shape).support >
+                                       as_much * refinement.support(c.shape, looked_at);
+      },
+      candidates);
 }
 
-void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
-  drop_flat(candidates);
-  std::vector<SphereCandidate> spheres;
-  std::remove_copy_if(candidates.begin(), candidates.end(), std::back_inserter(spheres),
-                      [&](const SphereCandidate& c) {
-                        return could_be_plane(c.shape) && c.partnered == 0 &&
-                               refinement.fitted(touching_plane(c.shape), looked_at, 6).support >
-                                   as_much * refinement.support(c.shape, looked_at);
-                      });
-  if (!spheres.empty()) candidates = std::move(spheres);
+void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
+                 const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates) {
+  drop(
+      [&](const SphereCandidate& c) {
+        const Plane plane = in_input_units(fitted_plane(refinement, c.shape).shape, frame);
+        const Sphere sphere = in_input_units(c.shape, frame);
+        return merit(score.fit(plane), "plane") >= merit(score.fit(sphere), "sphere");
+      },
+      candidates);
 }
 
 }  // namespace symsurf

@@ -4,6 +4,7 @@
 
 #include "methods/parametric/refinement.h"
 #include "methods/sphere/sphere_candidates.h"
+#include "score/mirror_score.h"
 
 namespace symsurf {
 
@@ -15,11 +16,12 @@ namespace symsurf {
 std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
                                          std::vector<SphereCandidate>& candidates);
 
-/// Drops those that differ from a plane by rounding only.
-void drop_flat(std::vector<SphereCandidate>& candidates);
-
-/// Drops these, and those without partners that a plane explains as well, measured on points; all
-/// but where there is nothing else. Through noise of 1 % half of the spheres are lost without it.
+/// Drops those without partners that a plane explains as well, measured on points; all but where
+/// there is nothing else. Those that differ from a plane by rounding only go in any case.
 void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates);
+
+/// The same by the score, with partners or without.
+void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
+                 const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates);
 
 }  // namespace symsurf

@@ -132,9 +132,9 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
       cloud, surfels, rough, sample_size, refinement, partner_fit, context.stage(0.6, 0.7));
   if (candidates.empty()) return best;
   refine(candidates, surfels, refinement, partner_fit);
-  drop_flat(candidates);
-  if (candidates.empty()) return best;
   const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
+  drop_planes(refinement, score, cloud.frame, candidates);
+  if (candidates.empty()) return best;
   suppress_non_maxima(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const SphereCandidate& candidate : candidates)
