@@ -38,11 +38,6 @@ constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
 constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
 constexpr Index few = 1000;             // points: the score of fewer is unreliable
 
-double statistic(const Result& result, const char* name) {
-  const auto found = result.statistics.find(name);
-  return found == result.statistics.end() ? 0 : std::get<double>(found->second);
-}
-
 // Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
 // hide where the score looks least closely: among few points, and inside bodies.
 bool may_hide_exact_one(const Cloud& cloud, const Context& context) {

@@ -362,10 +362,12 @@ double score_of(const MirrorFit& fit, std::string_view kind) {
   return std::min(1.0, merit(fit, kind) * std::max(fit.exact, likely));
 }
 
-bool is_exact(const Result& result) {
-  const auto found = result.statistics.find("exact_share");
-  return found != result.statistics.end() && std::get<double>(found->second) >= 1;
+double statistic(const Result& result, const char* name) {
+  const auto found = result.statistics.find(name);
+  return found == result.statistics.end() ? 0 : std::get<double>(found->second);
 }
+
+bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
 
 void cap_candidates(Result& result) {
   for (Result& other : result.candidates) other.score = std::min(other.score, result.score);

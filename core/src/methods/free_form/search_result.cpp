@@ -135,7 +135,7 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
   for (std::size_t k = 0; k < std::min(most, found.size()); ++k) mirrors.push_back(found[k].mirror);
   Values statistics = std::move(result.statistics);
   result = score.ranked(result.method, mirrors);
-  if (score.fit(*result.mirror).evidence < 0) put_first(mirrors.front(), result);
+  if (statistic(result, "evidence") < 0) put_first(mirrors.front(), result);
   const GrownSurface& surface =
       found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
   statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
