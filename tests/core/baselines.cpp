@@ -1,4 +1,4 @@
-// Planes by the methods of Combes et al. and of Nagar and Raman.
+// Planes by the methods of Combes et al., of Nagar and Raman, and of Hruda et al.
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
@@ -11,6 +11,7 @@
 
 #include "base/math.h"
 #include "methods/baselines/plane_updates.h"
+#include "methods/baselines/symmetry_measure.h"
 #include "random_cloud.h"
 
 namespace symsurf {
@@ -191,6 +192,74 @@ TEST(PlaneSvd, StepIsTheBestReflectionOfTheMutualPairs) {
     EXPECT_NEAR(next.distance(middle), 0, 1e-12);
   }
   EXPECT_GT(with_one_negative, 10);
+}
+
+// The definition, pair by pair.
+double measure_by_definition(const Points& points, const Eigen::Vector4d& p) {
+  const Vector3 n = p.head<3>();
+  double sum = 0;
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vector3 x = points.row(i).transpose();
+    const Vector3 image = x - 2 * (n.dot(x) + p[3]) / n.squaredNorm() * n;
+    for (Index j = 0; j < points.rows(); ++j)
+      sum += wendland((image - points.row(j).transpose()).norm() / measure_reach(points));
+  }
+  return sum;
+}
+
+Eigen::Vector4d random_plane(RandomCloud& random) {
+  Eigen::Vector4d p;
+  p << random.uniform(0.3, 3) * random.direction(), random.uniform(-0.3, 0.3);
+  return p;
+}
+
+TEST(PlaneHruda, MeasureIsTheSumOverAllPairs) {
+  EXPECT_EQ(wendland(0), 1);
+  EXPECT_EQ(wendland(1), 0);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = random.sphere(300);
+    const SymmetryMeasure measure(points);
+    const Eigen::Vector4d p = random_plane(random);
+    EXPECT_NEAR(measure(p), measure_by_definition(points, p), 1e-10) << seed;
+    EXPECT_NEAR(measure(-7 * p), measure(p), 1e-10) << seed;
+  }
+}
+
+TEST(PlaneHruda, GradientIsTheLimitOfDifferences) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const SymmetryMeasure measure(random.sphere(300));
+    const Eigen::Vector4d p = random_plane(random);
+    Eigen::Vector4d gradient;
+    measure(p, gradient);
+    for (int k = 0; k < 4; ++k) {
+      constexpr double step = 1e-6;
+      const Eigen::Vector4d shift = step * Eigen::Vector4d::Unit(k);
+      const double difference = (measure(p + shift) - measure(p - shift)) / (2 * step);
+      EXPECT_NEAR(gradient[k], difference, 1e-5 * (1 + gradient.norm())) << seed << ' ' << k;
+    }
+  }
+}
+
+// The cells of its thinned cloud do not mirror each other, so that exact planes are not met
+// exactly. Not of wedges: of one in eight the best starts lead to another maximum.
+TEST(PlaneHruda, FindsPlanesToAShareOfADegree) {
+  constexpr double half_a_degree = 0.0087;
+  for (const char* shape : {"surface", "ball"})
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      RandomCloud random(seed);
+      const Points points = symmetric_cloud(shape, 4000, random);
+      const Matrix3 rotation = random.rotation();
+      const Vector3 shift = 3 * random.in_box();
+      const double scale = std::exp(random.uniform(-3, 3));
+      const Points moved = (scale * points * rotation.transpose()).rowwise() + shift.transpose();
+      const Result result = detect(moved, {.method = "plane_hruda"});
+      const auto& plane = dynamic_cast<const Plane&>(*result.mirror);
+      EXPECT_LE(plane.normal().cross(rotation.col(0)).norm(), half_a_degree)
+          << shape << " " << seed;
+      EXPECT_LE(std::abs(plane.signed_distance(shift)), 0.01 * scale) << shape << " " << seed;
+    }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ const std::vector<MethodImplementation>& implementations() {
         cylinder_method(),      quadric_method(),       fixed_direction_method(),
         perpendicular_method(), separation_method(),    separation_normals_method(),
         normals_only_method(),  sphere_thesis_method(), plane_icp_method(),
-        plane_svd_method(),
+        plane_svd_method(),     plane_hruda_method(),
     };
     for (MethodImplementation& each : all) {
       each.parameters.push_back(minimum_score());

@@ -44,6 +44,7 @@ MethodImplementation normals_only_method();
 MethodImplementation sphere_thesis_method();
 MethodImplementation plane_icp_method();
 MethodImplementation plane_svd_method();
+MethodImplementation plane_hruda_method();
 
 /// In the order of methods().
 const std::vector<MethodImplementation>& implementations();

@@ -30,6 +30,7 @@ _MIRRORS = {
     "sphere_thesis": "Sphere",
     "plane_icp": "Plane",
     "plane_svd": "Plane",
+    "plane_hruda": "Plane",
 }
 
 

@@ -38,6 +38,10 @@ def symsurf_svd(points: Points) -> Plane:
     return symsurf.detect(points, "plane_svd", threads=1).mirror
 
 
+def symsurf_hruda(points: Points) -> Plane:
+    return symsurf.detect(points, "plane_hruda", threads=1).mirror
+
+
 def principal_axes(points: Points) -> Plane:
     """Of the planes through the centroid across the principal axes the one with the least
     distances from the images to the points."""
@@ -105,6 +109,7 @@ DETECTORS: dict[str, Callable[[Points], Plane | None]] = {
     "symsurf `auto`": symsurf_auto,
     "symsurf `plane_icp`": symsurf_icp,
     "symsurf `plane_svd`": symsurf_svd,
+    "symsurf `plane_hruda`": symsurf_hruda,
     "principal axes": principal_axes,
     "pyclarcs": pyclarcs,
     "reflective ICP": reflective_icp,

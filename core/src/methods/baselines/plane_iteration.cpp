@@ -148,11 +148,17 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const Candidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Plane>(in_input_units(candidate.plane, cloud.frame)));
-  PointTree tree(cloud.points, context.stage(0.8, 0.85));
+  return ranked_planes(method, cloud, mirrors, values, context.stage(0.8, 1));
+}
+
+Result ranked_planes(const std::string& method, const Cloud& cloud,
+                     const std::vector<std::shared_ptr<Mirror>>& planes,
+                     const ParameterValues& values, const Context& context) {
+  PointTree tree(cloud.points, context.stage(0, 0.25));
   const NearestPoints points(cloud.points, tree, context);
-  Result best = MirrorScore(cloud, points, context.stage(0.85, 0.9)).ranked(method, mirrors);
+  Result best = MirrorScore(cloud, points, context.stage(0.25, 0.5)).ranked(method, planes);
   add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.9, 1));
+            values.real("pair_distance") * cloud.diagonal, context.stage(0.5, 1));
   return best;
 }
 

@@ -4,6 +4,7 @@
 #include <symsurf/result.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ Points thinned_points(const Cloud& cloud, const Context& context);
 Result iterated_planes(const std::string& method, const Cloud& cloud, const Points& thinned,
                        const std::vector<UnitPlane>& starts, const PlaneUpdate& update,
                        const ParameterValues& values, const Context& context);
+
+/// The best of the planes by the score, with its pairs; the others are its candidates.
+Result ranked_planes(const std::string& method, const Cloud& cloud,
+                     const std::vector<std::shared_ptr<Mirror>>& planes,
+                     const ParameterValues& values, const Context& context);
 
 /// The parameter "normal" of a start, and the start that it asks for; none where it is zero.
 Parameter start_normal(std::string doc);

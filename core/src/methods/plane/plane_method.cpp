@@ -270,9 +270,7 @@ MethodImplementation plane_method() {
   MethodImplementation method;
   method.name = "plane";
   method.title = "Mirror plane";
-  method.summary =
-      "Finds the plane that mirrors the shape best (Hruda, Kolingerova and Vasa 2022), refined on "
-      "the full cloud.";
+  method.summary = "Finds the plane that mirrors the shape best, refined on the full cloud.";
   method.parameters = {
       surfels_searched(1000, "the plane"),
       max_candidates(64, 64, "planes"),

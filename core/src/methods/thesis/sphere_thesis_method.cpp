@@ -8,24 +8,16 @@
 
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
+#include "methods/baselines/symmetry_measure.h"
 #include "methods/common_parameters.h"
 #include "methods/registry.h"
 #include "score/matching.h"
-#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr double support_of_alpha = 2.6;
 constexpr Index most_points = 10'000;  // or a look at each of them, a thousand times, takes long
-
-// Where phi ends: alpha = 15 / l_avg of the set scored.
-double support(PointsView points) {
-  const Eigen::RowVector3d centroid = points.matrix().colwise().mean();
-  const double average = (points.matrix().rowwise() - centroid).rowwise().norm().mean();
-  return support_of_alpha * average / 15;
-}
 
 // x' = x + 2 (|u| - r) u / |u|, u = c - x, wherever x lies but at the centre.
 bool mirrored(const Vector3& x, const Vector3& centre, double radius, Vector3& image) {
@@ -34,41 +26,6 @@ bool mirrored(const Vector3& x, const Vector3& centre, double radius, Vector3& i
   image = x + 2 * (1 - radius / length) * u;
   return length > 0;
 }
-
-// Wendland's function of the distance in supports.
-double phi(double squared, double support) {
-  if (squared >= support * support) return 0;
-  const double u = std::sqrt(squared) / support, v = 1 - u;
-  return v * v * v * v * v * (8 * u * u + 5 * u + 1);
-}
-
-// A grid over a few hundred points: each voxel lists those within reach of some position in it, so
-// that one comparison finds which may be the closest.
-class NearbyPoints {
- public:
-  NearbyPoints(PointsView points, double reach) {
-    const Vector3 low = points.matrix().colwise().minCoeff();
-    const Vector3 high = points.matrix().colwise().maxCoeff();
-    constexpr double most_voxels = 1 << 20;  // where an outlier spreads the grid, they grow
-    const double volume = ((high - low).array() + reach).prod();
-    grid_ = VoxelGrid(low.array() - reach, high.array() + reach,
-                      std::max(reach, std::cbrt(volume / most_voxels)));
-    lists_.resize(grid_.size());
-    for (Index i = 0; i < points.size(); ++i)
-      grid_.for_each_touching(grid_.index(grid_.cell_of(points[i])),
-                              [&](Index voxel) { lists_[voxel].push_back(points[i]); });
-  }
-
-  /// Null where there are none.
-  const std::vector<Vector3>* operator()(const Vector3& x) const {
-    const Index voxel = grid_.index_at(x);
-    return voxel < 0 || lists_[voxel].empty() ? nullptr : &lists_[voxel];
-  }
-
- private:
-  VoxelGrid grid_;
-  std::vector<std::vector<Vector3>> lists_;  // by voxel
-};
 
 struct Candidate {
   Vector3 centre = Vector3::Zero();
@@ -79,7 +36,7 @@ struct Candidate {
 // either side, the one of the greatest measure; equal measures: the first.
 Candidate best_candidate(PointsView points, const std::vector<double>& radii,
                          const Context& context) {
-  const double reach = support(points);
+  const double reach = measure_reach(points);
   const NearbyPoints nearby(points, reach);
   struct Image {
     Vector3 position;
@@ -100,7 +57,7 @@ Candidate best_candidate(PointsView points, const std::vector<double>& radii,
       double closest = reach * reach;
       for (const Vector3& x : *image.nearby)
         closest = std::min(closest, (x - image.position).squaredNorm());
-      sum += phi(closest, reach);
+      sum += wendland(std::sqrt(closest) / reach);
     }
     return sum;
   };
@@ -149,7 +106,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   const Candidate start = best_candidate(simplified, radii, context.stage(0, 0.8));
 
   PointTree tree(cloud.points, context.stage(0.8, 0.8));
-  const double reach = support(cloud.points);
+  const double reach = measure_reach(cloud.points);
   const auto measure = [&](const Eigen::Vector4d& s) {
     constexpr Index grain = 1024;
     context.check();
@@ -165,7 +122,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
         Vector3 image;
         if (!mirrored(cloud.points[tree.order()[p]], s.head<3>(), s[3], image)) continue;
         const Neighbour found = tree.nearest(image, reach * reach);
-        if (found.index >= 0) sum += phi(found.squared_distance, reach);
+        if (found.index >= 0) sum += wendland(std::sqrt(found.squared_distance) / reach);
       }
       return sum;
     });
