@@ -71,15 +71,16 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   // "auto" runs other methods, with their defaults.
   const bool is_own = result.method == method.name || result.method.empty();
   const MethodImplementation& finder = is_own ? method : implementation(result.method);
-  double pair_distance = 0;
-  if (result.mirror && (policy.sample_faces || policy.extract_boundary)) {
+  const bool wants_pairs = !values.all().contains("pairs") || values.boolean("pairs");
+  PairDistance pair_distance;
+  if (wants_pairs && result.mirror && (policy.sample_faces || policy.extract_boundary)) {
     const ParameterValues defaults(finder.name, finder.parameters, {});
     pair_distance = (is_own ? values : defaults).real("pair_distance");
   }
   set_footprint(result, cloud);
   for (auto stage = applied.rbegin(); stage != applied.rend(); ++stage)
     (*stage)->map_back(result, pair_distance, after_run);
-  if (result.mirror) report_pairs(result, finder, input);
+  if (wants_pairs && result.mirror) report_pairs(result, finder, input);
   drop_nonfinite(result.statistics);
   for (Result& candidate : result.candidates) drop_nonfinite(candidate.statistics);
   return result;

@@ -66,11 +66,15 @@ class ThinnedCloud {
   Cloud cloud_;
 };
 
-Result run_with_defaults(const MethodImplementation& method, const Cloud& cloud,
-                         const Context& context) {
-  const ParameterValues defaults(method.name, method.parameters, {});
-  Result result = method.run(cloud, defaults, context);
-  result.parameters = defaults.all();
+ParameterValues usual_values(const MethodImplementation& method, bool pairs) {
+  return {method.name, method.parameters, {{"pairs", pairs}}};
+}
+
+Result run_usual(const MethodImplementation& method, const Cloud& cloud, bool pairs,
+                 const Context& context) {
+  const ParameterValues values = usual_values(method, pairs);
+  Result result = method.run(cloud, values, context);
+  result.parameters = values.all();
   return result;
 }
 
@@ -126,6 +130,7 @@ Kinds near_kinds(const Kinds& kinds, const Mirror& mirror, double diagonal) {
 struct Contest {
   using Run = std::function<Result(const Cloud&, const Context&)>;
 
+  bool pairs;  // whether the result is to have some
   Result best;
   const MethodImplementation* winner;
   Run of_all = {};         // finds the winner again, on all points; none where it saw them
@@ -144,9 +149,9 @@ struct Contest {
   }
 };
 
-Contest::Run anew(const MethodImplementation& kind) {
-  return [&kind](const Cloud& cloud, const Context& context) {
-    return run_with_defaults(kind, cloud, context);
+Contest::Run anew(const MethodImplementation& kind, bool pairs) {
+  return [&kind, pairs](const Cloud& cloud, const Context& context) {
+    return run_usual(kind, cloud, pairs, context);
   };
 }
 
@@ -164,7 +169,8 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
   Kinds kinds = simple_kinds(cloud.points.size());
   std::optional<Result> free_form;
   if (!content && cloud.points.size() >= bending.minimum_points) {
-    free_form = run_with_defaults(bending, bends_all ? cloud : thinner(), context.stage(0, 0.4));
+    free_form = run_usual(bending, bends_all ? cloud : thinner(), bends_all && contest.pairs,
+                          context.stage(0, 0.4));
     done = 0.4;
   }
   const bool leading = free_form && leads(*free_form, contest.best);
@@ -173,17 +179,18 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
   for (const MethodImplementation* kind : kinds) {
     if (is_exact(contest.best)) break;
     if (leading && !is_exact(*free_form) && !explains_more(*free_form, contest.best)) break;
-    Result result =
-        run_with_defaults(*kind, all ? cloud : thinner(), context.stage(done, done + 0.2));
+    Result result = run_usual(*kind, all ? cloud : thinner(), all && contest.pairs,
+                              context.stage(done, done + 0.2));
     done += 0.2;
     const bool wins = is_exact(result) ? result.score > contest.best.score
                                        : !content && explains_more(result, contest.best);
-    contest.take(*kind, std::move(result), wins, all ? Contest::Run() : anew(*kind));
+    contest.take(*kind, std::move(result), wins, all ? Contest::Run() : anew(*kind, contest.pairs));
   }
   if (free_form && !is_exact(contest.best)) {
     const bool wins = is_exact(*free_form) ? free_form->score > contest.best.score
                                            : explains_more(*free_form, contest.best);
-    contest.take(bending, std::move(*free_form), wins, bends_all ? Contest::Run() : anew(bending));
+    contest.take(bending, std::move(*free_form), wins,
+                 bends_all ? Contest::Run() : anew(bending, contest.pairs));
   }
 }
 
@@ -200,16 +207,19 @@ void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& contex
     if (!result.mirror) continue;
     const MethodImplementation& kind = implementation(result.method);
     const bool wins = explains_more(result, contest.best);
-    contest.take(
-        kind, std::move(result), wins, [&kind, plane](const Cloud& whole, const Context& c) {
-          return BentPlanes(whole, c.stage(0, 0.5)).with_pairs(kind, plane, c.stage(0.5, 1));
-        });
+    const ParameterValues values = usual_values(kind, contest.pairs);
+    contest.take(kind, std::move(result), wins,
+                 [&kind, plane, values](const Cloud& whole, const Context& c) {
+                   return BentPlanes(whole, c.stage(0, 0.5))
+                       .with_pairs(kind, plane, values, c.stage(0.5, 1));
+                 });
   }
 }
 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const MethodImplementation& plane = implementation("plane");
-  Contest contest{run_with_defaults(plane, cloud, context.stage(0, 0.2)), &plane};
+  const bool pairs = values.boolean("pairs");
+  Contest contest{pairs, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), &plane};
   contest.scores["score_plane"] = contest.best.score;
   contest.tried = "plane " + text(explained(contest.best));
   std::string reason = "the plane maps " + text(explained(contest.best)) +

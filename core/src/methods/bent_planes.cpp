@@ -42,12 +42,10 @@ Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
 }
 
 Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& plane,
-                              const Context& context) && {
+                              const ParameterValues& values, const Context& context) && {
   Result result = best_of({&kind}, bend_of(plane));
-  const ParameterValues defaults(kind.name, kind.parameters, {});
-  result.parameters = defaults.all();
-  add_pairs(result, cloud_.points, std::move(tree_), *result.mirror,
-            defaults.real("pair_distance") * cloud_.diagonal, context);
+  result.parameters = values.all();
+  add_pairs(result, cloud_, std::move(tree_), values, context);
   return result;
 }
 

@@ -26,8 +26,9 @@ class BentPlanes {
   /// not to bend.
   Result best_of(const Kinds& kinds, const Plane& plane) const;
 
+  /// That of one kind, with the kind's parameters.
   Result with_pairs(const MethodImplementation& kind, const Plane& plane,
-                    const Context& context) &&;
+                    const ParameterValues& values, const Context& context) &&;
 
  private:
   PlaneBend bend_of(const Plane& plane) const;

@@ -20,6 +20,12 @@ Parameter pair_distance(double usual) {
       "A point whose image has no point of the cloud nearer than this has no partner.");
 }
 
+Parameter pairs() {
+  return Parameter::boolean("pairs", true,
+                            "Whether each point gets its partner over the mirror; without them "
+                            "the mirror and its score come sooner.");
+}
+
 Parameter minimum_score() {
   return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
                          "Below it the verdict is \"none\": what was found is no symmetry of the "

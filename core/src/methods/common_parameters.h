@@ -16,6 +16,9 @@ Parameter max_candidates(Index usual, Index most, const std::string& kinds);
 
 Parameter pair_distance(double usual = 0.05);
 
+/// Of methods that pair the points when the mirror is found; the registry adds it.
+Parameter pairs();
+
 /// Of all methods; the registry adds both.
 Parameter minimum_score();
 Parameter tolerance();

@@ -1,9 +1,22 @@
 #include "methods/registry.h"
 
+#include <algorithm>
+
 #include "base/find_named.h"
 #include "methods/common_parameters.h"
 
 namespace symsurf {
+
+namespace {
+
+// Those that do not, find the pairs first, and the mirror through them.
+bool pairs_over_mirror(const Method& method) {
+  return method.name == "auto" ||
+         std::any_of(method.parameters.begin(), method.parameters.end(),
+                     [](const Parameter& p) { return p.name == "pair_distance"; });
+}
+
+}  // namespace
 
 const std::vector<MethodImplementation>& implementations() {
   static const std::vector<MethodImplementation> list = [] {
@@ -15,6 +28,7 @@ const std::vector<MethodImplementation>& implementations() {
         plane_svd_method(),     plane_hruda_method(),
     };
     for (MethodImplementation& each : all) {
+      if (pairs_over_mirror(each)) each.parameters.push_back(pairs());
       each.parameters.push_back(minimum_score());
       each.parameters.push_back(tolerance());
     }

@@ -54,9 +54,10 @@ std::vector<Index> outer_positions(const Cloud& cloud, const PointTree& tree,
   return positions;
 }
 
-// Share of the points whose partner is their image, to the rounding of single precision.
+constexpr double rounding = 1e-6;  // diagonals: of single precision
+
+// Share of the points whose partner is their image.
 double exactly_paired(const Result& result, const Cloud& cloud) {
-  constexpr double rounding = 1e-6;
   const Index exact = (result.residuals.array() < rounding * cloud.diagonal).count();
   return static_cast<double>(exact) / static_cast<double>(cloud.points.size());
 }
@@ -93,11 +94,12 @@ bool BoundaryExtraction::apply(Cloud& cloud, const Context& context) {
   return true;
 }
 
-void BoundaryExtraction::map_back(Result& result, double pair_distance,
+void BoundaryExtraction::map_back(Result& result, PairDistance pair_distance,
                                   const Context& context) const {
   result.statistics["boundary_points"] = count_;
-  pair_anew(result, whole_.points, pair_distance * whole_.diagonal, context);
+  pair_anew(result, whole_.points, pair_distance.value_or(rounding) * whole_.diagonal, context);
   if (result.mirror) result.score = std::max(result.score, exactly_paired(result, whole_));
+  if (!pair_distance) keep_pairs(result, {});
 }
 
 }  // namespace symsurf

@@ -22,7 +22,7 @@ class BoundaryExtraction : public Stage {
   /// Of a volumetric cloud.
   bool needs_whole(const Cloud& cloud, const Context& context) const override;
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, double pair_distance, const Context& context) const override;
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
   Index minimum_points_;

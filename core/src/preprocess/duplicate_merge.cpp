@@ -20,7 +20,7 @@ bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
   return true;
 }
 
-void DuplicateMerge::map_back(Result& result, double, const Context&) const {
+void DuplicateMerge::map_back(Result& result, PairDistance, const Context&) const {
   std::vector<Index> row_of(distinct_.first.size(), -1);
   for (Index row = 0; row < result.pairs.rows(); ++row) row_of[result.pairs(row, 0)] = row;
   std::vector<Index> paired, rows;

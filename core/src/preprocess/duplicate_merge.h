@@ -13,7 +13,7 @@ class DuplicateMerge : public Stage {
   explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}
 
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, double pair_distance, const Context& context) const override;
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
   Index minimum_points_;

@@ -28,7 +28,7 @@ bool PositionOrder::apply(Cloud& cloud, const Context& context) {
   return true;
 }
 
-void PositionOrder::map_back(Result& result, double, const Context&) const {
+void PositionOrder::map_back(Result& result, PairDistance, const Context&) const {
   std::vector<Index> row_of(order_.size(), -1), rows;
   for (Index row = 0; row < result.pairs.rows(); ++row) {
     for (Index& point : result.pairs.row(row)) point = order_[point];

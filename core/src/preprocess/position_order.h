@@ -12,7 +12,7 @@ namespace symsurf {
 class PositionOrder : public Stage {
  public:
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, double pair_distance, const Context& context) const override;
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
   std::vector<std::int32_t> order_;  // of each point sorted, which it is of those given

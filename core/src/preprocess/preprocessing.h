@@ -4,6 +4,7 @@
 #include <symsurf/result.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cloud/cloud.h"
@@ -23,6 +24,9 @@ struct Preprocessing {
   static Preprocessing order_only() { return {false, false, false, false, true}; }
 };
 
+/// How far a partner may be, in diagonals; none: no pairs are wanted.
+using PairDistance = std::optional<double>;
+
 /// A pre-processing stage: changes the cloud, and maps the result of the changed cloud back.
 class Stage {
  public:
@@ -35,9 +39,9 @@ class Stage {
   /// cloud's new rows live as long as the stage. Collective.
   virtual bool apply(Cloud& cloud, const Context& context) = 0;
 
-  /// Makes the result of the changed cloud that of the cloud given. `pair_distance`: in diagonals,
-  /// of the method that found the mirror.
-  virtual void map_back(Result& result, double pair_distance, const Context& context) const = 0;
+  /// Makes the result of the changed cloud that of the cloud given.
+  virtual void map_back(Result& result, PairDistance pair_distance,
+                        const Context& context) const = 0;
 
  protected:
   void replace(Cloud& cloud, Points points, Points normals);

@@ -53,7 +53,7 @@ Triangles RowRemoval::without(TrianglesView faces, const std::vector<Index>& rem
   return left;
 }
 
-void RowRemoval::map_back(Result& result, double, const Context&) const {
+void RowRemoval::map_back(Result& result, PairDistance, const Context&) const {
   // As many removed points are before a point as have no more others before them than it has.
   const auto numbered = [&](Index other) {
     const auto is_before = [&](const Index& removed) {

@@ -9,7 +9,7 @@ namespace symsurf {
 /// A stage that removes points: they have no partners, and `statistic` counts them.
 class RowRemoval : public Stage {
  public:
-  void map_back(Result& result, double pair_distance, const Context& context) const override;
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  protected:
   explicit RowRemoval(const char* statistic) : statistic_(statistic) {}

@@ -158,9 +158,10 @@ bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
   return true;
 }
 
-void SurfaceSamples::map_back(Result& result, double pair_distance, const Context& context) const {
+void SurfaceSamples::map_back(Result& result, PairDistance pair_distance,
+                              const Context& context) const {
   result.statistics["surface_samples"] = count_;
-  pair_anew(result, vertices_, pair_distance * diagonal_, context);
+  if (pair_distance) pair_anew(result, vertices_, *pair_distance * diagonal_, context);
 }
 
 }  // namespace symsurf

@@ -13,7 +13,7 @@ namespace symsurf {
 class SurfaceSamples : public Stage {
  public:
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, double pair_distance, const Context& context) const override;
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
   PointsView vertices_;

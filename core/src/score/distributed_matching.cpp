@@ -151,11 +151,13 @@ void drop_unpaired(Result& result) {
 }  // namespace
 
 void add_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
-               const Mirror& mirror, double limit, const Context& context) {
+               const ParameterValues& values, const Context& context) {
   if (!slabs.partition().processes())
-    return add_pairs(result, cloud.points, std::move(tree), mirror, limit, context);
+    return add_pairs(result, cloud, std::move(tree), values, context);
+  if (!values.boolean("pairs")) return;
+  const double limit = values.real("pair_distance") * cloud.diagonal;
   send_back(result, cloud, slabs,
-            DistributedMatching(slabs, std::move(tree), mirror, limit, context));
+            DistributedMatching(slabs, std::move(tree), *result.mirror, limit, context));
   drop_unpaired(result);
 }
 

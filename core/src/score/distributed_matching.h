@@ -10,6 +10,6 @@ namespace symsurf {
 /// `tree`: of this process's slab. An image in or near another slab is sent to its process, so
 /// memory grows with the own points only. Collective; that of matching.h in one process.
 void add_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
-               const Mirror& mirror, double limit, const Context& context);
+               const ParameterValues& values, const Context& context);
 
 }  // namespace symsurf

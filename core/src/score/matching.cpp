@@ -9,14 +9,27 @@
 
 namespace symsurf {
 
+namespace {
+
+// Has memory send a row that is read soon.
+void prefetch(PointsView points, Index i) {
+#ifdef __GNUC__
+  __builtin_prefetch(points.data() + 3 * i);
+#endif
+}
+
+}  // namespace
+
 Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
                        const Context& context) {
   constexpr Index grain = 1024;
+  constexpr Index ahead = 8;  // points along the curve lie scattered: a tenth of `plane` of 10^6
   Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p) {
       const std::int32_t i = order[p];
+      if (p + ahead < end) prefetch(points, order[p + ahead]);
       const Neighbour found = tree.nearest(mirror.reflect(points[i]), limit * limit);
       partners.index[i] = static_cast<std::int32_t>(found.index);
       partners.squared[i] = found.squared_distance;
@@ -53,6 +66,13 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   interruptible_for(context, found, [&](Index k) {
     result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
   });
+}
+
+void add_pairs(Result& result, const Cloud& cloud, PointTree&& tree, const ParameterValues& values,
+               const Context& context) {
+  if (values.boolean("pairs"))
+    add_pairs(result, cloud.points, std::move(tree), *result.mirror,
+              values.real("pair_distance") * cloud.diagonal, context);
 }
 
 void keep_pairs(Result& result, const std::vector<Index>& rows) {

@@ -2,11 +2,13 @@
 
 #include <symsurf/context.h>
 #include <symsurf/mirror.h>
+#include <symsurf/parameter.h>
 #include <symsurf/result.h>
 
 #include <cstdint>
 #include <vector>
 
+#include "cloud/cloud.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -28,6 +30,11 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
 /// memory together.
 void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
                double limit, const Context& context);
+
+/// The same over the result's mirror, to the values' "pair_distance"; nothing where these want no
+/// "pairs".
+void add_pairs(Result& result, const Cloud& cloud, PointTree&& tree, const ParameterValues& values,
+               const Context& context);
 
 /// The same over the mirror that was found of other points: of some of these, or of more on the
 /// same surface. Surface points of mirrors of any shape are projected onto them, as their methods

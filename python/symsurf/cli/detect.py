@@ -118,10 +118,11 @@ def _text(record: Record) -> str:
         lines.append(f"  mirror    {_mirror(record['mirror'])}")
     lines.append(f"  verdict   {record['verdict']}: {record['reason']}")
     lines.append(f"  score     {record['score']:.3f} (method {record['method']})")
-    paired = f"{record['pairs']} of {record['points']} points"
-    if record["pairs"]:
-        paired += f", median residual {record['median_residual']:.3g}"
-    lines.append(f"  pairs     {paired}")
+    if record["parameters"].get("pairs", True):
+        paired = f"{record['pairs']} of {record['points']} points"
+        if record["pairs"]:
+            paired += f", median residual {record['median_residual']:.3g}"
+        lines.append(f"  pairs     {paired}")
     if others := record["candidates"]:
         scores = " ".join(shown(other["score"], ".3f") for other in others)
         lines.append(f"  others    {len(others)} with scores {scores}")

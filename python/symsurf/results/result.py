@@ -89,7 +89,7 @@ class Result(Summarised, Generic[Kind_co]):
         if "verdict" in self.statistics:
             words |= {"verdict": self.verdict, "reason": self.reason}
         words["score"] = f"{self.score:.3f}"
-        if self.points is not None:
+        if self.points is not None and self.parameters.get("pairs", True):
             count, paired = len(self.points), len(self.pairs)
             words["paired"] = f"{percent(paired / count if count else 0)} of {count} points"
         if len(self.residuals):

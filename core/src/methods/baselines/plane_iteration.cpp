@@ -157,8 +157,7 @@ Result ranked_planes(const std::string& method, const Cloud& cloud,
   PointTree tree(cloud.points, context.stage(0, 0.25));
   const NearestPoints points(cloud.points, tree, context);
   Result best = MirrorScore(cloud, points, context.stage(0.25, 0.5)).ranked(method, planes);
-  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.5, 1));
+  add_pairs(best, cloud, std::move(tree), values, context.stage(0.5, 1));
   return best;
 }
 

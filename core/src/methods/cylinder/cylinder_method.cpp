@@ -150,8 +150,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   for (const CylinderCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Cylinder>(in_input_units(candidate.shape, cloud.frame)));
   best = MirrorScore(cloud, points, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
-  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
+  add_pairs(best, cloud, std::move(tree), values, context.stage(0.75, 1));
   return best;
 }
 

@@ -140,6 +140,7 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
       found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
   statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
   result.statistics.merge(statistics);
+  if (!values.boolean("pairs")) return;
   pair_points(result, cloud, std::move(tree), searched, surface, values.real("pair_distance"),
               context.stage(0.4, 0.9));
   tell_extrapolated(result, cloud, searched, context.stage(0.9, 1));

@@ -92,8 +92,7 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   PointTree tree(cloud.points, context.stage(0.7, 0.75));
   const NearestPoints points(cloud.points, tree, context);
   MirrorScore(cloud, points, context.stage(0.75, 0.8)).fill(result);
-  add_pairs(result, cloud.points, std::move(tree), *result.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.8, 0.9));
+  add_pairs(result, cloud, std::move(tree), values, context.stage(0.8, 0.9));
   result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 0.95));
   const double working_share =
       static_cast<double>(work.size()) / static_cast<double>(cloud.partition.total());

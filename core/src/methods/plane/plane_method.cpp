@@ -12,6 +12,7 @@
 #include "distributed/slabs.h"
 #include "methods/common_parameters.h"
 #include "methods/parametric/exact_pairs.h"
+#include "methods/parametric/plane_step.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
@@ -259,8 +260,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
-  add_pairs(best, cloud, slabs, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.55, 1));
+  add_pairs(best, cloud, slabs, std::move(tree), values, context.stage(0.55, 1));
   return best;
 }
 

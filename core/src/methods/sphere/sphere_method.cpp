@@ -140,8 +140,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
   best = score.ranked("sphere", mirrors);
-  add_pairs(best, cloud.points, std::move(tree), *best.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.75, 1));
+  add_pairs(best, cloud, std::move(tree), values, context.stage(0.75, 1));
   return best;
 }
 

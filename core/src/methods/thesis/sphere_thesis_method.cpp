@@ -141,8 +141,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   const double found = measure(sphere);
   // Of images that fall on points, phi is 1 or a rounding error more.
   result.score = std::min(1.0, found / static_cast<double>(cloud.points.size()));
-  add_pairs(result, cloud.points, std::move(tree), *result.mirror,
-            values.real("pair_distance") * cloud.diagonal, context.stage(0.95, 1));
+  add_pairs(result, cloud, std::move(tree), values, context.stage(0.95, 1));
   result.statistics = {{"measure", found},
                        {"start_measure", start.measure},
                        {"start_centre", start.centre},
