@@ -15,11 +15,12 @@ constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal,
 
 BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
     : cloud_(cloud),
-      surfels_(cloud, sample_size, context.stage(0, 0.3)),
+      surfels_(cloud, sample_size, context.stage(0, 0.2)),
+      fine_(cloud, surfels_, context.stage(0.2, 0.3)),
       tree_(cloud.points, context.stage(0.3, 0.6)),
       points_(cloud.points, tree_, context),
-      refinement_(cloud, points_, tree_, surfels_, context.stage(0.6, 0.7)),
-      score_(cloud, points_, context.stage(0.7, 1)) {}
+      refinement_(cloud, points_, surfels_, fine_),
+      score_(cloud, points_, context.stage(0.6, 1)) {}
 
 Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
   const PlaneBend bend = bend_of(plane);

@@ -35,10 +35,10 @@ class BentPlanes {
   Result best_of(const Kinds& kinds, const PlaneBend& bend) const;
 
   const Cloud& cloud_;
-  Surfels surfels_;
+  Surfels surfels_, fine_;
   PointTree tree_;
   NearestPoints points_;
-  ParametricRefinement refinement_;
+  Refinement refinement_;
   MirrorScore score_;
 };
 

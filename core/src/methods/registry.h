@@ -13,7 +13,7 @@
 
 namespace symsurf {
 
-class ParametricRefinement;
+class Refinement;
 struct PlaneBend;
 
 /// A method as the pipeline runs it: its description, its pre-processing and its function.
@@ -23,7 +23,7 @@ struct MethodImplementation : Method {
   /// the nearest mirror of this kind.
   double (*distance_from)(const FreeForm&) = nullptr;
   /// Of such a kind: its mirror next to a plane, from how the cloud asks that to bend.
-  std::shared_ptr<Mirror> (*bent_from)(const PlaneBend&, const ParametricRefinement&,
+  std::shared_ptr<Mirror> (*bent_from)(const PlaneBend&, const Refinement&,
                                        const PrincipalFrame&) = nullptr;
   bool reports_unpaired_points = false;  ///< the pipeline adds "unpaired_points" to the statistics
   bool reports_mean_residual = false;    ///< and "mean_residual"

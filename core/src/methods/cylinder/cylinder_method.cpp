@@ -70,6 +70,8 @@ constexpr Index fitted_to_all = 8;             // of these, are fitted to the fu
 constexpr std::size_t polished_cylinders = 3;  // and of these, to ever more of it
 constexpr std::size_t rescanned = 4;           // candidates whose axis is looked at more closely
 constexpr std::array angles{-0.3, -0.2, -0.1, 0.1, 0.2, 0.3};  // radians
+constexpr Fit of_each{.samples = 400, .steps = 4}, of_finalist{.samples = 1200, .steps = 3},
+    of_polished{.samples = 3000, .steps = 40};
 constexpr double chance_explains = 0.35;  // what cylinders explain of random solids before that
 constexpr double least_support = 0.6;     // of the best; others are not fitted
 constexpr double alike_cylinders = 0.04;  // cylinders closer than this are one
@@ -132,15 +134,17 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const NearestPoints points(cloud.points, tree, context);
-  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.7));
-  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 400, 4);
+  const Surfels fine(cloud, surfels, context.stage(0.5, 0.6));
+  const Refinement refinement(cloud, points, surfels, fine);
+  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, of_each);
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
-  for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, 1200, 3);
+  for (CylinderCandidate& candidate : candidates)
+    candidate = refinement.fitted(candidate, of_finalist);
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
     if (i == 0 || candidates[i].support > chance_explains)
-      candidates[i] = refinement.fitted_to_exact_pairs(
-          refinement.fitted(slid_along_surfaces(candidates[i], refinement), 3000, 40));
+      candidates[i].shape = refinement.exact(
+          refinement.fitted(slid_along_surfaces(candidates[i], refinement), of_polished).shape);
   suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
   drop_weakly_supported(candidates);
   context.report(0.7);
@@ -154,11 +158,11 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   return best;
 }
 
-std::shared_ptr<Mirror> bent_cylinder(const PlaneBend& bend, const ParametricRefinement& refinement,
+std::shared_ptr<Mirror> bent_cylinder(const PlaneBend& bend, const Refinement& refinement,
                                       const PrincipalFrame& frame) {
   const CylinderCandidate start{bend.cylinder()};
   return std::make_shared<Cylinder>(
-      in_input_units(refinement.fitted(start, 3000, 40).shape, frame));
+      in_input_units(refinement.fitted(start, of_polished).shape, frame));
 }
 
 }  // namespace

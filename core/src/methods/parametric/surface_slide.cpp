@@ -27,8 +27,7 @@ std::vector<Shape> shapes_around(const Shape& shape,
 }  // namespace
 
 template <typename Shape>
-Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
-                                     const ParametricRefinement& refinement) {
+Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate, const Refinement& refinement) {
   constexpr int slides = 4;
   constexpr Index first_samples = 120, second_samples = 800;
   constexpr std::size_t tried_slides = 4;
@@ -43,7 +42,8 @@ Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
     positions.resize(std::min(tried_slides, positions.size()));
     const double before = candidate.support;
     for (const Candidate<Shape>& position : positions) {
-      const Candidate<Shape> fitted = refinement.fitted(position, second_samples, 6);
+      const Candidate<Shape> fitted =
+          refinement.fitted(position, {.samples = second_samples, .steps = 6});
       if (fitted.support > candidate.support + clearly_more) candidate = fitted;
     }
     if (candidate.support == before) break;
@@ -51,9 +51,7 @@ Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
   return candidate;
 }
 
-template Candidate<UnitSphere> slid_along_surfaces(Candidate<UnitSphere>,
-                                                   const ParametricRefinement&);
-template Candidate<UnitCylinder> slid_along_surfaces(Candidate<UnitCylinder>,
-                                                     const ParametricRefinement&);
+template Candidate<UnitSphere> slid_along_surfaces(Candidate<UnitSphere>, const Refinement&);
+template Candidate<UnitCylinder> slid_along_surfaces(Candidate<UnitCylinder>, const Refinement&);
 
 }  // namespace symsurf

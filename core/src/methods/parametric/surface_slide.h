@@ -12,6 +12,6 @@ namespace symsurf {
 /// cylinder.
 template <typename Shape>
 Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
-                                     const ParametricRefinement& refinement);
+                                     const Refinement& refinement);
 
 }  // namespace symsurf

@@ -13,8 +13,8 @@
 #include "methods/common_parameters.h"
 #include "methods/parametric/exact_pairs.h"
 #include "methods/parametric/plane_step.h"
+#include "methods/parametric/refinement.h"
 #include "methods/plane/plane_candidates.h"
-#include "methods/plane/plane_refinement.h"
 #include "methods/registry.h"
 #include "score/distributed_matching.h"
 #include "score/mirror_score.h"
@@ -24,6 +24,9 @@ namespace symsurf {
 
 namespace {
 
+// Few samples are enough to tell which planes are worth more.
+constexpr Fit quick{.samples = 250, .tolerance = 0.02, .steps = 2},
+    careful{.samples = 1300, .tolerance = 0.01, .steps = 2};
 constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
 // Score below which planes are moved to its maximum, and what that has to gain over the best: a
@@ -96,11 +99,11 @@ class FullCloud {
   void fit(const Effort& effort, std::vector<PlaneCandidate>& candidates,
            const Context& context) const {
     improve(candidates, context.stage(0, 0.5),
-            [&](const PlaneCandidate& c) { return refinement_.quick(c.shape); });
+            [&](const PlaneCandidate& c) { return refinement_.fitted(c, quick); });
     suppress_non_maxima(candidates, alike_planes, effort.finalists);
     drop_far_below_best(candidates, effort.far_below_best);
     improve(candidates, context.stage(0.5, 1),
-            [&](const PlaneCandidate& c) { return refinement_.careful(c.shape); });
+            [&](const PlaneCandidate& c) { return refinement_.fitted(c, careful); });
     suppress_non_maxima(candidates, alike_planes, effort.finalists);
   }
 

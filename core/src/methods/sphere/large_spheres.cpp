@@ -22,9 +22,8 @@ Candidate<UnitPlane> touching_plane(const UnitSphere& sphere) {
   return {{up, sphere.distance(Vector3::Zero())}};
 }
 
-Candidate<UnitPlane> fitted_plane(const ParametricRefinement& refinement,
-                                  const UnitSphere& sphere) {
-  return refinement.fitted(touching_plane(sphere), looked_at, 6);
+Candidate<UnitPlane> fitted_plane(const Refinement& refinement, const UnitSphere& sphere) {
+  return refinement.fitted(touching_plane(sphere), {.samples = looked_at, .steps = 6});
 }
 
 template <typename IsPlane>
@@ -54,7 +53,7 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
   return taken;
 }
 
-void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates) {
+void drop_planes(const Refinement& refinement, std::vector<SphereCandidate>& candidates) {
   drop(
       [&](const SphereCandidate& c) {
         return c.partnered == 0 && fitted_plane(refinement, c.shape).support >
@@ -63,7 +62,7 @@ void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandi
       candidates);
 }
 
-void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
+void drop_planes(const Refinement& refinement, const MirrorScore& score,
                  const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates) {
   drop(
       [&](const SphereCandidate& c) {

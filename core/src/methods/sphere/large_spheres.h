@@ -18,10 +18,10 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
 
 /// Drops those without partners that a plane explains as well, measured on points; all but where
 /// there is nothing else. Those that differ from a plane by rounding only go in any case.
-void drop_planes(const ParametricRefinement& refinement, std::vector<SphereCandidate>& candidates);
+void drop_planes(const Refinement& refinement, std::vector<SphereCandidate>& candidates);
 
 /// The same by the score, with partners or without.
-void drop_planes(const ParametricRefinement& refinement, const MirrorScore& score,
+void drop_planes(const Refinement& refinement, const MirrorScore& score,
                  const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates);
 
 }  // namespace symsurf

@@ -22,12 +22,9 @@ constexpr std::size_t polished_spheres = 3;  // and of these, to ever more of it
 constexpr double least_rest = 0.25;          // of the cloud: worth a search of its own
 constexpr Index patches_again = 3;  // times as many, where no sphere found has partners of its own
 
-// Points of the full cloud that a fit looks at, and its steps: more for fewer spheres.
-struct Effort {
-  Index samples;
-  int steps;
-};
-constexpr Effort of_each{400, 4}, of_finalist{800, 3}, of_polished{3000, 3};
+// More for fewer spheres.
+constexpr Fit of_each{.samples = 400, .steps = 4}, of_finalist{.samples = 800, .steps = 3},
+    of_polished{.samples = 3000, .steps = 3}, of_bent{.samples = 3000, .steps = 40};
 constexpr Index compared_on = 1200;  // points, of the spheres that are ranked
 
 bool any_partnered(const std::vector<SphereCandidate>& candidates) {
@@ -35,15 +32,10 @@ bool any_partnered(const std::vector<SphereCandidate>& candidates) {
                      [](const SphereCandidate& c) { return c.partnered > 0; });
 }
 
-SphereCandidate fitted(const SphereCandidate& candidate, Effort effort,
-                       const ParametricRefinement& refinement) {
-  return refinement.fitted(candidate, effort.samples, effort.steps);
-}
-
-void fit_each(std::vector<SphereCandidate>& candidates, const ParametricRefinement& refinement,
+void fit_each(std::vector<SphereCandidate>& candidates, const Refinement& refinement,
               const PartnerFit& partner_fit) {
   for (SphereCandidate& candidate : candidates)
-    candidate = partner_fit(fitted(candidate, of_each, refinement));
+    candidate = partner_fit(refinement.fitted(candidate, of_each));
 }
 
 // Where the best sphere leaves much of the cloud without partners, that may have a sphere of its
@@ -62,7 +54,8 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
   const NearestPoints points(rest.points, tree, context);
-  const ParametricRefinement refinement(rest, points, tree, surfels, context.stage(0.8, 1));
+  const Surfels fine(rest, surfels, context.stage(0.8, 1));
+  const Refinement refinement(rest, points, surfels, fine);
   const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found = promising_spheres(surfels, SurfelMap(surfels), cloud.seed,
                                                          2 * finalists, context.stage(0.2, 0.8));
@@ -74,8 +67,7 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
 // The fitted spheres of the cloud, the best first; none where planes explain as much.
 std::vector<SphereCandidate> searched_spheres(const Cloud& cloud, const Surfels& surfels,
                                               std::vector<SphereCandidate> candidates,
-                                              Index sample_size,
-                                              const ParametricRefinement& refinement,
+                                              Index sample_size, const Refinement& refinement,
                                               const PartnerFit& partner_fit,
                                               const Context& context) {
   fit_each(candidates, refinement, partner_fit);
@@ -99,15 +91,15 @@ std::vector<SphereCandidate> searched_spheres(const Cloud& cloud, const Surfels&
 
 // On ever more points, those without partners along the surfaces as well.
 void refine(std::vector<SphereCandidate>& candidates, const Surfels& surfels,
-            const ParametricRefinement& refinement, const PartnerFit& partner_fit) {
+            const Refinement& refinement, const PartnerFit& partner_fit) {
   for (SphereCandidate& candidate : candidates)
-    if (candidate.partnered == 0) candidate = fitted(candidate, of_finalist, refinement);
+    if (candidate.partnered == 0) candidate = refinement.fitted(candidate, of_finalist);
   suppress_non_maxima(surfels, candidates, alike_spheres, finalists);
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate = refinement.fitted_to_exact_pairs(
-          fitted(slid_along_surfaces(candidate, refinement), of_polished, refinement));
+      candidate.shape = refinement.exact(
+          refinement.fitted(slid_along_surfaces(candidate, refinement), of_polished).shape);
     else
       candidate.shape = partner_fit.refined(candidate.shape, of_polished.samples);
   }
@@ -126,7 +118,8 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const NearestPoints points(cloud.points, tree, context);
-  const ParametricRefinement refinement(cloud, points, tree, surfels, context.stage(0.5, 0.6));
+  const Surfels fine(cloud, surfels, context.stage(0.5, 0.6));
+  const Refinement refinement(cloud, points, surfels, fine);
   const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> candidates = searched_spheres(
       cloud, surfels, rough, sample_size, refinement, partner_fit, context.stage(0.6, 0.7));
@@ -144,10 +137,10 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   return best;
 }
 
-std::shared_ptr<Mirror> bent_sphere(const PlaneBend& bend, const ParametricRefinement& refinement,
+std::shared_ptr<Mirror> bent_sphere(const PlaneBend& bend, const Refinement& refinement,
                                     const PrincipalFrame& frame) {
   const SphereCandidate start{bend.sphere()};
-  return std::make_shared<Sphere>(in_input_units(refinement.fitted(start, 3000, 40).shape, frame));
+  return std::make_shared<Sphere>(in_input_units(refinement.fitted(start, of_bent).shape, frame));
 }
 
 }  // namespace
