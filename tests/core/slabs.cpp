@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "cloud/cloud.h"
+#include "methods/common_parameters.h"
 #include "process_threads.h"
 #include "random_cloud.h"
 #include "score/distributed_matching.h"
@@ -124,8 +125,11 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
         std::vector<Result> results(GetParam());
         shared.run([&](const Cloud& cloud, const Context& context) {
           const Slabs slabs = slabs_of(cloud, along, context);
-          add_pairs(results[cloud.partition.processes()->rank()], cloud, slabs,
-                    PointTree(slabs.points()), mirror, limit, context);
+          Result& result = results[cloud.partition.processes()->rank()];
+          result.mirror = std::make_shared<Plane>(mirror);
+          const ParameterValues values("", {pair_distance(), pairs()},
+                                       {{"pair_distance", limit / cloud.diagonal}});
+          add_pairs(result, cloud, slabs, PointTree(slabs.points()), values, context);
         });
         for (const Result& result : results) {
           const Index rows = result.pairs.rows();

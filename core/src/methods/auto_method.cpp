@@ -13,6 +13,7 @@
 #include "methods/registry.h"
 #include "preprocess/volumetric.h"
 #include "score/mirror_score.h"
+#include "score/verdict.h"
 
 namespace symsurf {
 
@@ -82,17 +83,27 @@ double explained(const Result& result) { return statistic(result, "explained_sha
 
 double covered(const Result& result) { return statistic(result, "covered_share"); }
 
-bool maps_of_covered(double share, const Result& result) {
-  return result.score >= enough_covered && explained(result) >= share * covered(result);
+bool maps(double share, const Result& result, double of) {
+  return result.score >= enough_covered && explained(result) >= share * of;
 }
 
-// Which kind is meant: a freer mirror has to explain more, and to leave a part of what the simpler
-// one covers and does not map. The score says how sure a free form is, not how well it fits.
+bool maps_of_covered(double share, const Result& result) {
+  return maps(share, result, covered(result));
+}
+
+// Which kind is meant: a freer mirror has to explain more, and to leave a part of what either
+// covers and the simpler one does not map. Where the simpler one is none, a free form that is found
+// has not to: its score knows what chance makes.
 bool explains_more(const Result& freer, const Result& simpler) {
   if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
-  const double gain = freer.mirror->kind() == "free-form" ? free_form_gain : tie;
-  const auto lacking = [](const Result& r) { return covered(r) - explained(r); };
-  const double most = maps_of_covered(enough, simpler) ? left_of_little : left * lacking(simpler);
+  const bool is_free = freer.mirror->kind() == "free-form";
+  if (is_free && simpler.score < usual_minimum_score && freer.score >= usual_minimum_score)
+    return true;
+  const double gain = is_free ? free_form_gain : tie;
+  const double either_covers = std::max(covered(freer), covered(simpler));
+  const auto lacking = [&](const Result& r) { return either_covers - explained(r); };
+  const double most =
+      maps(enough, simpler, either_covers) ? left_of_little : left * lacking(simpler);
   return explained(freer) > explained(simpler) + gain && lacking(freer) < most;
 }
 
