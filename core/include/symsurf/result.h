@@ -27,7 +27,9 @@ struct Result {
   std::vector<Result> candidates;
   Values parameters;  ///< as used
   /// "verdict", "found" or "none"; "reason", a sentence that says why; "covered_share": of the
-  /// points that the mirror moves, those with anything of the shape at their image; of planes that
+  /// points that the mirror moves, those with anything of the shape at their image; "deviation": how
+  /// far images lie off the shape, across its surface, in the median over what the mirror maps, less
+  /// what the sampling leaves open, input units; of planes that
   /// score less than 0.9 "distinctive_share", which has to be the minimum_score, too: what they map
   /// of what tells them from the planes beside them; whatever else
   /// the method reports; and, where there are some, how many "nonfinite_points" were left out as

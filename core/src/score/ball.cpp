@@ -81,6 +81,7 @@ BallSupport::BallSupport(const Ball& own, const Ball& other, const Tolerance& to
   support = complete * (squared(1 - turned) / (1 + offset / squared(tolerance.near)) -
                         penalty * missed * std::exp(1 - missed));
   (more == other.count ? rim : missing) = 1 - complete;
+  apart = std::sqrt(offset);
 }
 
 }  // namespace symsurf

@@ -39,6 +39,7 @@ struct Tolerance {
 struct BallSupport {
   double support = 0;
   double missing = 0, rim = 0;  ///< 0..1: where the second's or the first's has fewer points
+  double apart = 0;             ///< r
 
   BallSupport(const Ball& own, const Ball& other, const Tolerance& tolerance);
 };

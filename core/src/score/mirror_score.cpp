@@ -74,6 +74,7 @@ void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
   result.statistics["explained_share"] = std::min(1.0, fit.share);
   result.statistics["exact_share"] = fit.exact;
   result.statistics["covered_share"] = fit.covered;
+  result.statistics["deviation"] = fit.deviation;
   if (freedom_of(kind).any_shape) result.statistics["evidence"] = fit.evidence;
 }
 
@@ -288,8 +289,8 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
     if (sides && found.support > 0)
       add_sides(sample, image, frame.to_frame(images[k]) - sample.position, *sides);
     const double weight = displacement * sample.ceiling;
-    fits.push_back(
-        {index, weight, displacement * found.support, weight * found.missing, weight * found.rim});
+    fits.push_back({index, weight, displacement * found.support, weight * found.missing,
+                    weight * found.rim, false, found.apart});
   }
   return fits;
 }
@@ -297,7 +298,9 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const Image
 MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t stride) const {
   double ceilings = 0, weights = 0, support = 0, missing = 0, exact = 0;
   for (std::size_t k = 0; k < samples_.size(); k += stride) ceilings += samples_[k].ceiling;
+  std::vector<double> deviations{0};
   for (const PointFit& point : points) {
+    if (point.support > 0) deviations.push_back(point.deviation);
     weights += point.weight;
     support += point.support;
     missing += point.missing;
@@ -306,7 +309,8 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;
   const double least = least_share * (1 - exact_share) * ceilings;
-  return {std::max(0.0, support / std::max(weights, least)), 1 - missing / weights, exact_share};
+  return {std::max(0.0, support / std::max(weights, least)), 1 - missing / weights, exact_share,
+          median(std::move(deviations)) * cloud_.frame.size};
 }
 
 void MirrorScore::fill(const Mirror& mirror, const MirrorFit& fit, Result& result) const {

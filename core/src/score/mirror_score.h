@@ -28,9 +28,11 @@ class Plane;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
-  double share = 0;     ///< of the points that the mirror moves; sampling may take it past 1
-  double covered = 0;   ///< share of those that have anything of the cloud where their image is
-  double exact = 0;     ///< share of those whose image is a point of the cloud, to rounding
+  double share = 0;    ///< of the points that the mirror moves; sampling may take it past 1
+  double covered = 0;  ///< share of those that have anything of the cloud where their image is
+  double exact = 0;    ///< share of those whose image is a point of the cloud, to rounding
+  double deviation =
+      0;  ///< median of PointFit::deviation where the shape has the image, input units
   double evidence = 0;  ///< of a mirror of any shape, that it is none of chance's, in nats
 };
 
@@ -42,6 +44,7 @@ struct PointFit {
   double missing = 0;     ///< so much of that is lost as the cloud has less where its image falls
   double rim = 0;         ///< so much of that is lost as the cloud has less around the point itself
   bool exact = false;     ///< its image is a point of the cloud, to rounding
+  double deviation = 0;   ///< of its image from the shape, across the surface, in diagonals
 };
 
 /// The score of all kinds of mirror: the share of the cloud that the mirror maps onto it as well as
@@ -69,7 +72,7 @@ class MirrorScore {
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, std::size_t stride = 1) const;
 
   /// Sets the result's score, and among its statistics "explained_share", "exact_share",
-  /// "covered_share" and, of a plane that may be one of chance, "distinctive_share".
+  /// "covered_share", "deviation" and, of a plane that may be one of chance, "distinctive_share".
   void fill(Result& result) const { fill(*result.mirror, result); }
   /// The same of a mirror that is not the result's own.
   void fill(const Mirror& mirror, Result& result) const { fill(mirror, fit(mirror), result); }

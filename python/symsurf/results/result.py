@@ -57,7 +57,9 @@ class Result(Summarised, Generic[Kind_co]):
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
     """Whatever else the method reports, such as "covered_share", of the points that the mirror moves
-    those with anything of the shape at their image, of planes that score less than 0.9
+    those with anything of the shape at their image, "deviation", how far images lie off the shape,
+    across its surface, in the median over what the mirror maps, less what the sampling leaves open
+    (input units), of planes that score less than 0.9
     "distinctive_share", which has to be the ``minimum_score``, too: what they map of what tells them
     from the planes beside them; and, where there are some, how many
     "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they

@@ -143,8 +143,7 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
   for (std::size_t i = 0; i < std::min(polished_cylinders, candidates.size()); ++i)
     if (i == 0 || candidates[i].support > chance_explains)
-      candidates[i].shape = refinement.exact(
-          refinement.fitted(slid_along_surfaces(candidates[i], refinement), of_polished).shape);
+      candidates[i] = polished(candidates[i], of_polished, refinement);
   suppress_non_maxima(surfels, candidates, alike_cylinders, 1 + values.integer("max_candidates"));
   drop_weakly_supported(candidates);
   context.report(0.7);

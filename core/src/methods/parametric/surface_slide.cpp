@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "methods/parametric/shapes.h"
 
@@ -23,8 +24,6 @@ std::vector<Shape> shapes_around(const Shape& shape,
       around.push_back(shape.changed(step * spacing * loosest * Eigen::Vector2d(i, j)));
   return around;
 }
-
-}  // namespace
 
 template <typename Shape>
 Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate, const Refinement& refinement) {
@@ -51,7 +50,20 @@ Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate, const Refinemen
   return candidate;
 }
 
-template Candidate<UnitSphere> slid_along_surfaces(Candidate<UnitSphere>, const Refinement&);
-template Candidate<UnitCylinder> slid_along_surfaces(Candidate<UnitCylinder>, const Refinement&);
+}  // namespace
+
+template <typename Shape>
+Candidate<Shape> polished(const Candidate<Shape>& candidate, const Fit& fit,
+                          const Refinement& refinement) {
+  Candidate<Shape> close = refinement.fitted(slid_along_surfaces(candidate, refinement), fit);
+  close.shape = refinement.exact(close.shape);
+  close.support = refinement.support(close.shape, fit.samples);
+  return close;
+}
+
+template Candidate<UnitSphere> polished(const Candidate<UnitSphere>&, const Fit&,
+                                        const Refinement&);
+template Candidate<UnitCylinder> polished(const Candidate<UnitCylinder>&, const Fit&,
+                                          const Refinement&);
 
 }  // namespace symsurf

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "methods/parametric/refinement.h"
 
 namespace symsurf {
@@ -9,9 +7,9 @@ namespace symsurf {
 /// Where noise or a dent hides which points are partners, surfaces alone distinguish mirrors that
 /// slide along them, and a fit creeps: slides the mirror over the plane of its loosest changes, for
 /// as long as another position explains clearly more. Without it one of ten dented balls loses its
-/// cylinder.
+/// cylinder. Then it is fitted closely, and to rounding where partners are exact.
 template <typename Shape>
-Candidate<Shape> slid_along_surfaces(Candidate<Shape> candidate,
-                                     const Refinement& refinement);
+Candidate<Shape> polished(const Candidate<Shape>& candidate, const Fit& fit,
+                          const Refinement& refinement);
 
 }  // namespace symsurf

@@ -98,8 +98,7 @@ void refine(std::vector<SphereCandidate>& candidates, const Surfels& surfels,
   for (std::size_t i = 0; i < std::min(polished_spheres, candidates.size()); ++i) {
     SphereCandidate& candidate = candidates[i];
     if (candidate.partnered == 0)
-      candidate.shape = refinement.exact(
-          refinement.fitted(slid_along_surfaces(candidate, refinement), of_polished).shape);
+      candidate = polished(candidate, of_polished, refinement);
     else
       candidate.shape = partner_fit.refined(candidate.shape, of_polished.samples);
   }
