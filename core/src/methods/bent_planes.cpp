@@ -16,7 +16,7 @@ constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal,
 BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
     : cloud_(cloud),
       surfels_(cloud, sample_size, context.stage(0, 0.2)),
-      fine_(cloud, surfels_, context.stage(0.2, 0.3)),
+      fine_(cloud, samples_a_patch * sample_size, context.stage(0.2, 0.3)),
       tree_(cloud.points, context.stage(0.3, 0.6)),
       points_(cloud.points, tree_, context),
       refinement_(cloud, points_, surfels_, fine_),

@@ -134,7 +134,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const NearestPoints points(cloud.points, tree, context);
-  const Surfels fine(cloud, surfels, context.stage(0.5, 0.6));
+  const Surfels fine(cloud, samples_a_patch * values.integer("sample_size"),
+                     context.stage(0.5, 0.6));
   const Refinement refinement(cloud, points, surfels, fine);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, of_each);
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);

@@ -23,6 +23,10 @@ struct Fit {
   int steps;
 };
 
+/// Patches of the finer surfels, each of which has a sample, over those of the coarse ones: what
+/// bends a mirror shows in more of them than what turns a plane.
+inline constexpr Index samples_a_patch = 12;
+
 /// Fits mirrors of few numbers, the shapes of shapes.h, to the full cloud: samples of it are
 /// mirrored and meet the nearest of all points.
 class Refinement {

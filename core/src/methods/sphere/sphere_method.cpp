@@ -54,7 +54,7 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));
   const NearestPoints points(rest.points, tree, context);
-  const Surfels fine(rest, surfels, context.stage(0.8, 1));
+  const Surfels fine(rest, samples_a_patch * sample_size, context.stage(0.8, 1));
   const Refinement refinement(rest, points, surfels, fine);
   const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> found = promising_spheres(surfels, SurfelMap(surfels), cloud.seed,
@@ -117,7 +117,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
 
   PointTree tree(cloud.points, context.stage(0.4, 0.5));
   const NearestPoints points(cloud.points, tree, context);
-  const Surfels fine(cloud, surfels, context.stage(0.5, 0.6));
+  const Surfels fine(cloud, samples_a_patch * sample_size, context.stage(0.5, 0.6));
   const Refinement refinement(cloud, points, surfels, fine);
   const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
   std::vector<SphereCandidate> candidates = searched_spheres(
