@@ -81,4 +81,50 @@ inline Points wrapped(const Points& points) {
   return bent;
 }
 
+// A bump on the positive side, as high as `height` where it is highest.
+inline Points bumped(const Points& points, double height, Eigen::VectorXd& raised) {
+  const Vector3 top = Vector3(1, 0.5, 0.3).normalized();
+  Points out = points;
+  raised = Eigen::VectorXd::Zero(points.rows());
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vector3 x = points.row(i).transpose(), u = x.normalized();
+    const double off = (u - top).squaredNorm() / 0.3;
+    if (off >= 1) continue;
+    raised[i] = height * (1 - off) * (1 - off);
+    out.row(i) += raised[i] * u.transpose();
+  }
+  return out;
+}
+
+// The half at x > 0 of a bumpy ball with open rims, and its image behind it, whose faces keep their
+// winding.
+inline Ball mirrored_without_turning(std::uint64_t seed) {
+  const Ball whole = ball(seed);
+  std::vector<Index> number(whole.points.rows(), -1), used;
+  std::vector<std::array<Index, 3>> half;
+  for (const auto& face : whole.faces.rowwise()) {
+    bool is_ahead = true;
+    for (const Index i : face) is_ahead = is_ahead && whole.points(i, 0) > 0;
+    if (!is_ahead) continue;
+    std::array<Index, 3>& corners = half.emplace_back();
+    for (int c = 0; c < 3; ++c) {
+      if (number[face[c]] < 0) {
+        number[face[c]] = static_cast<Index>(used.size());
+        used.push_back(face[c]);
+      }
+      corners[c] = number[face[c]];
+    }
+  }
+  const auto count = static_cast<Index>(used.size()), faces = static_cast<Index>(half.size());
+  Ball both{Points(2 * count, 3), Triangles(2 * faces, 3), {}};
+  both.points << whole.points(used, Eigen::indexing::all),
+      whole.points(used, Eigen::indexing::all) * Vector3(-1, 1, 1).asDiagonal();
+  for (Index f = 0; f < faces; ++f) {
+    both.faces.row(f) << half[f][0], half[f][1], half[f][2];
+    both.faces.row(faces + f) = both.faces.row(f).array() + count;
+  }
+  for (Index i = 0; i < 2 * count; ++i) both.partner.push_back((i + count) % (2 * count));
+  return both;
+}
+
 }  // namespace symsurf

@@ -53,3 +53,8 @@ def difference(
     gap = found.signed_distance(centre)[0] - sign * truth.signed_distance(centre)[0]
     angle = np.degrees(np.arctan2(sine, abs(found.normal @ truth.normal)))
     return float(angle), abs(gap) / diagonal(points)
+
+
+def is_near(mirror, normal, on, within=0.01):
+    angle = np.degrees(np.arccos(min(1, abs(mirror.normal @ normal))))
+    return angle < 0.6 and abs(mirror.normal @ on + mirror.offset) < within

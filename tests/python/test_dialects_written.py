@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from test_same_format import box, done, text  # noqa: F401 - box is a fixture
+from attributed_files import text
+from test_same_format import box, done  # noqa: F401 - box is a fixture
 
 import symsurf
 
