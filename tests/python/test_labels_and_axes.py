@@ -137,6 +137,24 @@ def test_axes_of_images_go_along(suffix, tmp_path):
     assert symsurf.read(tmp_path / f"bare{suffix}").space is None
 
 
+@pytest.mark.parametrize("space", ["RAS", "LPS", None])
+def test_a_saved_result_names_its_axes(space, tmp_path):
+    points, mirror = mirrored_surface(80, 0)
+    shape = symsurf.Shape(points, space=space)
+    for result in (symsurf.detect(shape, "plane"), symsurf.match(shape, mirror)):
+        assert result.space == space
+        for suffix in (".ply", ".vtp", ".txt"):
+            result.save(tmp_path / f"result{suffix}")
+            assert symsurf.read(tmp_path / f"result{suffix}").space == space
+        result.save(tmp_path / "result.json")
+        assert symsurf.Result.load(tmp_path / "result.json").space == space
+        assert all(candidate.space == space for candidate in result.candidates)
+    record = json.loads((tmp_path / "result.json").read_text())
+    (tmp_path / "result.json").write_text(json.dumps(record | {"space": "RAI"}))
+    with pytest.raises(symsurf.InvalidInput, match="space is 'RAI'; allowed are 'RAS', 'LPS'"):
+        symsurf.Result.load(tmp_path / "result.json")
+
+
 def test_an_image_without_axes_has_none(tmp_path):
     image = nibabel.Nifti1Image(np.eye(4, dtype=np.uint8)[None], None)
     image.header["sform_code"] = image.header["qform_code"] = 0

@@ -84,7 +84,7 @@ def detect(
         shape.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
     warn(fields["statistics"])
-    return Result.from_fields(fields | {"faces": shape.faces})
+    return Result.from_fields(fields | {"faces": shape.faces, "space": shape.space})
 
 
 def match(
@@ -128,4 +128,6 @@ def match(
         pair_distance /= _core.diagonal(shape.points, "auto", refuse)
     fields = _core.match(shape.points, mirror, pair_distance, tolerance, refuse, threads, progress)
     warn(fields["statistics"])
-    return Result.from_fields(fields | {"mirror": mirror, "faces": shape.faces})
+    return Result.from_fields(
+        fields | {"mirror": mirror, "faces": shape.faces, "space": shape.space}
+    )

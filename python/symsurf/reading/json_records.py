@@ -25,7 +25,7 @@ def result_fields(path: str | os.PathLike[str]) -> dict[str, Any]:
     with content_of(path, "no result that was saved") as record:
         footprint = record["footprint"]
         candidates = [_fields(each, footprint, []) for each in record["candidates"]]
-        fields = _fields(record, footprint, candidates)
+        fields = _fields(record, footprint, candidates) | {"space": _space(record.get("space"))}
         _require_sound(fields)
         return fields
 
@@ -129,6 +129,12 @@ def _value(value: Any) -> Any:
 def _text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise InvalidInput(f"{name} is {value!r:.40}; allowed is a word")
+    return value
+
+
+def _space(value: Any) -> str | None:
+    if value not in (None, "RAS", "LPS"):
+        raise InvalidInput(f"space is {value!r:.40}; allowed are 'RAS', 'LPS' and null")
     return value
 
 

@@ -73,6 +73,8 @@ class Result(Summarised, Generic[Kind_co]):
     that were chosen, which ``pairs`` are indices into. None of a candidate and of what ``load`` has read."""
     faces: NDArray[np.int64] | None = None
     """(m, 3) the triangles between them; None for a bare cloud."""
+    space: str | None = None
+    """"RAS" or "LPS", the axes of the input where they are known; see ``Shape``."""
 
     @property
     def verdict(self) -> str:
@@ -106,7 +108,8 @@ class Result(Summarised, Generic[Kind_co]):
     @classmethod
     def from_fields(cls, fields: dict[str, Any]) -> Result:
         """A result from its fields by name, the candidates likewise."""
-        candidates = [cls.from_fields(candidate) for candidate in fields["candidates"]]
+        space = fields.get("space")
+        candidates = [cls.from_fields(each | {"space": space}) for each in fields["candidates"]]
         return cls(**fields | {"candidates": candidates})
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -116,7 +119,8 @@ class Result(Summarised, Generic[Kind_co]):
         mirror and score. ``.vtp``:
         mirror, surface points, pairs and residuals for VTK and ParaView. ``.ply``: surface points
         with residuals as quality. ``.txt``: comment lines starting with ``#``, then the surface
-        points, x,y,z a line; a sphere as its centre, then its radius.
+        points, x,y,z a line; a sphere as its centre, then its radius. Each names the axes where
+        ``space`` does.
 
         Raises InvalidParameter for another suffix, OSError where nothing can be written. A file is
         written whole or not at all.

@@ -25,6 +25,7 @@ def record(result: Result) -> dict[str, Any]:
         "pairs": plain(result.pairs),
         "residuals": plain(result.residuals),
         "surface_points": plain(result.surface_points),
+        "space": result.space,
         "footprint": None if result.mirror is None else plain(result.mirror.footprint),
     }
 
@@ -35,13 +36,15 @@ def operation_bytes(result: OperationResult) -> bytes:
         "mirror": mirror_record(result.mirror),
         "parameters": plain(result.parameters),
         "statistics": plain(result.statistics),
+        "space": result.shape.space,
         "arrays": plain(result.arrays),
     }
     return record_bytes(whole)
 
 
 def analysis_bytes(result: AnalysisResult) -> bytes:
-    return record_bytes(plain(result.to_json()) | {"arrays": plain(result.arrays)})
+    own = {"space": result.shape.space, "arrays": plain(result.arrays)}
+    return record_bytes(plain(result.to_json()) | own)
 
 
 def summary(result: Result) -> dict[str, Any]:

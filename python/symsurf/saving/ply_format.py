@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..results import Result
 from ..shapes import Shape
 from .table_format import columns_of
-from .text_format import figures
+from .text_format import comments
 
 _TYPES = {"f": ("double", "<f8"), "i": ("int", "<i4"), "b": ("uchar", "u1")}
 
@@ -21,7 +21,7 @@ def ply_bytes(result: Result) -> bytes:
     header = [
         "ply",
         "format binary_little_endian 1.0",
-        *(f"comment {name} {text}" for name, text in figures(result)),
+        *(f"comment {line}" for line in comments(result)),
         f"element vertex {len(result.surface_points)}",
         *(f"property double {name}" for name in names),
         "end_header",

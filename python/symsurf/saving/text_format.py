@@ -12,7 +12,7 @@ from ..results import Result
 
 
 def text_bytes(result: Result) -> bytes:
-    lines = [f"# {name} {text}" for name, text in figures(result)]
+    lines = [f"# {line}" for line in comments(result)]
     if result.mirror is not None and result.mirror.kind == "sphere":
         sphere = result.mirror.numbers
         lines += [coordinates(sphere["centre"]), repr(sphere["radius"])]
@@ -25,20 +25,22 @@ def coordinates(point: np.ndarray) -> str:
     return ",".join(map(repr, point.tolist()))
 
 
-def figures(result: Result) -> Iterator[tuple[str, str]]:
-    """What the result says in single figures, as names and texts of one line."""
-    yield "method", result.method
+def comments(result: Result) -> Iterator[str]:
+    """The axes, and what the result says in single figures: lines of a name and a text."""
+    if result.space:
+        yield f"SPACE={result.space}"
+    yield f"method {result.method}"
     if result.mirror is not None:
-        yield "mirror", result.mirror.kind
-        yield from _texts(result.mirror.numbers)
-    yield "score", repr(result.score)
-    yield from _texts(result.statistics)
+        yield f"mirror {result.mirror.kind}"
+        yield from _figures(result.mirror.numbers)
+    yield f"score {result.score!r}"
+    yield from _figures(result.statistics)
 
 
-def _texts(values: dict[str, Any]) -> Iterator[tuple[str, str]]:
+def _figures(values: dict[str, Any]) -> Iterator[str]:
     for name, value in values.items():
         if isinstance(value, np.ndarray):
             if value.ndim == 1:
-                yield name, coordinates(value)
+                yield f"{name} {coordinates(value)}"
         else:
-            yield name, " ".join(str(value).split())
+            yield " ".join([name, *str(value).split()])

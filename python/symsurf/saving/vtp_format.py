@@ -46,9 +46,8 @@ def shape_vtp_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
         name: values.astype(np.int64) if values.dtype.kind == "b" else values
         for name, values in arrays.items()
     }
-    fields = [_text("SPACE", shape.space)] if shape.space else []
     faces = none if shape.faces is None else shape.faces
-    return poly_data(shape.points, vertices, faces, numbers, fields)
+    return poly_data(shape.points, vertices, faces, numbers, _space(shape))
 
 
 def poly_data(
@@ -85,13 +84,17 @@ def poly_data(
 
 
 def _field_data(result: Result) -> list[str]:
-    fields = [_array("Score", np.array([result.score]), tuples=True)]
+    fields = [*_space(result), _array("Score", np.array([result.score]), tuples=True)]
     if result.mirror is not None:
         fields.append(_text("Kind", result.mirror.kind))
         for name, value in result.mirror.numbers.items():
             if isinstance(value, (float, np.ndarray)):
                 fields.append(_array(name.capitalize(), np.atleast_2d(value), tuples=True))
     return fields
+
+
+def _space(of: Shape | Result) -> list[str]:
+    return [_text("SPACE", of.space)] if of.space else []
 
 
 def _text(name: str, text: str) -> str:
