@@ -5,16 +5,18 @@
 namespace symsurf {
 
 std::vector<Index> farthest_points(PointsView points, Index count, const Context& context) {
-  const auto columns = points.matrix().transpose();
-  Eigen::VectorXd distances =
-      (columns.colwise() - columns.rowwise().mean()).colwise().squaredNorm();
+  const auto squared_distances = [&](const Vector3& from) {
+    Eigen::VectorXd squares(points.size());
+    for (Index i = 0; i < points.size(); ++i) squares[i] = (points[i] - from).squaredNorm();
+    return squares;
+  };
+  Eigen::VectorXd distances = squared_distances(points.matrix().colwise().mean().transpose());
   std::vector<Index> chosen;
   while (static_cast<Index>(chosen.size()) < std::min(count, points.size())) {
     context.check();
     Index farthest;
     distances.maxCoeff(&farthest);
-    const Eigen::VectorXd from =
-        (columns.colwise() - columns.col(farthest)).colwise().squaredNorm();
+    const Eigen::VectorXd from = squared_distances(points[farthest]);
     distances = chosen.empty() ? from : Eigen::VectorXd(distances.cwiseMin(from));
     chosen.push_back(farthest);
   }

@@ -4,6 +4,7 @@
 #include "base/math.h"
 #include "base/nearest_orthogonal.h"
 #include "cloud/farthest_points.h"
+#include "cloud/surface_points.h"
 #include "symmetries/embedding/factored_embedding.h"
 #include "symmetries/exact_isometries.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double least_sine = 0.3;                       // of the angle between two base points
 constexpr std::size_t most_exact = 512, most_near = 32;  // maps
+constexpr Index most_points = 10'000;                    // that approximate maps are found by
 constexpr Index landmarks = 120;                         // of points without exact partners
 constexpr Index compared = 1000;         // points that an approximate map is fitted to
 constexpr std::size_t most_fitted = 96;  // approximate maps that are
@@ -32,11 +34,16 @@ class NearSearch {
     found_.diameter = 2 * radii_.maxCoeff();
   }
 
-  NearSymmetries run(PointsView points, double tolerance) {
+  NearSymmetries exact(PointsView points) {
     for (const Matrix3& linear : exact_isometries(points, tree_, context_, most_exact))
       add_exact(about_centre(linear));
-    // Of a planar cloud the reflection in its plane keeps all points in their places.
-    if (!found_.exact) add_near(tolerance);
+    return std::move(found_);
+  }
+
+  // Beside those that were found.
+  NearSymmetries approximate(NearSymmetries found, double tolerance) {
+    found_.maps = std::move(found.maps);
+    add_near(tolerance);
     return std::move(found_);
   }
 
@@ -167,7 +174,13 @@ class NearSearch {
 
 NearSymmetries near_symmetries(PointsView points, const PointTree& tree, double tolerance,
                                const Context& context) {
-  return NearSearch(points, tree, context).run(points, tolerance);
+  NearSymmetries found = NearSearch(points, tree, context).exact(points);
+  // Of a planar cloud the reflection in its plane keeps all points in their places.
+  if (found.exact) return found;
+  const Points thinned =
+      points.matrix()(spread_along_curve(points, most_points, context), Eigen::indexing::all);
+  return NearSearch(thinned, PointTree(thinned, context), context)
+      .approximate(std::move(found), tolerance);
 }
 
 }  // namespace symsurf
