@@ -10,6 +10,7 @@
 
 #include "limbed_body.h"
 #include "random_cloud.h"
+#include "spatial/point_tree.h"
 #include "symmetries/intrinsic/connected_surface.h"
 
 namespace symsurf {
@@ -66,6 +67,28 @@ TEST(IntrinsicSymmetry, NeedsNoFaces) {
     EXPECT_EQ(verdict(result), "found") << seed;
     EXPECT_LT(error_of(body, result.arrays.at("image")).mean, 0.03) << seed;
   }
+}
+
+// More points than are searched.
+TEST(IntrinsicSymmetry, CarriesTheImagesOfAThinnedSurface) {
+  const LimbedBody body = posed_animal(0);
+  const Index count = body.points.rows();
+  RandomCloud random(0);
+  Points points(count + 25'000, 3);
+  points.topRows(count) = body.points;
+  for (Index i = count; i < points.rows(); ++i) {
+    const Index f = random.below(body.faces.rows());
+    const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
+    points.row(i) = s * body.points.row(body.faces(f, 0)) + t * body.points.row(body.faces(f, 1)) +
+                    (1 - s - t) * body.points.row(body.faces(f, 2));
+  }
+  const AnalysisResult result = analyse("intrinsic_symmetry", points);
+  EXPECT_EQ(verdict(result), "found");
+  const PointTree vertices(body.points);
+  Eigen::MatrixXd images = result.arrays.at("image").topRows(count);
+  for (double& image : images.reshaped())
+    image = static_cast<double>(vertices.nearest(points.row(static_cast<Index>(image))).index);
+  EXPECT_LT(error_of(body, images).mean, 0.03);
 }
 
 TEST(IntrinsicSymmetry, DoesNotDependOnPoseUnitAndOrder) {

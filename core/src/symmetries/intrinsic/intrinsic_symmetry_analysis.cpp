@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "cloud/farthest_points.h"
 #include "preprocess/volumetric.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/intrinsic/map_search.h"
+#include "symmetries/partial/thinned_surface.h"
 
 namespace symsurf {
 
@@ -18,6 +22,8 @@ constexpr Index samples_searched = 200;  // vertices at which maps are compared
 constexpr Index samples_refined = 1000;  // at which the best is refined
 constexpr Index functions_refined = 30;  // from which on it is, a few more at a time
 constexpr Index functions_a_step = 5;
+constexpr Index most_points = 20'000;  // more are thinned to
+constexpr Index thinned_points = 10'000;
 constexpr double most_distortion = 0.08;  // mean, in the longest distance along the surface
 constexpr double least_confidence = 0.3;  // mean
 constexpr double half_confident = 0.02;   // diagonals between a point and the image of its image
@@ -44,12 +50,50 @@ void require_surface(const Cloud& cloud, const Context& context) {
                        std::to_string(most));
 }
 
+struct Image {
+  Index point = -1;
+  double confidence = 0;
+};
+
+// Of each point of the cloud, carried from the vertices that it was thinned to: the point nearest
+// to the mean of the images of those about it. None of a point off them.
+std::vector<Image> carried_images(const Cloud& cloud, const ConnectedSurface& surface,
+                                  double spacing, const std::vector<Index>& images,
+                                  const Eigen::VectorXd& confidence, const Context& context) {
+  constexpr Index around = 4, grain = 1024;
+  constexpr double farthest = 3, rounding = 0.03;  // spacings
+  const PointTree vertices(surface.points, context), points(cloud.points, context);
+  std::vector<Image> carried(cloud.points.size());
+  parallel_for(context, cloud.points.size(), grain, [&](Index begin, Index end) {
+    std::vector<Neighbour> near;
+    for (Index i = begin; i < end; ++i) {
+      vertices.nearest(cloud.frame.to_frame(cloud.points[i]), around, near);
+      if (near.front().squared_distance > farthest * farthest * spacing * spacing) continue;
+      Vector3 image = Vector3::Zero();
+      double weights = 0, sure = 0;
+      for (const Neighbour& n : near) {
+        const double weight = 1 / (n.squared_distance + rounding * rounding * spacing * spacing);
+        image += weight * surface.points.row(images[n.index]).transpose();
+        sure += weight * confidence[n.index];
+        weights += weight;
+      }
+      carried[i] = {points.nearest(cloud.frame.from_frame(image / weights)).index, sure / weights};
+    }
+  });
+  return carried;
+}
+
 void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
   require_surface(cloud, context.stage(0, 0));
   const Index count = values.integer("functions");
+  std::optional<ThinnedSurface> thinned;  // in the principal frame
+  if (cloud.points.size() > most_points)
+    thinned.emplace(cloud, thinned_points, context.stage(0, 0.05));
   const ConnectedSurface surface =
-      connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
+      thinned ? connected_surface(thinned->points().points, {}, context.stage(0.05, 0.1))
+              : connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
+  const double diagonal = thinned ? 1 : cloud.diagonal;
   const SurfaceBasis basis = surface_basis(surface, count, context.stage(0.1, 0.4));
   const SampledPoints samples = surface_samples(surface, samples_searched, context.stage(0.4, 0.5));
   IntrinsicMap found = search_map(surface, basis, samples, context.stage(0.5, 0.8));
@@ -66,19 +110,24 @@ void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
     images = all_images(basis, found.map, context.stage(0.8, 1));
     for (Index v = 0; v < size; ++v) {
       const double back = (surface.points.row(images[images[v]]) - surface.points.row(v)).norm() /
-                          (half_confident * cloud.diagonal);
+                          (half_confident * diagonal);
       confidence[v] = 1 / (1 + back * back);
     }
   }
   const double mean = surface.laplacian.areas.dot(confidence);
   const std::string reason = reason_against(found, mean);
 
+  std::vector<Image> carried(cloud.points.size());
+  if (reason.empty() && thinned)
+    carried = carried_images(cloud, surface, thinned->spacing(), images, confidence, context);
+  else if (reason.empty())
+    for (Index i = 0; i < cloud.points.size(); ++i)
+      if (const Index v = surface.vertex_of[i]; v >= 0)
+        carried[i] = {surface.point_of[images[v]], confidence[v]};
   Eigen::MatrixXd image(cloud.points.size(), 1), sure(cloud.points.size(), 1);
   for (Index i = 0; i < cloud.points.size(); ++i) {
-    const Index v = surface.vertex_of[i];
-    const bool has_image = v >= 0 && reason.empty();
-    image(i) = has_image ? static_cast<double>(surface.point_of[images[v]]) : -1;
-    sure(i) = has_image ? confidence[v] : 0;
+    image(i) = static_cast<double>(carried[i].point);
+    sure(i) = carried[i].confidence;
   }
   result.arrays = {{"image", image}, {"confidence", sure}};
   result.statistics = {{"verdict", std::string(reason.empty() ? "found" : "none")},
