@@ -24,6 +24,7 @@ from . import (
     operations,
     partial,
     planes,
+    point_groups,
     recurring,
     scores,
     single_kinds,
@@ -36,8 +37,8 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, recurring,
-           scores, single_kinds, spheres, symmetries, without_mirror)  # fmt: skip
+           intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
+           recurring, scores, single_kinds, spheres, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -24,8 +24,10 @@ std::vector<FoundDirection> find_planes(const SymmetryTest& test);
 /// Nearest to all planes, and where these leave it free to the centroid.
 Vector3 centre_of(const std::vector<FoundDirection>& planes);
 
-/// Axes along the lines in which planes meet, their normals and the principal axes; the highest
-/// order first, continuous ones before. Where one is continuous the search ends.
+/// Axes along the lines in which planes meet, their normals and the principal axes, where these
+/// are any those of half turns between surfels; the highest order first, continuous ones before.
+/// Where one is continuous, or two are of order 3 or more, as in a polyhedral group, and fit well,
+/// the search ends.
 std::vector<FoundDirection> find_axes(const SymmetryTest& test,
                                       const std::vector<FoundDirection>& planes,
                                       const Vector3& centre);

@@ -68,11 +68,9 @@ class SymmetrySearch {
     centre_ = centre_of(planes_);
     axes_ = find_axes(test_, planes_, centre_);
     context_.report(0.8);
-    for (const auto& propose : {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral})
-      if (const std::optional<Placed> placed = (this->*propose)())
-        if (std::optional<Symmetries> found = verified(*placed)) return *found;
-    if (std::optional<Symmetries> found = axial()) return *found;
-    if (std::optional<Symmetries> found = of_two()) return *found;
+    for (const auto& kind : {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral,
+                             &SymmetrySearch::axial, &SymmetrySearch::of_two})
+      if (std::optional<Symmetries> found = (this->*kind)()) return *found;
     Symmetries none = described({}, {}, {.support = 1}, cloud_.frame);
     accepts_(none);
     return none;
@@ -85,46 +83,58 @@ class SymmetrySearch {
     double expected = 0;  // fit: that of the turns alone
   };
 
-  std::optional<Placed> spherical() const {
+  std::optional<Symmetries> spherical() const {
     if (axes_.empty() || axes_.front().order != 0) return {};
     const FoundDirection& axis = axes_.front();
     const GroupPose across = GroupPose::along(Vector3(axis.pose.axes.col(0)), axis.pose.centre);
     const auto other = test_.tried(across, any_turns(Vector3::UnitZ(), 4));
     if (!other) return {};
-    return Placed{spherical_group(), other->pose};
+    return verified({spherical_group(), other->pose});
   }
 
-  std::optional<Placed> polyhedral() const {
-    if (axes_.size() < 2 || axes_[1].order < 3 || axes_[0].order == 0 || axes_[0].order > 5)
-      return {};
-    const Index order = axes_[0].order;
-    const Vector3 a = axes_[0].z();
-    // Another of the highest order: found, or the first turned about one of another order.
-    const Vector3 b =
-        axes_[1].order == order
-            ? axes_[1].z()
-            : turn(axes_[1].z(), 2 * std::numbers::pi / static_cast<double>(axes_[1].order)) * a;
-    const PointGroup turns = polyhedral_group(order, false, false);
-    std::vector<Vector3> ideal;
-    for (const PointGroup::Axis& axis : turns.axes())
-      if (axis.order == order) ideal.push_back(axis.direction);
-    std::optional<GroupPose> pose;
-    double nearest = same_direction;
-    for (std::size_t k = 1; k < ideal.size(); ++k) {
-      const double cosine = ideal[0].dot(ideal[k]);
-      const double off = std::abs(std::abs(cosine) - std::abs(a.dot(b)));
-      if (off >= nearest) continue;
-      nearest = off;
-      const Vector3 other = cosine * a.dot(b) < 0 ? Vector3(-ideal[k]) : ideal[k];
-      pose = GroupPose{basis_of(a, b) * basis_of(ideal[0], other).transpose(), centre_};
+  using Passed = std::optional<SymmetryTest::Passed>;
+
+  // The largest that holds the first two axes.
+  std::optional<Symmetries> polyhedral() const {
+    if (axes_.size() < 2 || axes_[1].order < 3 || axes_[0].order == 0) return {};
+    for (const Index order : {5, 4, 3}) {
+      const Passed turns = placed_on_axes(polyhedral_group(order, false, false));
+      if (!turns) continue;
+      const auto has = [&](const Matrix3& element) {
+        return test_.tried(turns->pose, {element}).has_value();
+      };
+      const bool inversion = has(-Matrix3::Identity());
+      const bool mirror = !inversion && order == 3 && has(reflection(Vector3(1, -1, 0)));
+      for (const PointGroup& group :
+           {polyhedral_group(order, inversion, mirror), polyhedral_group(order, false, false)})
+        if (auto found = verified({group, turns->pose, turns->vote.fit})) return found;
     }
-    if (!pose) return {};
-    const auto has = [&](const Matrix3& element) {
-      return test_.tried(*pose, {element}).has_value();
-    };
-    const bool inversion = has(-Matrix3::Identity());
-    const bool mirror = !inversion && order == 3 && has(reflection(Vector3(1, -1, 0)));
-    return Placed{polyhedral_group(order, inversion, mirror), *pose};
+    return {};
+  }
+
+  // Where two axes of the turns lie along the first two that were found.
+  Passed placed_on_axes(const PointGroup& turns) const {
+    constexpr std::ptrdiff_t some = 4;
+    const Vector3 a = axes_[0].z(), b = axes_[1].z();
+    const std::vector<Matrix3> elements(turns.elements.begin() + 1,
+                                        turns.elements.begin() + 1 + some);
+    const std::vector<PointGroup::Axis> ideal = turns.axes();
+    const auto first = std::find_if(ideal.begin(), ideal.end(), [&](const PointGroup::Axis& axis) {
+      return axis.order == axes_[0].order;
+    });
+    if (first == ideal.end()) return {};
+    Passed best;
+    for (const PointGroup::Axis& second : ideal) {
+      const double cosine = first->direction.dot(second.direction);
+      if (second.order != axes_[1].order ||
+          std::abs(std::abs(cosine) - std::abs(a.dot(b))) > same_direction)
+        continue;
+      const Vector3 other = cosine * a.dot(b) < 0 ? Vector3(-second.direction) : second.direction;
+      const GroupPose pose{basis_of(a, b) * basis_of(first->direction, other).transpose(), centre_};
+      const auto passed = test_.tried(pose, elements);
+      if (passed && (!best || passed->vote.fit > best->vote.fit)) best = passed;
+    }
+    return best;
   }
 
   // About the axes of the highest order first; where a group fails, those it holds.
@@ -170,22 +180,29 @@ class SymmetrySearch {
     const Matrix3 rotary = turn(Vector3::UnitZ(), std::numbers::pi / order) * across;
     AxialElements has;
     GroupPose pose = axis.pose;  // the turns leave it free along the axis
-    if (const auto found = test_.tried(pose, {across})) {
-      has.across = true;
-      pose.centre = found->pose.centre;
-    } else if (axis.order != 0) {
-      if (const auto other = test_.tried(pose, {rotary})) {
-        has.rotary = true;
-        pose.centre = other->pose.centre;
-      }
-    }
-    if (const auto found = scanned(axis, pose, reflection(Vector3::UnitX()))) {
-      has.vertical = true;
-      pose = *found;
-    } else if (const auto other = scanned(axis, pose, turn(Vector3::UnitX(), std::numbers::pi))) {
-      has.twofold = true;
-      pose = *other;
-    }
+    // Whether the first of two, of which a round body may seem to have either; where it fits no
+    // worse than the turns the other is not asked for.
+    const auto is_first = [&](const Passed& one, const auto& other) {
+      if (!one || one->vote.fit >= axis.vote.fit - below_turns) return one.has_value();
+      const Passed second = other();
+      return !second || one->vote.fit >= second->vote.fit;
+    };
+    const Passed flat = test_.tried(pose, {across});
+    const auto turned_flat = [&] {
+      return axis.order == 0 ? Passed() : test_.tried(pose, {rotary});
+    };
+    has.across = is_first(flat, turned_flat);
+    const Passed level = has.across ? flat : turned_flat();
+    has.rotary = level && !has.across;
+    if (level) pose.centre = level->pose.centre;
+    const Passed upright = scanned(axis, pose, reflection(Vector3::UnitX()));
+    const auto half_turned = [&] {
+      return scanned(axis, pose, turn(Vector3::UnitX(), std::numbers::pi));
+    };
+    has.vertical = is_first(upright, half_turned);
+    const Passed standing = has.vertical ? upright : half_turned();
+    has.twofold = standing && !has.vertical;
+    if (standing) pose = standing->pose;
     const std::array<AxialElements, 4> choices{has,
                                                {.vertical = has.vertical, .twofold = has.twofold},
                                                {.across = has.across, .rotary = has.rotary},
@@ -203,9 +220,8 @@ class SymmetrySearch {
   }
 
   // The pose turned about its z to where the element along x is a symmetry.
-  std::optional<GroupPose> scanned(const FoundDirection& axis, const GroupPose& about,
-                                   const Matrix3& element) const {
-    constexpr int steps = 12;
+  Passed scanned(const FoundDirection& axis, const GroupPose& about, const Matrix3& element) const {
+    constexpr double width = 0.035;  // radians
     const Index order = std::max<Index>(1, axis.order);
     const double period = std::numbers::pi / static_cast<double>(order);
     std::vector<std::pair<double, GroupPose>> starts;
@@ -218,24 +234,25 @@ class SymmetrySearch {
         add(plane.z());
         add(plane.z().cross(axis.z()));
       }
-    for (int step = 0; step < (axis.order == 0 ? 1 : steps); ++step)
-      add(turn(axis.z(), period * step / steps) * Vector3(axis.pose.axes.col(0)));
+    for (double angle = 0; angle < (axis.order == 0 ? width : period); angle += width)
+      add(turn(axis.z(), angle) * Vector3(axis.pose.axes.col(0)));
     std::stable_sort(starts.begin(), starts.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr std::size_t most = 4;
     constexpr double good_enough = 0.01;  // fit below that of the turns
-    if (starts.size() > most) starts.resize(most);
+    suppress_non_maxima(starts, most, [](const auto& a, const auto& b) {
+      return are_parallel(a.second.axes.col(0), b.second.axes.col(0), 2.5 * width);
+    });
     // With the turns, which hold the axis where it is.
     std::vector<Matrix3> elements{element};
     if (axis.order > 1) elements.push_back(turns_of(axis.order, 1).front());
-    std::optional<SymmetryTest::Passed> best;
+    Passed best;
     for (const auto& [support, start] : starts) {
       const auto found = test_.tried(start, elements);
       if (found && (!best || found->vote.fit > best->vote.fit)) best = found;
       if (best && best->vote.fit >= axis.vote.fit - good_enough) break;
     }
-    if (!best) return {};
-    return best->pose;
+    return best;
   }
 
   std::optional<Symmetries> verified(const Placed& placed) const {

@@ -12,8 +12,6 @@ namespace {
 constexpr Index surfels = 1000;
 constexpr std::size_t samples = 1500, samples_of_group = 6000;  // a step of the fit
 constexpr std::size_t few_images = 6000, many_images = 24'000;  // that vote
-// Surfels that an element maps onto surfels, within a tolerance in diagonals: fewer are no guess.
-constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 // Shares of the images and of the points.
 constexpr double most_missing = 0.35;
 constexpr double most_outliers_of_elements = 0.3;  // of elements; others may show more

@@ -9,7 +9,9 @@
 
 namespace symsurf {
 
-/// Of the surfels that an element moves so many must come so near to others, in diagonals.
+/// Of the surfels that an element moves so many must come so near to others, in diagonals: of a
+/// guess, and of what was fitted to the surfels.
+constexpr double glance_tolerance = 0.03, glance_support = 0.4;
 constexpr double rough_tolerance = 0.015, rough_support = 0.45;
 
 /// What the orbits of a cloud's points say of a group: of the images of a point under all elements,
