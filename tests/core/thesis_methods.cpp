@@ -168,12 +168,13 @@ TEST(SeparationNormals, NeedsAsManyPointsAsNeighbours) {
     expect_error<InvalidInput>("10", [&] { run(points, method); });
 }
 
-TEST(Separation, GivesTheSameBitsForAnyNumberOfThreads) {
+TEST(ThesisMethods, GiveTheSameBitsForAnyNumberOfThreads) {
   RandomCloud random(3);
   const Points points = random.box(2000);
-  for (const char* name : {"separation", "separation_normals", "normals_only"}) {
+  for (const char* name : {"separation", "separation_normals", "normals_only", "sphere_thesis"}) {
     Options options;
     options.method = name;
+    if (options.method == "sphere_thesis") options.parameters = {{"sample_size", Index{90}}};
     const Result one = detect(points, options, Context({}, 1));
     const Result three = detect(points, options, Context({}, 3));
     EXPECT_EQ(one.pairs, three.pairs) << name;
