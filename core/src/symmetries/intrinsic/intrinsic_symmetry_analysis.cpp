@@ -160,7 +160,7 @@ AnalysisImplementation intrinsic_symmetry_analysis() {
        "0 to 1: halved where the image of the image lies 2 % of the diagonal away."},
   };
   analysis.shown = "confidence";
-  analysis.maximum_points = 2'000'000;  // of which 20,000 are decomposed
+  analysis.maximum_points = 2'000'000;
   analysis.run = run_intrinsic_symmetry;
   return analysis;
 }
