@@ -27,16 +27,16 @@ struct Result {
   std::vector<Result> candidates;
   Values parameters;  ///< as used
   /// "verdict", "found" or "none"; "reason", a sentence that says why; "covered_share": of the
-  /// points that the mirror moves, those with anything of the shape at their image; "deviation": how
-  /// far images lie off the shape, across its surface, in the median over what the mirror maps, less
-  /// what the sampling leaves open, input units; of planes that
-  /// score less than 0.9 "distinctive_share", which has to be the minimum_score, too: what they map
-  /// of what tells them from the planes beside them; whatever else
-  /// the method reports; and, where there are some, how many "nonfinite_points" were left out as
-  /// not finite and how many "outliers" as lying far off: they have no partners.
-  /// "surface_samples": how many points were sampled on the faces. "boundary_points" of a
-  /// volumetric cloud, where the mirror and the score are those of its boundary: how many it has.
-  /// "warning": a sentence for the caller, where the method is not for such a cloud.
+  /// points that the mirror moves, those with anything of the shape at their image; "deviation":
+  /// how far images lie off the shape, across its surface, in the median over what the mirror maps,
+  /// less what the sampling leaves open, input units; of planes that score less than 0.9
+  /// "distinctive_share", which has to be the minimum_score, too: what they map of what tells them
+  /// from the planes beside them; whatever else the method reports; and, where there are some, how
+  /// many "nonfinite_points" were left out as not finite and how many "outliers" as lying far off:
+  /// they have no partners. "surface_samples": how many points were sampled on the faces.
+  /// "boundary_points" of a volumetric cloud, where the mirror and the score are those of its
+  /// boundary: how many it has. "warning": a sentence for the caller, where the method is not for
+  /// such a cloud.
   Values statistics;
   double seconds = 0;
 
