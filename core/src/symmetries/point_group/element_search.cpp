@@ -90,8 +90,9 @@ std::vector<Vector3> half_turn_guesses(const SymmetryTest& test, const Vector3& 
       int major;
       axis.cwiseAbs().maxCoeff(&major);
       const Vector3 cell = (bins / axis[major] * axis).array().round();
-      Vector3& sum = votes[{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
-                            static_cast<int>(cell.z())}];
+      const std::array<int, 3> bin{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
+                                   static_cast<int>(cell.z())};
+      Vector3& sum = votes.try_emplace(bin, Vector3::Zero()).first->second;
       sum += (axis[major] < 0 ? -1 : 1) / static_cast<double>(axes.size()) * axis;
     }
   }
