@@ -33,7 +33,8 @@ def in_meshlab(p: symsurf.Parameter, value: object) -> object:
 
 
 def all_changed(method: str) -> tuple[dict, dict]:
-    parameters = symsurf.methods()[method].parameters
+    """But for the pairs, which are compared."""
+    parameters = [p for p in symsurf.methods()[method].parameters if p.name != "pairs"]
     values = {p.name: changed(p) for p in parameters}
     return values, {p.name: in_meshlab(p, values[p.name]) for p in parameters}
 
@@ -99,6 +100,17 @@ def test_changed_parameters(method, kind):
     mesh_set = shape.mesh_set()
     returned = mesh_set.apply_filter("compute_mirror_" + method, seed=3, threads=1, **there)
     assert_same(mesh_set, returned, expected, shape)
+
+
+def test_pairs_can_be_left_out():
+    shape = mesh(4)
+    mesh_set = shape.mesh_set()
+    returned = mesh_set.apply_filter("compute_mirror_plane", pairs=False)
+    assert returned["score"] == symsurf.detect(shape.points, "plane", faces=shape.faces).score
+    assert returned["pairs"] == 0
+    assert "Surface points" not in [m.label() for m in mesh_set]
+    partner = layer(mesh_set, "shape").vertex_custom_scalar_attribute_array("partner")
+    assert np.all(partner == -1)
 
 
 @pytest.mark.parametrize("method", ["auto", "plane", "normals_only"])
