@@ -27,7 +27,7 @@ constexpr double enough = 0.85, straight = 0.97, enough_covered = 0.6;
 // has to explain so much more of the shape.
 constexpr double left = 0.4, tie = 0.01;
 // Beside one that maps enough it has to leave so much: sides that differ smoothly look bent, too.
-constexpr double left_of_little = 0.015;
+constexpr double left_of_little = 0.01;
 constexpr std::size_t planes_bent = 3;  // the best ones
 // Explained share of the shape that a free form has to gain. On 24 bent bodies of 10,000 points
 // with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
