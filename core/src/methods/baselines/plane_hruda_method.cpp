@@ -15,6 +15,13 @@ namespace {
 
 using Coefficients = Eigen::Vector4d;  // (a, b, c, d), of lengths in l_avg about the centroid
 
+// The greatest measure first.
+struct MeasuredPlane {
+  double measure;
+  Coefficients plane;
+  bool operator<(const MeasuredPlane& other) const { return measure > other.measure; }
+};
+
 constexpr double alike = 0.1;  // distance of the coefficients of planes that are averaged
 constexpr int most_steps = 100;
 constexpr double gained = 1e-10;  // share of the measure that a last step gains
@@ -51,10 +58,10 @@ std::vector<Coefficients> averaged_planes(const Points& points, const Context& c
 }
 
 // Climbs by the BFGS method with backtracking (Nocedal and Wright 2006, algorithms 6.1 and 3.1).
-Coefficients maximised(const SymmetryMeasure& measure, Coefficients p, const Context& context) {
+MeasuredPlane maximised(const SymmetryMeasure& measure, Coefficients p, const Context& context) {
   Coefficients slope;
   double value = measure(p, slope);
-  if (slope.isZero(0)) return p;
+  if (slope.isZero(0)) return {value, p};
   Eigen::Matrix4d inverse_hessian = Eigen::Matrix4d::Identity() * (0.01 / slope.norm());
   for (int step = 0; step < most_steps; ++step) {
     context.check();
@@ -82,7 +89,7 @@ Coefficients maximised(const SymmetryMeasure& measure, Coefficients p, const Con
     slope = next_slope;
     if (rests) break;
   }
-  return p;
+  return {value, p};
 }
 
 Result run_plane_hruda(const Cloud& cloud, const ParameterValues& values, const Context& context) {
@@ -93,12 +100,7 @@ Result run_plane_hruda(const Cloud& cloud, const ParameterValues& values, const 
   points /= extent;
   const SymmetryMeasure measure(points);
 
-  struct Candidate {
-    double measure;
-    Coefficients plane;
-  };
-  const auto greater = [](const Candidate& a, const Candidate& b) { return a.measure > b.measure; };
-  std::vector<Candidate> candidates;
+  std::vector<MeasuredPlane> candidates;
   for (const Coefficients& plane : averaged_planes(
            downsample(points, values.integer("paired_points"), context), context.stage(0, 0.1)))
     candidates.push_back({0, plane});
@@ -107,18 +109,15 @@ Result run_plane_hruda(const Cloud& cloud, const ParameterValues& values, const 
                  for (Index k = begin; k < end; ++k)
                    candidates[k].measure = measure(candidates[k].plane);
                });
-  std::stable_sort(candidates.begin(), candidates.end(), greater);
+  std::stable_sort(candidates.begin(), candidates.end());
   candidates.resize(
       std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(values.integer("starts"))));
-  for (Candidate& each : candidates) {
-    each.plane = maximised(measure, each.plane, context);
-    each.measure = measure(each.plane);
-  }
+  for (MeasuredPlane& each : candidates) each = maximised(measure, each.plane, context);
   context.report(0.8);
-  std::stable_sort(candidates.begin(), candidates.end(), greater);
+  std::stable_sort(candidates.begin(), candidates.end());
 
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (const Candidate& each : candidates) {
+  for (const MeasuredPlane& each : candidates) {
     const Vector3 normal = each.plane.head<3>();
     mirrors.push_back(
         std::make_shared<Plane>(normal, each.plane[3] * extent - normal.dot(centroid)));
