@@ -44,7 +44,8 @@ class NearSearch {
   NearSymmetries approximate(NearSymmetries found, double tolerance) {
     found_.maps = std::move(found.maps);
     add_near(tolerance);
-    return std::move(found_);
+    found.maps = std::move(found_.maps);
+    return found;
   }
 
  private:
