@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include "filter.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/points_view.h>
+#include <symsurf/points.h>
 
 #include <vector>
 

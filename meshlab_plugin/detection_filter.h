@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/method.h>
+#include <symsurf/detect.h>
 
 #include "filter.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_symsurf.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include "analysis_filter.h"
 #include "detection_filter.h"

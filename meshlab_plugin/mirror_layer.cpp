@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mirror_layer.h"
 
-#include <symsurf/errors.h>
-#include <symsurf/mirror_through.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 

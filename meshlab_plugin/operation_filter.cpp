@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operation_filter.h"
 
-#include <symsurf/found_mirror.h>
+#include <symsurf/detect.h>
 
 #include <algorithm>
 #include <cctype>

@@ -2,8 +2,7 @@
 #include "operation_mirror.h"
 
 #include <symsurf/detect.h>
-#include <symsurf/found_mirror.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include "mirror_layer.h"
 #include "result_layers.h"

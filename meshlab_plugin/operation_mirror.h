@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameter_dialog.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reflection_filter.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <vcg/complex/algorithms/clean.h>
 
 #include "cloud_conversion.h"

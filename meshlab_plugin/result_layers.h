@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/analysis.h>
-#include <symsurf/result.h>
+#include <symsurf/analyses.h>
+#include <symsurf/detect.h>
 #include <symsurf/synthetic.h>
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "returned_values.h"
 
-#include <symsurf/candidate_values.h>
-#include <symsurf/plane.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/result.h>
+#include <symsurf/detect.h>
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sample_filter.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <symsurf/synthetic.h>
 
 #include <algorithm>

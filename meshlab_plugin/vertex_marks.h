@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <symsurf/analysis.h>
-#include <symsurf/operation.h>
-#include <symsurf/result.h>
+#include <symsurf/analyses.h>
+#include <symsurf/detect.h>
+#include <symsurf/operations.h>
 
 #include "cloud_conversion.h"
 #include "meshlab_host.h"

@@ -1,7 +1,7 @@
 #ifndef chosen_parameters_h
 #define chosen_parameters_h
 
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
 
 class vtkMirrorDetectionParameters;
 class vtkMirrorSampleSourceParameters;

@@ -1,6 +1,6 @@
 #include "controller_communicator.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <cstring>
 #include <new>

@@ -1,8 +1,8 @@
 #ifndef controller_communicator_h
 #define controller_communicator_h
 
-#include <symsurf/communicator.h>
-#include <symsurf/types.h>
+#include <symsurf/context.h>
+#include <symsurf/points.h>
 
 #include <functional>
 #include <string>

@@ -2,8 +2,7 @@
 #define core_call_h
 
 #include <symsurf/context.h>
-#include <symsurf/errors.h>
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
 
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"

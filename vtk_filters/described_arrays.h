@@ -1,7 +1,7 @@
 #ifndef described_arrays_h
 #define described_arrays_h
 
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include <map>
 #include <string>

@@ -1,7 +1,7 @@
 #ifndef field_values_h
 #define field_values_h
 
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
 
 class vtkFieldData;
 

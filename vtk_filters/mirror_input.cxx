@@ -1,7 +1,7 @@
 #include "mirror_input.h"
 
-#include <symsurf/errors.h>
-#include <symsurf/make_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include "field_values.h"
 #include "vtkPolyData.h"

@@ -1,7 +1,7 @@
 #ifndef operation_output_h
 #define operation_output_h
 
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include "vtkNew.h"
 

@@ -1,6 +1,6 @@
 #include "point_arrays.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <symsurf/mirror.h>
 
 #include <algorithm>

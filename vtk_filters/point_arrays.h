@@ -1,8 +1,7 @@
 #ifndef point_arrays_h
 #define point_arrays_h
 
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/points.h>
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"

@@ -1,7 +1,7 @@
 #ifndef point_subset_h
 #define point_subset_h
 
-#include <symsurf/types.h>
+#include <symsurf/points.h>
 
 #include <vector>
 

@@ -1,8 +1,7 @@
 #include "run_operation.h"
 
 #include <symsurf/detect.h>
-#include <symsurf/found_mirror.h>
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include "controller_communicator.h"
 #include "core_call.h"

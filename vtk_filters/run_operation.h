@@ -1,7 +1,7 @@
 #ifndef run_operation_h
 #define run_operation_h
 
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "shape_input.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,7 @@
 #include "vtkMirrorDetection.h"
 
-#include <symsurf/candidate_values.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
 
 #include <algorithm>
 #include <cmath>

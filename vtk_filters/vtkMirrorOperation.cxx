@@ -1,6 +1,6 @@
 #include "vtkMirrorOperation.h"
 
-#include <symsurf/method.h>
+#include <symsurf/detect.h>
 
 #include "vtkInformation.h"
 

@@ -1,6 +1,6 @@
 #include "vtkPointDamage.h"
 
-#include <symsurf/damage.h>
+#include <symsurf/synthetic.h>
 
 #include "chosen_parameters.h"
 #include "core_call.h"

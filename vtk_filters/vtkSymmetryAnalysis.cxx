@@ -1,6 +1,6 @@
 #include "vtkSymmetryAnalysis.h"
 
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include "chosen_parameters.h"
 #include "controller_communicator.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/read.h>
+#include <symsurf/io.h>
 
 #include <string_view>
 

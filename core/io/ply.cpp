@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/value.h>
+#include <symsurf/context.h>
+#include <symsurf/parameter.h>
 
 #include <algorithm>
 #include <array>

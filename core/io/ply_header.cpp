@@ -1,6 +1,6 @@
 #include "ply_header.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <map>
 #include <set>

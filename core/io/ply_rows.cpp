@@ -1,6 +1,6 @@
 #include "ply_rows.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/read.h>
+#include <symsurf/context.h>
+#include <symsurf/io.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "text_scanner.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include <array>
 

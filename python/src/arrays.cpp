@@ -1,6 +1,6 @@
 #include "arrays.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <string>
 

@@ -2,8 +2,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/points.h>
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
 #include <pybind11/stl.h>
-#include <symsurf/benchmark.h>
+#include <symsurf/synthetic.h>
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "context.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <limits>
 

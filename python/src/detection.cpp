@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 #include <symsurf/detect.h>
-#include <symsurf/match.h>
 
 #include <optional>
 

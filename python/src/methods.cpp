@@ -1,5 +1,5 @@
 #include <pybind11/stl.h>
-#include <symsurf/method.h>
+#include <symsurf/detect.h>
 
 #include "bindings.h"
 #include "values.h"

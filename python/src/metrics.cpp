@@ -1,4 +1,4 @@
-#include <symsurf/metrics.h>
+#include <symsurf/synthetic.h>
 
 #include <string>
 

@@ -1,15 +1,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/typing.h>
-#include <symsurf/bend.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/free_form.h>
-#include <symsurf/height_field.h>
-#include <symsurf/make_mirror.h>
-#include <symsurf/plane.h>
-#include <symsurf/quadric.h>
-#include <symsurf/sphere.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/mirrors.h>
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <symsurf/found_mirror.h>
-#include <symsurf/operation.h>
+#include <symsurf/detect.h>
+#include <symsurf/operations.h>
 
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-#include <symsurf/reflection_points.h>
+#include <symsurf/mirrors.h>
 
 #include <memory>
 #include <string>

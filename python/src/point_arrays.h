@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include <map>
 #include <string>

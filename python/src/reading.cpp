@@ -1,6 +1,6 @@
 #include <pybind11/stl/filesystem.h>
-#include <symsurf/errors.h>
-#include <symsurf/read.h>
+#include <symsurf/context.h>
+#include <symsurf/io.h>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
-#include <symsurf/result.h>
+#include <symsurf/detect.h>
 
 namespace symsurf::python {
 

@@ -1,5 +1,4 @@
-#include <symsurf/downsample.h>
-#include <symsurf/normals.h>
+#include <symsurf/points.h>
 
 #include <string>
 

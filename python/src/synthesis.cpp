@@ -1,7 +1,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
-#include <symsurf/damage.h>
-#include <symsurf/surface.h>
+#include <symsurf/mirrors.h>
 #include <symsurf/synthetic.h>
 
 #include <optional>

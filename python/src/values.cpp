@@ -2,7 +2,7 @@
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include <pybind11/pybind11.h>
 #include <symsurf/parameter.h>
-#include <symsurf/value.h>
 
 #include <cstdint>
 #include <vector>

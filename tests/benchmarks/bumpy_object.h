@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/types.h>
+#include <symsurf/points.h>
 
 namespace symsurf::benchmarks {
 

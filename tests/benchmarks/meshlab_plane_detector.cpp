@@ -6,7 +6,7 @@
 // plane; of the quick one the mean of several runs. Errors against the known plane.
 
 #include <symsurf/detect.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 #include <vcg/complex/algorithms/symmetry.h>
 #include <vcg/complex/complex.h>
 

@@ -2,9 +2,8 @@
 // a known cylinder, on one thread. The mesh is a little asymmetric, and for complete it has a hole.
 
 #include <benchmark/benchmark.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/operation.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
 
 #include <cmath>
 #include <memory>

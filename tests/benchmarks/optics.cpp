@@ -1,10 +1,7 @@
 // Seconds of reflection_points() for 100,000 random sources and one eye, on one thread.
 
 #include <benchmark/benchmark.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/quadric.h>
-#include <symsurf/reflection_points.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <memory>
 #include <string>

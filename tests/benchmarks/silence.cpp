@@ -5,10 +5,10 @@
 //
 //   silence [POINTS [SECONDS [WISHES [NAME...]]]]
 
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/operation.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/points_view.h>
+#include <symsurf/points.h>
 
 namespace symsurf::benchmarks {
 

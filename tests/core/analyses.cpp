@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/analysis.h>
-#include <symsurf/errors.h>
-#include <symsurf/symmetries.h>
+#include <symsurf/analyses.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <limits>

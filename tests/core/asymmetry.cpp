@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/operation.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
 
 #include <cmath>
 #include <numbers>

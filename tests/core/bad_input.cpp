@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <symsurf/make_mirror.h>
+#include <symsurf/mirrors.h>
 #include <symsurf/symsurf.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/benchmark.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
+#include <symsurf/synthetic.h>
 
 #include <cmath>
 #include <vector>

@@ -1,9 +1,8 @@
 #include "preprocess/boundary_extraction.h"
 
 #include <gtest/gtest.h>
-#include <symsurf/cylinder.h>
 #include <symsurf/detect.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <symsurf/cylinder.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,8 @@
 // The candidates' numbers as the hosts hand them on, a row each.
 
 #include <gtest/gtest.h>
-#include <symsurf/candidate_values.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
 
 namespace symsurf {
 

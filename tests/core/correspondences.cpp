@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include <map>
 #include <numeric>

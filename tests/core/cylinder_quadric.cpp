@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/errors.h>
-#include <symsurf/make_mirror.h>
-#include <symsurf/quadric.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/downsample.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
+#include <symsurf/points.h>
 
 #include <array>
 #include <cmath>

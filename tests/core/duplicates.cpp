@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
-#include <symsurf/damage.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/match.h>
-#include <symsurf/operation.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
+#include <symsurf/synthetic.h>
 
 #include <cmath>
 #include <vector>

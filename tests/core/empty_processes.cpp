@@ -1,8 +1,8 @@
 // Processes without points, or with none that is finite, hold nobody up and change no result.
 
 #include <gtest/gtest.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
 
 #include <atomic>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <numbers>

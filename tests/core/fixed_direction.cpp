@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
-#include <symsurf/height_field.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/height_field.h>
-#include <symsurf/make_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/analysis.h>
-#include <symsurf/errors.h>
+#include <symsurf/analyses.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
-#include <symsurf/method.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

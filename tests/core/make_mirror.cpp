@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/make_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Core>
 #include <cmath>

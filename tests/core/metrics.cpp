@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/metrics.h>
-#include <symsurf/plane.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 #include <symsurf/synthetic.h>
 
 #include <cmath>

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/height_field.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,9 +1,7 @@
 #include "score/mirror_score.h"
 
 #include <gtest/gtest.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <random>

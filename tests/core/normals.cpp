@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/normals.h>
+#include <symsurf/context.h>
+#include <symsurf/points.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

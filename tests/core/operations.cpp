@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/errors.h>
-#include <symsurf/operation.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
 
 #include <Eigen/LU>
 #include <cmath>

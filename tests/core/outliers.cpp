@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
-#include <symsurf/match.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <vector>

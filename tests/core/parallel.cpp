@@ -1,7 +1,7 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <sys/resource.h>
 
 #include <atomic>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/method.h>
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
 #include <symsurf/parameter.h>
 
 #include <cmath>

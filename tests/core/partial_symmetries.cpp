@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

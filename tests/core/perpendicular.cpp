@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
-#include <symsurf/bend.h>
-#include <symsurf/cylinder.h>
 #include <symsurf/detect.h>
-#include <symsurf/metrics.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/synthetic.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

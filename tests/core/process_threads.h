@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/communicator.h>
+#include <symsurf/context.h>
 
 #include <condition_variable>
 #include <deque>

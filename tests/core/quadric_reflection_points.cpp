@@ -1,10 +1,7 @@
 // Where quadrics reflect light (optics).
 
 #include <gtest/gtest.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/quadric.h>
-#include <symsurf/reflection_points.h>
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <functional>

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <symsurf/quadric.h>
-#include <symsurf/reflection_points.h>
+#include <symsurf/mirrors.h>
 
 #include <string>
 

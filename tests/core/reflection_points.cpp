@@ -1,14 +1,8 @@
 // Where mirrors reflect light (optics).
 
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/free_form.h>
-#include <symsurf/height_field.h>
-#include <symsurf/plane.h>
-#include <symsurf/quadric.h>
-#include <symsurf/reflection_points.h>
-#include <symsurf/sphere.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <array>
 #include <cmath>

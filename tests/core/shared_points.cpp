@@ -1,9 +1,9 @@
 // Processes that share out a point set find what one process finds.
 
 #include <gtest/gtest.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "distributed/slabs.h"
 
 #include <gtest/gtest.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <functional>

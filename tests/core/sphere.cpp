@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/damage.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/metrics.h>
 #include <symsurf/synthetic.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "preprocess/surface_samples.h"
 
 #include <gtest/gtest.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <array>

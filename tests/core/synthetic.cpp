@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 #include <symsurf/synthetic.h>
 
 #include <cmath>

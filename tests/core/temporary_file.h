@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/read.h>
+#include <symsurf/context.h>
+#include <symsurf/io.h>
 #include <unistd.h>
 
 #include <filesystem>

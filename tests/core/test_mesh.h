@@ -1,7 +1,7 @@
 #pragma once
 
 #include <symsurf/detect.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 

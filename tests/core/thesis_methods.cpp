@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/normals.h>
+#include <symsurf/points.h>
 
 #include "expect_error.h"
 #include "thesis_clouds.h"

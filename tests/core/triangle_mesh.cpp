@@ -1,7 +1,7 @@
 #include "mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
-#include <symsurf/found_mirror.h>
-#include <symsurf/match.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

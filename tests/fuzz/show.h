@@ -1,7 +1,7 @@
 #pragma once
 
-#include <symsurf/types.h>
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
+#include <symsurf/points.h>
 
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Analyses as a filter: what the core finds, as data sets.
 
 #include <gtest/gtest.h>
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include <limits>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // Bad input is an error event and empty outputs; the next good run works. An abort stops the run.
 
 #include <gtest/gtest.h>
-#include <symsurf/method.h>
+#include <symsurf/detect.h>
 
 #include <initializer_list>
 #include <limits>

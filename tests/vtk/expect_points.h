@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <symsurf/types.h>
+#include <symsurf/points.h>
 
 #include "vtkPolyData.h"
 

@@ -3,7 +3,6 @@
 //
 //   one_scene POINTS METHOD...      POINTS: a file of doubles, three a point
 
-#include <symsurf/candidate_values.h>
 #include <symsurf/detect.h>
 
 #include <fstream>

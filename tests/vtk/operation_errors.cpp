@@ -2,9 +2,9 @@
 // works.
 
 #include <gtest/gtest.h>
-#include <symsurf/errors.h>
-#include <symsurf/operation.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/operations.h>
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // Operations as filters: what the core gives, beside what the input has.
 
 #include <gtest/gtest.h>
-#include <symsurf/operation.h>
+#include <symsurf/operations.h>
 
 #include <cmath>
 #include <set>

@@ -1,7 +1,6 @@
 // The sample source and the damage give what the core gives, with cells and data that belong.
 
 #include <gtest/gtest.h>
-#include <symsurf/damage.h>
 #include <symsurf/synthetic.h>
 
 #include "error_listener.h"

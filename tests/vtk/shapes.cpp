@@ -1,7 +1,7 @@
 // The filters take every kind of data set that holds a shape.
 
 #include <gtest/gtest.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <initializer_list>

@@ -1,8 +1,7 @@
 #include "described.h"
 
-#include <symsurf/analysis.h>
-#include <symsurf/damage.h>
-#include <symsurf/method.h>
+#include <symsurf/analyses.h>
+#include <symsurf/detect.h>
 #include <symsurf/synthetic.h>
 
 #include <stdexcept>

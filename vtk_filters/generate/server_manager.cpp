@@ -1,5 +1,4 @@
-#include <symsurf/found_mirror.h>
-#include <symsurf/method.h>
+#include <symsurf/detect.h>
 
 #include <cctype>
 #include <cmath>

@@ -1,11 +1,49 @@
 #pragma once
 
-#include <symsurf/types.h>
+// What every long call takes from its caller, and how it fails.
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
+#include <stdexcept>
+#include <vector>
 
 namespace symsurf {
+
+/// The points, the normals or the file cannot be used; the message says why and what is needed.
+class InvalidInput : public std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// An unknown method or parameter, or a value out of its range; the message names both.
+class InvalidParameter : public std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The caller's progress callback asked to stop.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled by the caller") {}
+};
+
+/// The processes that share a point set, and two calls of MPI. A host makes one from its message
+/// passing. The calls are collective: all processes make the same ones in the same order.
+class Communicator {
+ public:
+  using Bytes = std::vector<std::byte>;
+
+  virtual ~Communicator() = default;
+
+  virtual int rank() const = 0;  ///< of this process, from 0
+  virtual int size() const = 0;  ///< number of processes
+
+  /// What every process passes, by rank.
+  virtual std::vector<Bytes> all_gather(std::span<const std::byte> own) const = 0;
+
+  /// Sends bytes to another process and returns those that it sends.
+  virtual Bytes send_recv(int other, std::span<const std::byte> bytes) const = 0;
+};
 
 class Communicator;
 

@@ -1,15 +1,94 @@
 #pragma once
 
+// Finding the mirror of a shape, and how well a known one fits it.
+
 #include <symsurf/context.h>
-#include <symsurf/method.h>
-#include <symsurf/points_view.h>
-#include <symsurf/result.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/mirror.h>
+#include <symsurf/parameter.h>
+#include <symsurf/points.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace symsurf {
+
+/// The one description of a method. Front ends are made by looping over methods().
+struct Method {
+  std::string name;
+  std::string title;    ///< for menus: "Mirror plane"
+  std::string summary;  ///< one sentence
+  std::vector<Parameter> parameters;
+  Index minimum_points = 4;
+  bool automatic = false;  ///< one of those that "auto" tries
+};
+
+/// Of the parameter "tolerance" of all methods, in diagonals: the sides of scanned faces and skulls
+/// differ by less.
+inline constexpr double usual_tolerance = 0.004;
+
+/// All methods, in the order front ends show them.
+const std::vector<Method>& methods();
+
+/// Throws InvalidParameter, listing the names there are.
+const Method& method(std::string_view name);
+
+/// What a method found. No symmetry is a result too: one with a low score.
+struct Result {
+  std::string method;
+  std::shared_ptr<Mirror> mirror;  ///< null: none found, or surface points only
+  /// Midpoints of the pairs, at most half a residual off the mirror; perpendicular, quadric and
+  /// fixed_direction project them onto it. Input units.
+  Points surface_points;
+  Pairs pairs;                ///< (point, partner), indices into the input
+  Eigen::VectorXd residuals;  ///< distance from the image to the partner, input units
+  /// 0: no symmetry; 1: as good as the sampling shows. The share of the shape that the mirror maps
+  /// onto it as well as one half of the points, drawn at random, says what the other half does.
+  /// What lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it;
+  /// of quadrics, height fields and free forms what chance maps lacks, too.
+  double score = 0;
+  /// Other mirrors, without pairs, by score; none scores more than the result.
+  std::vector<Result> candidates;
+  Values parameters;  ///< as used
+  /// "verdict", "found" or "none"; "reason", a sentence that says why; "covered_share": of the
+  /// points that the mirror moves, those with anything of the shape at their image; "deviation":
+  /// how far images lie off the shape, across its surface, in the median over what the mirror maps,
+  /// less what the sampling leaves open, input units; of planes that score less than 0.9
+  /// "distinctive_share", which has to be the minimum_score, too: what they map of what tells them
+  /// from the planes beside them; whatever else the method reports; and, where there are some, how
+  /// many "nonfinite_points" were left out as not finite and how many "outliers" as lying far off:
+  /// they have no partners. "surface_samples": how many points were sampled on the faces.
+  /// "boundary_points" of a volumetric cloud, where the mirror and the score are those of its
+  /// boundary: how many it has. "warning": a sentence for the caller, where the method is not for
+  /// such a cloud.
+  Values statistics;
+  double seconds = 0;
+
+  /// "found" where there is a mirror whose score is at least `minimum_score`, else "none".
+  const std::string& verdict() const { return std::get<std::string>(statistics.at("verdict")); }
+  /// Why, in a sentence.
+  const std::string& reason() const { return std::get<std::string>(statistics.at("reason")); }
+};
+
+/// The numbers of a result's candidates, one row a candidate, best first: "candidate_scores" (n, 1)
+/// and, where all are planes, "candidate_normals" (n, 3) and "candidate_offsets" (n, 1). None where
+/// there are no candidates.
+Values candidate_values(const Result& result);
+
+/// The mirror that a detection gives to what needs one.
+struct FoundMirror {
+  std::shared_ptr<Mirror> mirror;
+  std::string warning;  ///< for the caller, where the verdict is "none"; else empty
+};
+
+/// The mirror of a result, whatever its verdict. Throws InvalidInput where there is none, and, with
+/// `require_found`, with the reason where the verdict is "none".
+FoundMirror found_mirror(const Result& result, bool require_found = false);
+
+/// The description of `require_found`, for what finds a mirror first.
+const Parameter& require_found_parameter();
 
 struct Options {
   std::string method = "auto";
@@ -45,5 +124,17 @@ Result detect(PointsView points, const Options& options = {}, const Context& con
 /// leaves out as not finite or as outliers. `match` takes that of the method "auto". Of one
 /// process's points; throws as detect does.
 double diagonal(PointsView points, const Options& options = {}, const Context& context = {});
+
+/// Pairs every point with the input point nearest to its image over a known mirror, where that is
+/// nearer than `pair_distance` times the diagonal: how a mirror found elsewhere, or one of
+/// Result::candidates, fits. Equally near partners: the lowest index. Points far off the rest have
+/// no partners, as in detect, and do not count for the diagonal; nor do points that are not finite,
+/// which `refuse_nonfinite` makes an error. The score and the verdict are those that detect gives.
+/// `tolerance`: of diagonals, as the parameter of that name of every method. Throws InvalidInput
+/// and Cancelled as detect does, InvalidParameter for a negative distance and a tolerance beyond
+/// [1e-4, 0.1].
+Result match(PointsView points, const Mirror& mirror, double pair_distance = 0.05,
+             const Context& context = {}, bool refuse_nonfinite = false,
+             double tolerance = usual_tolerance);
 
 }  // namespace symsurf

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/points_view.h>
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
+#include <symsurf/points.h>
 
 #include <concepts>
 #include <memory>

@@ -1,12 +1,23 @@
 #pragma once
 
-#include <symsurf/value.h>
+// Values, and the descriptions of parameters that front ends are made from.
 
+#include <symsurf/points.h>
+
+#include <map>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace symsurf {
+
+/// A parameter's value or a reported figure, in a form every front end can hand on.
+using Value = std::variant<bool, Index, double, std::string, Vector3, Eigen::MatrixXd>;
+using Values = std::map<std::string, Value>;
+
+/// The value as text: "0.05", "plane", "(0, 0, 1)".
+std::string to_string(const Value& value);
 
 enum class ParameterType { Boolean, Integer, Real, Choice, Direction, Position };
 

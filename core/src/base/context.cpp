@@ -1,6 +1,4 @@
-#include <symsurf/communicator.h>
 #include <symsurf/context.h>
-#include <symsurf/errors.h>
 
 #include <atomic>
 #include <chrono>

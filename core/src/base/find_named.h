@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <string>
 #include <string_view>

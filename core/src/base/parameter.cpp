@@ -1,4 +1,4 @@
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <symsurf/parameter.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "cloud/cloud.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <string>

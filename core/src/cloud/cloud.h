@@ -1,10 +1,9 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/method.h>
-#include <symsurf/plane.h>
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/points.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
-#include <symsurf/downsample.h>
-#include <symsurf/errors.h>
-#include <symsurf/value.h>
+#include <symsurf/context.h>
+#include <symsurf/parameter.h>
+#include <symsurf/points.h>
 
 #include <algorithm>
 #include <bit>

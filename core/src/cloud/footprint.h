@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/result.h>
+#include <symsurf/detect.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "cloud/normals.h"
 
-#include <symsurf/errors.h>
-#include <symsurf/normals.h>
+#include <symsurf/context.h>
+#include <symsurf/points.h>
 
 #include <Eigen/Dense>
 #include <string>

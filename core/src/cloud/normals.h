@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/normals.h>
+#include <symsurf/points.h>
 
 #include "spatial/point_tree.h"
 

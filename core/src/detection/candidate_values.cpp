@@ -1,5 +1,5 @@
-#include <symsurf/candidate_values.h>
-#include <symsurf/plane.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
 
 namespace symsurf {
 

@@ -1,6 +1,5 @@
-#include <symsurf/communicator.h>
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
-#include <symsurf/errors.h>
 
 #include <chrono>
 #include <optional>

@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/found_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
 
 namespace symsurf {
 

@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/match.h>
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
 
 #include <algorithm>
 #include <chrono>

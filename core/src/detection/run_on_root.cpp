@@ -1,6 +1,6 @@
 #include "detection/run_on_root.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <new>

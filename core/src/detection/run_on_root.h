@@ -1,8 +1,8 @@
 #pragma once
 
-#include <symsurf/communicator.h>
-#include <symsurf/points_view.h>
-#include <symsurf/result.h>
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
+#include <symsurf/points.h>
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "detection/serialize.h"
 
-#include <symsurf/make_mirror.h>
+#include <symsurf/mirrors.h>
 
 #include <cstring>
 #include <type_traits>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <symsurf/communicator.h>
-#include <symsurf/result.h>
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
 
 #include <span>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <symsurf/communicator.h>
-#include <symsurf/types.h>
+#include <symsurf/context.h>
+#include <symsurf/points.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "distributed/partition.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <numeric>
 #include <string>

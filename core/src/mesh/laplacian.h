@@ -1,7 +1,6 @@
 #pragma once
 
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/points.h>
 
 #include <Eigen/SparseCore>
 

@@ -1,6 +1,6 @@
 #include "mesh/triangle_mesh.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

@@ -1,5 +1,4 @@
-#include <symsurf/free_form.h>
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <functional>

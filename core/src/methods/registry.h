@@ -1,8 +1,7 @@
 #pragma once
 
-#include <symsurf/free_form.h>
-#include <symsurf/method.h>
-#include <symsurf/result.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
 
 #include <functional>
 

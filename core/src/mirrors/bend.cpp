@@ -1,7 +1,6 @@
-#include <symsurf/bend.h>
-#include <symsurf/cylinder.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 #include <symsurf/mirror.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

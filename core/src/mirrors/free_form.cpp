@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/free_form.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <symsurf/errors.h>
-#include <symsurf/height_field.h>
-#include <symsurf/points_view.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/points.h>
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,12 +1,5 @@
-#include <symsurf/cylinder.h>
-#include <symsurf/errors.h>
-#include <symsurf/free_form.h>
-#include <symsurf/height_field.h>
-#include <symsurf/make_mirror.h>
-#include <symsurf/plane.h>
-#include <symsurf/quadric.h>
-#include <symsurf/sphere.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <array>

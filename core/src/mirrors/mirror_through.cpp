@@ -1,7 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/mirror_through.h>
-#include <symsurf/plane.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/plane.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

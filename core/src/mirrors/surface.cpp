@@ -1,4 +1,4 @@
-#include <symsurf/surface.h>
+#include <symsurf/mirrors.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "operations/counterparts.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "operations/operation_registry.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <symsurf/bend.h>
+#include <symsurf/mirrors.h>
 
 #include "operations/operation_registry.h"
 

@@ -1,6 +1,4 @@
-#include <symsurf/free_form.h>
-#include <symsurf/height_field.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/LU>
 #include <algorithm>

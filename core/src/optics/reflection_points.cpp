@@ -1,9 +1,5 @@
-#include <symsurf/cylinder.h>
-#include <symsurf/errors.h>
-#include <symsurf/plane.h>
-#include <symsurf/quadric.h>
-#include <symsurf/reflection_points.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

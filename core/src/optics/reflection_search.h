@@ -1,7 +1,7 @@
 #pragma once
 
 #include <symsurf/mirror.h>
-#include <symsurf/quadric.h>
+#include <symsurf/mirrors.h>
 
 #include <functional>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "preprocess/duplicate_merge.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <string>
 #include <vector>

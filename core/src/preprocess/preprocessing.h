@@ -1,7 +1,7 @@
 #pragma once
 
+#include <symsurf/detect.h>
 #include <symsurf/parameter.h>
-#include <symsurf/result.h>
 
 #include <memory>
 #include <optional>

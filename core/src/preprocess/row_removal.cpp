@@ -1,6 +1,6 @@
 #include "preprocess/row_removal.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <string>

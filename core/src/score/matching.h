@@ -1,9 +1,9 @@
 #pragma once
 
 #include <symsurf/context.h>
+#include <symsurf/detect.h>
 #include <symsurf/mirror.h>
 #include <symsurf/parameter.h>
-#include <symsurf/result.h>
 
 #include <cstdint>
 #include <vector>

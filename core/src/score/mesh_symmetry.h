@@ -2,8 +2,7 @@
 
 #include <symsurf/context.h>
 #include <symsurf/mirror.h>
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/points.h>
 
 #include "mesh/closest_point_on_mesh.h"
 #include "spatial/point_tree.h"

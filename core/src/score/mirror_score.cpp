@@ -1,6 +1,6 @@
 #include "score/mirror_score.h"
 
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <array>

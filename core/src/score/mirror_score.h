@@ -1,8 +1,8 @@
 #pragma once
 
 #include <symsurf/context.h>
+#include <symsurf/detect.h>
 #include <symsurf/mirror.h>
-#include <symsurf/result.h>
 
 #include <Eigen/Geometry>
 #include <memory>

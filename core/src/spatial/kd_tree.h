@@ -1,7 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/types.h>
+#include <symsurf/points.h>
 
 #include <cstdint>
 #include <nanoflann.hpp>

@@ -1,7 +1,7 @@
 #include "symmetries/analysis_registry.h"
 
-#include <symsurf/errors.h>
-#include <symsurf/symmetry_axis.h>
+#include <symsurf/analyses.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

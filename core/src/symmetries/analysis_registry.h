@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/analysis.h>
+#include <symsurf/analyses.h>
 
 #include "cloud/cloud.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/points_view.h>
+#include <symsurf/points.h>
 
 #include <limits>
 #include <vector>

@@ -1,5 +1,5 @@
-#include <symsurf/benchmark.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
+#include <symsurf/synthetic.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/value.h>
+#include <symsurf/parameter.h>
 
 #include <string>
 #include <string_view>

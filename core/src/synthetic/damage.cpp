@@ -1,5 +1,5 @@
-#include <symsurf/damage.h>
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
+#include <symsurf/synthetic.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

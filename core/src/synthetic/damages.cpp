@@ -1,4 +1,4 @@
-#include <symsurf/damage.h>
+#include <symsurf/synthetic.h>
 
 #include <numeric>
 

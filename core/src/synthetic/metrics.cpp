@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/metrics.h>
+#include <symsurf/context.h>
+#include <symsurf/synthetic.h>
 
 #include <algorithm>
 #include <cmath>

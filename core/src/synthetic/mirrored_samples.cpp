@@ -1,5 +1,5 @@
-#include <symsurf/errors.h>
-#include <symsurf/surface_mirror.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
 #include <symsurf/synthetic.h>
 
 #include <Eigen/Core>

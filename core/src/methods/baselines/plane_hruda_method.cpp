@@ -1,4 +1,4 @@
-#include <symsurf/downsample.h>
+#include <symsurf/points.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include <symsurf/cylinder.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/free_form.h>
+#include <symsurf/mirrors.h>
 
 #include <functional>
 #include <memory>

@@ -1,4 +1,4 @@
-#include <symsurf/free_form.h>
+#include <symsurf/mirrors.h>
 
 #include "methods/free_form/search.h"
 #include "methods/free_form/search_result.h"

@@ -1,4 +1,4 @@
-#include <symsurf/height_field.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "methods/height_field/surface_refinement.h"
 
-#include <symsurf/height_field.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <symsurf/plane.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <cmath>

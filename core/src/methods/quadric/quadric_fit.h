@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/quadric.h>
+#include <symsurf/mirrors.h>
 
 #include <optional>
 

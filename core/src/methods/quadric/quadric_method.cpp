@@ -1,4 +1,4 @@
-#include <symsurf/quadric.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <symsurf/sphere.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

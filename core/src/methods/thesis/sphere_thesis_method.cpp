@@ -1,6 +1,6 @@
-#include <symsurf/downsample.h>
-#include <symsurf/errors.h>
-#include <symsurf/sphere.h>
+#include <symsurf/context.h>
+#include <symsurf/mirrors.h>
+#include <symsurf/points.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "symmetries/intrinsic/connected_surface.h"
 
-#include <symsurf/errors.h>
+#include <symsurf/context.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include <symsurf/errors.h>
-#include <symsurf/symmetries.h>
-#include <symsurf/value.h>
+#include <symsurf/analyses.h>
+#include <symsurf/context.h>
+#include <symsurf/parameter.h>
 
 #include <algorithm>
 #include <chrono>

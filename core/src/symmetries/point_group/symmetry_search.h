@@ -1,6 +1,6 @@
 #pragma once
 
-#include <symsurf/symmetries.h>
+#include <symsurf/analyses.h>
 
 #include <functional>
 

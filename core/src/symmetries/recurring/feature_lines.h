@@ -1,8 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
+#include <symsurf/points.h>
 
 #include <array>
 #include <vector>

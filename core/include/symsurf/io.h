@@ -1,6 +1,8 @@
 #pragma once
 
-#include <symsurf/types.h>
+// Reading files.
+
+#include <symsurf/points.h>
 
 #include <filesystem>
 

@@ -1,11 +1,11 @@
 #pragma once
 
+// What is done with a mirror.
+
 #include <symsurf/context.h>
 #include <symsurf/mirror.h>
 #include <symsurf/parameter.h>
-#include <symsurf/points_view.h>
-#include <symsurf/triangles_view.h>
-#include <symsurf/value.h>
+#include <symsurf/points.h>
 
 #include <Eigen/Core>
 #include <map>
