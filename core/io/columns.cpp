@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "formats.h"
-#include "shape_builder.h"
 #include "text_scanner.h"
 
 namespace symsurf {

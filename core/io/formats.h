@@ -2,13 +2,29 @@
 
 #include <symsurf/io.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
+
+namespace symsurf {
+
+/// The number whose bytes stand at `bytes` in the given order.
+template <typename T>
+T load(const char* bytes, std::endian order) {
+  std::array<char, sizeof(T)> native;
+  std::memcpy(native.data(), bytes, sizeof(T));
+  if (order != std::endian::native) std::reverse(native.begin(), native.end());
+  return std::bit_cast<T>(native);
+}
 
 // The formats, one source each. All take a file's content and throw InvalidInput with the reason,
 // and the line where there are lines; read() adds the file's name and drops normals that some
 // points lack.
-
-namespace symsurf {
 
 /// Turk's Polygon File Format 1.0: ascii, binary_little_endian, binary_big_endian. Elements but
 /// vertex, those with polygons and tristrips, and properties but x y z nx ny nz and vertex_indices
@@ -29,5 +45,37 @@ Shape read_stl(std::string_view content);
 
 /// XYZ, CSV, TXT and FCSV: rows of numbers, as read() describes them.
 Shape read_columns(std::string_view content);
+
+/// Collects what a file holds, of which it may not say beforehand how much there is.
+class ShapeBuilder {
+ public:
+  Index points() const { return static_cast<Index>(points_.size()) / 3; }
+  Index normals() const { return static_cast<Index>(normals_.size()) / 3; }
+
+  void add_point(const Vector3& x) { points_.insert(points_.end(), {x.x(), x.y(), x.z()}); }
+  void add_normal(const Vector3& n) { normals_.insert(normals_.end(), {n.x(), n.y(), n.z()}); }
+
+  /// As a fan of triangles around the first corner; none for fewer than three corners.
+  void add_polygon(std::span<const Index> corners) {
+    for (std::size_t c = 2; c < corners.size(); ++c)
+      faces_.insert(faces_.end(), {corners[0], corners[c - 1], corners[c]});
+  }
+
+  Shape build() const {
+    return {Eigen::Map<const Points>(points_.data(), points(), 3),
+            Eigen::Map<const Triangles>(faces_.data(), static_cast<Index>(faces_.size()) / 3, 3),
+            Eigen::Map<const Points>(normals_.data(), normals(), 3)};
+  }
+
+ private:
+  std::vector<double> points_, normals_;
+  std::vector<Index> faces_;
+};
+
+/// The reason why a face is broken, for an error.
+inline std::string no_vertex(Index named, Index vertices) {
+  return "a face names vertex " + std::to_string(named) + "; there are " +
+         std::to_string(vertices) + ", counted from 0";
+}
 
 }  // namespace symsurf

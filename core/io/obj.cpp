@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "formats.h"
-#include "shape_builder.h"
 #include "text_scanner.h"
 
 namespace symsurf {

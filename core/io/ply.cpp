@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "formats.h"
-#include "ply_header.h"
-#include "ply_rows.h"
-#include "shape_builder.h"
+#include "ply_format.h"
 
 namespace symsurf {
 

@@ -7,10 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "byte_order.h"
 #include "formats.h"
-#include "shape_builder.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 #include "text_scanner.h"
 
 namespace symsurf {

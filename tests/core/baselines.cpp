@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "base/math.h"
-#include "methods/baselines/plane_updates.h"
+#include "methods/baselines/plane_iteration.h"
 #include "methods/baselines/symmetry_measure.h"
 #include "random_cloud.h"
 

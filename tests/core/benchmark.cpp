@@ -7,9 +7,7 @@
 
 #include "expect_error.h"
 #include "synthetic/benchmark_mirror.h"
-#include "synthetic/portable_sine.h"
 #include "synthetic/random_body.h"
-#include "synthetic/smooth_asymmetry.h"
 
 namespace symsurf {
 namespace {

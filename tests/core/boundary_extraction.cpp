@@ -1,5 +1,3 @@
-#include "preprocess/boundary_extraction.h"
-
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
 #include <symsurf/mirrors.h>
@@ -7,8 +5,8 @@
 #include <cmath>
 
 #include "cloud/cloud.h"
-#include "cloud/neighbourhood_moments.h"
-#include "preprocess/volumetric.h"
+#include "cloud/normals.h"
+#include "preprocess/boundary.h"
 #include "random_cloud.h"
 #include "spatial/point_tree.h"
 

@@ -1,7 +1,6 @@
-#include "methods/free_form/height_spline.h"
-
 #include <gtest/gtest.h>
 
+#include "methods/free_form/bent_plane.h"
 #include "random_cloud.h"
 
 namespace symsurf::perpendicular {

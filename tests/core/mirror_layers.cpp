@@ -1,4 +1,4 @@
-#include "mirrors/mirror_layers.h"
+#include "score/mirror_layers.h"
 
 #include <gtest/gtest.h>
 

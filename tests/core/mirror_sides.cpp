@@ -1,11 +1,10 @@
-#include "score/mirror_sides.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
 #include "random_cloud.h"
+#include "score/mirror_layers.h"
 
 namespace symsurf {
 namespace {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "optics/light_path.h"
+#include "optics/reflection_search.h"
 #include "random_cloud.h"
 #include "reflected_light.h"
 

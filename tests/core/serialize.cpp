@@ -1,12 +1,11 @@
 // What one process found gets to the others to the bit.
 
-#include "detection/serialize.h"
-
 #include <gtest/gtest.h>
 #include <symsurf/detect.h>
 
 #include <cmath>
 
+#include "detection/run_on_root.h"
 #include "random_cloud.h"
 
 namespace symsurf {

@@ -9,10 +9,9 @@
 #include <numeric>
 
 #include "cloud/cloud.h"
-#include "methods/common_parameters.h"
+#include "methods/registry.h"
 #include "process_threads.h"
 #include "random_cloud.h"
-#include "score/distributed_matching.h"
 #include "score/matching.h"
 #include "spatial/nearest_points.h"
 

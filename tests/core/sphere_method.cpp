@@ -9,7 +9,7 @@
 
 #include "base/nelder_mead.h"
 #include "expect_error.h"
-#include "methods/parametric/unit_sphere.h"
+#include "methods/parametric/shapes.h"
 #include "random_cloud.h"
 
 namespace symsurf {

@@ -1,11 +1,10 @@
-#include "mesh/strip_between.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
+#include "mesh/rim_triangles.h"
 #include "mesh_area.h"
 #include "random_cloud.h"
 

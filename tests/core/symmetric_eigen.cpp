@@ -1,7 +1,6 @@
-#include "base/symmetric_eigen.h"
-
 #include <gtest/gtest.h>
 
+#include "base/eigenvectors.h"
 #include "random_cloud.h"
 
 namespace symsurf {

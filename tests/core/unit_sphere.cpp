@@ -1,12 +1,10 @@
-#include "methods/parametric/unit_sphere.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "cloud/unit_plane.h"
-#include "methods/parametric/sphere_step.h"
+#include "cloud/principal_frame.h"
+#include "methods/parametric/shapes.h"
 #include "random_cloud.h"
 
 namespace symsurf {

@@ -5,7 +5,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "base/symmetric_eigen.h"
+#include "base/eigenvectors.h"
 
 namespace symsurf {
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "base/parallel.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 

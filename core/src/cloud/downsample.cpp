@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "cloud/cloud.h"
+#include "cloud/principal_frame.h"
 #include "cloud/surfels.h"
-#include "cloud/unit_plane.h"
 #include "spatial/nearest_points.h"
 
 namespace symsurf {

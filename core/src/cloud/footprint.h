@@ -1,12 +1,23 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
+#include <symsurf/points.h>
 
 #include <vector>
 
 #include "cloud/cloud.h"
 
 namespace symsurf {
+
+/// Of the bounding box of at least one point, in input units.
+inline double diagonal_of(PointsView points) {
+  return (points.matrix().colwise().maxCoeff() - points.matrix().colwise().minCoeff()).norm();
+}
+
+/// Points far from each other (Gonzalez 1985): the first is the farthest from the centroid, each
+/// next one the farthest from those before it. All where there are no more than `count`.
+std::vector<Index> farthest_points(PointsView points, Index count, const Context& context);
 
 /// The lowest and the highest point of all processes along x, y and z: six, or none of no points.
 /// Collective.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/eigenvectors.h"
 #include "base/parallel.h"
-#include "base/symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -7,7 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/symmetric_eigen.h"
+#include "base/eigenvectors.h"
+#include "base/math.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -253,6 +254,32 @@ const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Ve
     if (!flattest || surfel.flatness > flattest->flatness + by_chance) flattest = &surfel;
   }
   return flattest;
+}
+
+SurfelMap::SurfelMap(const Surfels& surfels) {
+  constexpr int steps = 2;            // how far a surfel reaches, in voxels
+  constexpr double refinement = 1.5;  // voxels along a cell of the surfels
+  const double edge = surfels.spacing() / refinement, reach = steps * edge;
+  Vector3 low = Vector3::Constant(infinity), high = -low;
+  for (Index i = 0; i < surfels.size(); ++i) {
+    low = low.cwiseMin(surfels[i].position);
+    high = high.cwiseMax(surfels[i].position);
+  }
+  grid_ = VoxelGrid::from_corner(low.array() - reach, high.array() + reach, edge);
+  near_.assign(grid_.size(), -1);
+  std::vector<float> distance(near_.size(), static_cast<float>(reach * reach));
+  for (Index i = 0; i < surfels.size(); ++i) {
+    const Vector3& x = surfels[i].position;
+    grid_.for_each_row_around(grid_.cell_of(x), steps, [&](Index begin, Index end) {
+      VoxelGrid::Cell cell = grid_.cell(begin);
+      for (Index voxel = begin; voxel < end; ++voxel, ++cell.z()) {
+        const auto squared = static_cast<float>((grid_.middle(cell) - x).squaredNorm());
+        if (squared >= distance[voxel]) continue;
+        distance[voxel] = squared;
+        near_[voxel] = static_cast<std::int32_t>(i);
+      }
+    });
+  }
 }
 
 }  // namespace symsurf

@@ -1,19 +1,56 @@
 #include <symsurf/context.h>
 #include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "detection/pipeline.h"
-#include "methods/common_parameters.h"
-#include "preprocess/boundary_extraction.h"
-#include "preprocess/volumetric.h"
+#include "methods/registry.h"
+#include "preprocess/boundary.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 #include "score/verdict.h"
 
 namespace symsurf {
+
+FoundMirror found_mirror(const Result& result, bool require_found) {
+  const bool found = result.verdict() == "found";
+  if (!found && (require_found || !result.mirror))
+    throw InvalidInput("the shape has no mirror: " + result.reason());
+  if (!result.mirror) throw InvalidInput("the result of " + result.method + " has no mirror");
+  if (found) return {result.mirror, ""};
+  return {result.mirror, "the verdict on the mirror is \"none\": " + result.reason() +
+                             "; it is used all the same, with require_found this is an error"};
+}
+
+const Parameter& require_found_parameter() {
+  static const Parameter parameter = Parameter::boolean(
+      "require_found", false,
+      "Refuse a mirror that is found with the verdict \"none\"; otherwise it is used, with a "
+      "warning.");
+  return parameter;
+}
+
+Values candidate_values(const Result& result) {
+  const auto count = static_cast<Index>(result.candidates.size());
+  if (count == 0) return {};
+  Eigen::MatrixXd scores(count, 1), normals(count, 3), offsets(count, 1);
+  bool planes = true;
+  for (Index row = 0; row < count; ++row) {
+    const Result& candidate = result.candidates[row];
+    scores(row, 0) = candidate.score;
+    const auto* plane = dynamic_cast<const Plane*>(candidate.mirror.get());
+    planes = planes && plane;
+    if (!planes) continue;
+    normals.row(row) = plane->normal().transpose();
+    offsets(row, 0) = plane->offset();
+  }
+  if (!planes) return {{"candidate_scores", scores}};
+  return {
+      {"candidate_scores", scores}, {"candidate_normals", normals}, {"candidate_offsets", offsets}};
+}
 
 namespace {
 

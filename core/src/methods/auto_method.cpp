@@ -10,7 +10,7 @@
 #include "cloud/surface_points.h"
 #include "methods/bent_planes.h"
 #include "methods/registry.h"
-#include "preprocess/volumetric.h"
+#include "preprocess/boundary.h"
 #include "score/mirror_score.h"
 #include "score/verdict.h"
 

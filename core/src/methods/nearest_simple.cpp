@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/semidefinite_solve.h"
-#include "base/symmetric_eigen.h"
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
 
 namespace symsurf {
 

@@ -2,13 +2,16 @@
 
 #include <symsurf/detect.h>
 #include <symsurf/mirrors.h>
+#include <symsurf/parameter.h>
 
 #include <functional>
+#include <string>
 
 #include "cloud/cloud.h"
 #include "preprocess/preprocessing.h"
 
-// The list of methods. A new one is its own source file, a line here and a line in registry.cpp.
+// The list of methods, and the parameters that several of them share. A new method is its own
+// source file, a line here and a line in registry.cpp.
 
 namespace symsurf {
 
@@ -50,5 +53,20 @@ const std::vector<MethodImplementation>& implementations();
 
 /// Throws InvalidParameter, listing the names there are.
 const MethodImplementation& implementation(std::string_view name);
+
+/// Of methods that search on surfels. `kind`: "the plane".
+Parameter surfels_searched(Index usual, const std::string& kind);
+
+/// `kinds`: "planes".
+Parameter max_candidates(Index usual, Index most, const std::string& kinds);
+
+Parameter pair_distance(double usual = 0.05);
+
+/// Of methods that pair the points when the mirror is found; the registry adds it.
+Parameter pairs();
+
+/// Of all methods; the registry adds both.
+Parameter minimum_score();
+Parameter tolerance();
 
 }  // namespace symsurf

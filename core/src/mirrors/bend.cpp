@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "base/eigenvectors.h"
 #include "base/parallel.h"
-#include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "spatial/point_tree.h"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/math.h"
-#include "mirrors/grid_mesh.h"
+#include "mirrors/mirror_mesh.h"
 
 namespace symsurf {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "mirrors/surface_net.h"
+#include "mirrors/mirror_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

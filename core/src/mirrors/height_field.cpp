@@ -8,11 +8,11 @@
 #include <limits>
 #include <vector>
 
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/semidefinite_solve.h"
-#include "base/symmetric_eigen.h"
-#include "mirrors/grid_mesh.h"
+#include "mirrors/mirror_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

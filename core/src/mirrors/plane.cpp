@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/symmetric_eigen.h"
-#include "mirrors/grid_mesh.h"
+#include "mirrors/mirror_mesh.h"
 
 namespace symsurf {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mirrors/grid_mesh.h"
+#include "mirrors/mirror_mesh.h"
 
 namespace symsurf {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/symmetric_eigen.h"
 #include "operations/counterparts.h"
 #include "operations/operation_registry.h"
 

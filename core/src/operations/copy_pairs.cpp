@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "cloud/distinct_points.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 

@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "cloud/distinct_points.h"
 #include "cloud/normals.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/surface_points.h"
 #include "mesh/closest_point_on_mesh.h"
 #include "operations/copy_pairs.h"
 #include "spatial/point_tree.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloud/diagonal.h"
+#include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
 
 namespace symsurf {

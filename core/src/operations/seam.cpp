@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "base/math.h"
-#include "mesh/loop_triangulation.h"
-#include "mesh/strip_between.h"
+#include "mesh/rim_triangles.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/symmetric_eigen.h"
 #include "optics/reflection_search.h"
 
 namespace symsurf {

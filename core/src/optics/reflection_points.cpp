@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/cloud.h"
-#include "optics/light_path.h"
 #include "optics/reflection_search.h"
 
 namespace symsurf {

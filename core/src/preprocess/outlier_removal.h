@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "preprocess/row_removal.h"
+#include "preprocess/row_stages.h"
 
 namespace symsurf {
 

@@ -2,11 +2,9 @@
 
 #include <utility>
 
-#include "preprocess/boundary_extraction.h"
-#include "preprocess/duplicate_merge.h"
+#include "preprocess/boundary.h"
 #include "preprocess/outlier_removal.h"
-#include "preprocess/position_order.h"
-#include "preprocess/row_removal.h"
+#include "preprocess/row_stages.h"
 #include "preprocess/surface_samples.h"
 
 namespace symsurf {

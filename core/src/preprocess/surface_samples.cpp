@@ -10,7 +10,7 @@
 #include "cloud/exact_planes.h"
 #include "score/matching.h"
 #include "score/mesh_symmetry.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 

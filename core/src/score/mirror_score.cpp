@@ -8,11 +8,10 @@
 #include <map>
 
 #include "base/math.h"
+#include "cloud/principal_frame.h"
 #include "cloud/surface_noise.h"
-#include "cloud/unit_plane.h"
-#include "mirrors/mirror_layers.h"
 #include "score/correspondence.h"
-#include "score/mirror_sides.h"
+#include "score/mirror_layers.h"
 
 namespace symsurf {
 

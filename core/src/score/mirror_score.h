@@ -14,7 +14,6 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"
-#include "score/ball.h"
 #include "score/cloud_halves.h"
 #include "score/mesh_symmetry.h"
 #include "spatial/nearest_points.h"

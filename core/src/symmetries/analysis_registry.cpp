@@ -15,7 +15,7 @@
 #include "base/finite_values.h"
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
-#include "preprocess/row_removal.h"
+#include "preprocess/row_stages.h"
 
 namespace symsurf {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/nearest_orthogonal.h"
+#include "base/eigenvectors.h"
 
 namespace symsurf {
 

@@ -11,7 +11,6 @@
 #include "base/random.h"
 #include "synthetic/benchmark_mirror.h"
 #include "synthetic/random_body.h"
-#include "synthetic/smooth_asymmetry.h"
 
 namespace symsurf {
 

@@ -1,13 +1,31 @@
 #pragma once
 
 #include <symsurf/parameter.h>
+#include <symsurf/points.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/random.h"
 
 namespace symsurf {
+
+/// sin(2 pi turns) by Taylor's series: sums and products, which IEEE 754 rounds alike, as it does
+/// not ask of a library's sine. To a few units of the last digit.
+inline double sine_of_turns(double turns) {
+  constexpr double tau = 6.283185307179586476925;
+  double t = turns - std::floor(turns + 0.5);  // -1/2 .. 1/2
+  if (t > 0.25) t = 0.5 - t;
+  if (t < -0.25) t = -0.5 - t;
+  const double x = tau * t, squared = x * x;
+  double sum = 1;
+  for (int k = 20; k >= 2; k -= 2) sum = 1 - squared / (k * (k + 1)) * sum;
+  return x * sum;
+}
+
+inline double cosine_of_turns(double turns) { return sine_of_turns(turns + 0.25); }
 
 /// The image in the plane z = 0.
 inline Vector3 over_mirror(const Vector3& x) { return {x.x(), x.y(), -x.z()}; }
@@ -39,6 +57,31 @@ class BenchmarkMirror {
   double radius_ = 0;
   double amplitude_ = 0, frequency_ = 0, phase_ = 0;  // of the wave; frequency in turns a unit
   double slope_ = 0;                                  // of the twist
+};
+
+/// A displacement by a few long waves, and a rigid motion after it, so that z = 0 remains the plane
+/// that mirrors the displaced points onto their displaced images best in the least-squares sense.
+class SmoothAsymmetry {
+ public:
+  /// The points have a diagonal of about 1; the displacement's root mean square over them is
+  /// `share`; 0 leaves them as they are.
+  SmoothAsymmetry(double share, const std::vector<Vector3>& points, Random& random);
+
+  Vector3 operator()(const Vector3& x) const;
+
+ private:
+  struct Wave {
+    Vector3 along;  // turns a unit
+    double phase;   // turns
+    Vector3 way;
+  };
+
+  Vector3 displaced(const Vector3& x) const;
+
+  std::vector<Wave> waves_;
+  double strength_ = 0;
+  Matrix3 rotation_ = Matrix3::Identity();
+  Vector3 centre_ = Vector3::Zero();  // what turns onto the mirror
 };
 
 }  // namespace symsurf

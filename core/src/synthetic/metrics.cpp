@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/surface_points.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
 
 namespace {
 
-double diagonal(PointsView object) {
+double checked_diagonal(PointsView object) {
   if (object.empty()) throw InvalidInput("0 points of the object given; at least 1 is needed");
   const Vector3 extent =
       object.matrix().colwise().maxCoeff() - object.matrix().colwise().minCoeff();
@@ -70,13 +70,13 @@ SurfaceErrors surface_errors(PointsView surface_points, const SurfaceMirror& sur
 }
 
 SphereErrors sphere_errors(const Sphere& found, const Sphere& truth, PointsView object) {
-  const double size = diagonal(object);
+  const double size = checked_diagonal(object);
   return {(found.centre() - truth.centre()).norm() / size,
           std::abs(found.radius() - truth.radius()) / size};
 }
 
 double surface_distance(PointsView surface_points, const Mirror& truth, PointsView object) {
-  const double size = diagonal(object);
+  const double size = checked_diagonal(object);
   double squared = 0;
   Index counted = 0;
   for (Index i = 0; i < surface_points.size(); ++i) {
@@ -95,7 +95,7 @@ double coverage(PointsView surface_points, const Mirror& truth, PointsView objec
                 double tolerance) {
   if (!(tolerance >= 0))
     throw InvalidParameter("tolerance is " + to_string(Value(tolerance)) + "; allowed is [0, inf)");
-  double reach = tolerance * diagonal(object);
+  double reach = tolerance * checked_diagonal(object);
   const Points feet = finite_rows(truth.project(object));
   const Index rows = feet.rows();
   if (rows == 0)

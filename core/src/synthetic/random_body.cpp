@@ -3,9 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "synthetic/hard_body.h"
-#include "synthetic/portable_sine.h"
-#include "synthetic/soft_body.h"
+#include "synthetic/benchmark_mirror.h"
+#include "synthetic/body_parts.h"
 
 namespace symsurf {
 

@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "methods/baselines/plane_iteration.h"
 #include "methods/baselines/symmetry_measure.h"
-#include "methods/common_parameters.h"
 #include "methods/registry.h"
 
 namespace symsurf {

@@ -2,12 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/random.h"
-#include "base/symmetric_eigen.h"
 #include "methods/baselines/plane_iteration.h"
-#include "methods/baselines/plane_updates.h"
-#include "methods/common_parameters.h"
 #include "methods/registry.h"
 
 namespace symsurf {

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/symmetric_eigen.h"
-#include "methods/common_parameters.h"
+#include "base/eigenvectors.h"
 #include "methods/nearest_simple.h"
-#include "methods/parametric/pair_hypotheses.h"
+#include "methods/parametric/hypotheses.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/shapes.h"
 #include "methods/parametric/surface_slide.h"
-#include "methods/parametric/unit_cylinder.h"
 #include "methods/registry.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/least_squares.h"
 #include "base/math.h"
-#include "base/semidefinite_solve.h"
 #include "base/vectorised.h"
 
 namespace symsurf::perpendicular {

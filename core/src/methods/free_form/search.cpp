@@ -8,7 +8,6 @@
 
 #include "methods/free_form/growth.h"
 #include "methods/free_form/plane_bending.h"
-#include "methods/free_form/seeds.h"
 
 namespace symsurf::perpendicular {
 

@@ -7,12 +7,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/least_squares.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/quadratic_fit.h"
 #include "base/radix_sort.h"
-#include "cloud/diagonal.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/footprint.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf::perpendicular {
 

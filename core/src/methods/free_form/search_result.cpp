@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/math.h"
-#include "methods/common_parameters.h"
+#include "methods/registry.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 #include "spatial/voxel_grid.h"

@@ -2,7 +2,10 @@
 
 #include <symsurf/parameter.h>
 
+#include <vector>
+
 #include "cloud/surface_points.h"
+#include "methods/height_field/mapping_directions.h"
 
 namespace symsurf {
 
@@ -17,5 +20,12 @@ struct FieldEstimate {
 /// but for the last degree.
 FieldEstimate find_height_field(const SurfacePoints& cloud, const Vector3& given_direction,
                                 Values& statistics, const Context& context);
+
+/// The mirror of a cloud whose points have exact partners along one direction, to rounding; an
+/// estimate without nodes where they have none. Of several directions that many pairs share, as in
+/// clouds on a grid, the one that meets the surfaces most squarely. `cone`: how far off, in
+/// radians, the peaks may be; chords by chance hide the partners in too wide a one.
+FieldEstimate exact_partners(const SurfacePoints& cloud, const std::vector<ChordPeak>& peaks,
+                             double cone, const Context& context);
 
 }  // namespace symsurf

@@ -4,7 +4,6 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
-#include "methods/common_parameters.h"
 #include "methods/height_field/field_search.h"
 #include "methods/registry.h"
 #include "score/matching.h"

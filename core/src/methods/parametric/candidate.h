@@ -6,7 +6,6 @@
 #include <array>
 #include <vector>
 
-#include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
 
 namespace symsurf {

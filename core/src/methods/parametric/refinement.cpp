@@ -5,9 +5,9 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/symmetric_eigen.h"
-#include "methods/parametric/exact_pairs.h"
+#include "methods/parametric/hypotheses.h"
 #include "methods/parametric/shapes.h"
 
 namespace symsurf {

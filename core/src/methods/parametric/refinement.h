@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "cloud/cloud.h"
+#include "cloud/principal_frame.h"
 #include "cloud/surface_noise.h"
 #include "cloud/surfels.h"
-#include "cloud/unit_plane.h"
 #include "methods/parametric/candidate.h"
-#include "methods/parametric/plane_bend.h"
+#include "methods/parametric/shapes.h"
 #include "score/correspondence.h"
 #include "spatial/nearest_points.h"
 

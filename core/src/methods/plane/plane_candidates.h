@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "cloud/surfel_map.h"
+#include "cloud/principal_frame.h"
 #include "cloud/surfels.h"
-#include "cloud/unit_plane.h"
 #include "methods/parametric/candidate.h"
 
 namespace symsurf {

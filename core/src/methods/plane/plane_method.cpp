@@ -4,19 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/nelder_mead.h"
-#include "base/symmetric_eigen.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/surface_points.h"
 #include "distributed/slabs.h"
-#include "methods/common_parameters.h"
-#include "methods/parametric/exact_pairs.h"
-#include "methods/parametric/plane_step.h"
+#include "methods/parametric/hypotheses.h"
 #include "methods/parametric/refinement.h"
+#include "methods/parametric/shapes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/registry.h"
-#include "score/distributed_matching.h"
+#include "score/matching.h"
 #include "score/mirror_score.h"
 #include "spatial/nearest_points.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "methods/parametric/sphere_step.h"
+#include "methods/parametric/shapes.h"
 #include "score/correspondence.h"
 
 namespace symsurf {

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "methods/parametric/candidate.h"
-#include "methods/parametric/unit_sphere.h"
+#include "methods/parametric/refinement.h"
+#include "methods/parametric/shapes.h"
+#include "score/mirror_score.h"
 
 namespace symsurf {
 
@@ -18,5 +20,21 @@ constexpr double alike_spheres = 0.04;
 std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
                                                std::uint64_t seed, Index count,
                                                const Context& context);
+
+// Spheres so large that they may be planes. Each meets the plane that touches it where it is
+// nearest to the cloud's middle, fitted in the same way.
+
+/// Takes out of the candidates those that a plane explains as well, measured on surfels, and
+/// returns the best few of them.
+std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
+                                         std::vector<SphereCandidate>& candidates);
+
+/// Drops those without partners that a plane explains as well, measured on points; all but where
+/// there is nothing else. Those that differ from a plane by rounding only go in any case.
+void drop_planes(const Refinement& refinement, std::vector<SphereCandidate>& candidates);
+
+/// The same by the score, with partners or without.
+void drop_planes(const Refinement& refinement, const MirrorScore& score,
+                 const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates);
 
 }  // namespace symsurf

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "methods/common_parameters.h"
 #include "methods/nearest_simple.h"
 #include "methods/parametric/refinement.h"
 #include "methods/parametric/surface_slide.h"
 #include "methods/registry.h"
-#include "methods/sphere/large_spheres.h"
 #include "methods/sphere/partner_fit.h"
 #include "methods/sphere/sphere_candidates.h"
 #include "score/matching.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/parallel.h"
-#include "base/symmetric_eigen.h"
 #include "cloud/normals.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 

@@ -9,7 +9,6 @@
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
 #include "methods/baselines/symmetry_measure.h"
-#include "methods/common_parameters.h"
 #include "methods/registry.h"
 #include "score/matching.h"
 

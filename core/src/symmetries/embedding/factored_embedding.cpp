@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/parallel.h"
-#include "base/symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/nearest_orthogonal.h"
-#include "cloud/farthest_points.h"
+#include "cloud/footprint.h"
 #include "cloud/surface_points.h"
 #include "symmetries/embedding/factored_embedding.h"
 #include "symmetries/exact_isometries.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/symmetric_eigen.h"
+#include "base/eigenvectors.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/embedding/factored_embedding.h"
 

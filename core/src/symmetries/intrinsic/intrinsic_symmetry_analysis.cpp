@@ -8,11 +8,11 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
-#include "cloud/farthest_points.h"
-#include "preprocess/volumetric.h"
+#include "cloud/footprint.h"
+#include "preprocess/boundary.h"
 #include "symmetries/analysis_registry.h"
-#include "symmetries/intrinsic/map_search.h"
-#include "symmetries/partial/thinned_surface.h"
+#include "symmetries/intrinsic/functional_map.h"
+#include "symmetries/thinned_surface.h"
 
 namespace symsurf {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
 #include "base/math.h"
-#include "base/semidefinite_solve.h"
-#include "base/symmetric_eigen.h"
 
 namespace symsurf {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "symmetries/partial/thinned_surface.h"
+#include "symmetries/thinned_surface.h"
 
 namespace symsurf {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "symmetries/partial/height_signature.h"
-#include "symmetries/partial/thinned_surface.h"
+#include "symmetries/thinned_surface.h"
 
 namespace symsurf {
 

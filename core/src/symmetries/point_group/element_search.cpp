@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/symmetric_eigen.h"
 #include "methods/plane/plane_candidates.h"
 #include "symmetries/point_group/point_group.h"
 

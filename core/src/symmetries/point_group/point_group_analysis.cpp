@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/nearest_orthogonal.h"
 #include "base/parallel.h"
 #include "detection/pipeline.h"
 #include "mesh/closest_point_on_mesh.h"

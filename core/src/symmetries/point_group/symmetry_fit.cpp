@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/nearest_orthogonal.h"
-#include "cloud/surface_spacing.h"
+#include "cloud/surface_points.h"
 #include "score/correspondence.h"
 #include "spatial/point_tree.h"
 

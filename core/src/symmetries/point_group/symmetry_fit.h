@@ -6,7 +6,6 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surface_noise.h"
-#include "cloud/surfel_map.h"
 #include "cloud/surfels.h"
 #include "spatial/nearest_points.h"
 #include "spatial/point_tree.h"

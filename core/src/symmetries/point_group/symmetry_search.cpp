@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/nearest_orthogonal.h"
 #include "symmetries/exact_isometries.h"
 #include "symmetries/point_group/element_search.h"
 #include "symmetries/point_group/point_group.h"

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
-#include "base/nearest_orthogonal.h"
-#include "base/symmetric_eigen.h"
 #include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {

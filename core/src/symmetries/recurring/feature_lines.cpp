@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "spatial/triple_index.h"
+#include "spatial/voxel_grid.h"
 
 namespace symsurf {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/symmetric_eigen.h"
 #include "mesh/closest_point_on_mesh.h"
 #include "spatial/point_tree.h"
 

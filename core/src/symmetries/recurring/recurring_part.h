@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "symmetries/recurring/line_match.h"
+#include "symmetries/recurring/connected_lines.h"
 
 namespace symsurf {
 

@@ -1,0 +1,119 @@
+#include "base/eigenvectors.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace symsurf {
+
+// Through any size, which the pencils below need as well.
+SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+// Lazily: Eigen's product of matrices of any size is blocked, and takes longer to compile.
+SymmetricEigen<3> eigen_of_scatter(const Points& rows) {
+  return eigen_of(Matrix3(rows.transpose().lazyProduct(rows)));
+}
+
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
+                                        const Eigen::MatrixXd& definite) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric, definite);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+namespace {
+
+struct Symmetric {
+  double xx, yy, zz, yz, xz, xy;
+
+  double trace() const { return xx + yy + zz; }
+  Symmetric shifted(double by) const { return {xx - by, yy - by, zz - by, yz, xz, xy}; }
+  Symmetric adjugate() const {
+    return {yy * zz - yz * yz, zz * xx - xz * xz, xx * yy - xy * xy,
+            xy * xz - xx * yz, xy * yz - yy * xz, xz * yz - zz * xy};
+  }
+  Vector3 operator*(const Vector3& v) const {
+    return {xx * v.x() + xy * v.y() + xz * v.z(), xy * v.x() + yy * v.y() + yz * v.z(),
+            xz * v.x() + yz * v.y() + zz * v.z()};
+  }
+  Vector3 column_of_largest() const {
+    if (xx >= yy && xx >= zz) return {xx, xy, xz};
+    return yy >= zz ? Vector3(xy, yy, yz) : Vector3(xz, yz, zz);
+  }
+};
+
+Vector3 least_eigenvector_of(const Symmetric& m, const Symmetric& adjugate) {
+  constexpr double rounding = 1e-12;
+  constexpr int most = 32;
+  constexpr double near_by = 1e-4;  // of the root: the next step would leave its square
+  const double trace = m.trace(), minors = adjugate.trace();
+  if (!(trace > 0)) return Vector3::UnitX();
+  if (!(minors > rounding * trace * trace)) return m.column_of_largest().unitOrthogonal();
+  const double determinant = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
+  double root = 0;
+  for (int step = 0; step < most; ++step) {
+    const double slope = (3 * root - 2 * trace) * root + minors;
+    if (!(slope > 0)) break;
+    const double ahead = (determinant - ((root - trace) * root + minors) * root) / slope;
+    root += ahead;
+    if (ahead <= near_by * root) break;
+  }
+  const Symmetric inverse = m.shifted(root).adjugate();
+  const Vector3 vector = inverse * (inverse * inverse.column_of_largest());
+  const double length = vector.norm();
+  return length > 0 ? Vector3(vector / length) : Vector3::UnitX();
+}
+
+}  // namespace
+
+LeastEigen least_eigen_of(const Matrix3& matrix) {
+  const Symmetric m{matrix(0, 0), matrix(1, 1), matrix(2, 2),
+                    matrix(2, 1), matrix(2, 0), matrix(1, 0)};
+  const Symmetric adjugate = m.adjugate();
+  LeastEigen least;
+  least.vector = least_eigenvector_of(m, adjugate);
+  least.value = std::max(0.0, least.vector.dot(m * least.vector));
+  const double sum = m.trace() - least.value, product = adjugate.trace() - least.value * sum;
+  least.greatest = (sum + std::sqrt(std::max(0.0, sum * sum - 4 * product))) / 2;
+  least.next = least.greatest > 0 ? std::max(0.0, product / least.greatest) : 0;
+  return least;
+}
+
+Matrix3 nearest_orthogonal(const Matrix3& products, double parity) {
+  const Eigen::JacobiSVD<Matrix3> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double turned = svd.matrixU().determinant() * svd.matrixV().determinant() * parity;
+  return svd.matrixU() * Vector3(1, 1, turned > 0 ? 1 : -1).asDiagonal() *
+         svd.matrixV().transpose();
+}
+
+Eigen::Isometry3d nearest_isometry(const std::vector<std::pair<Vector3, Vector3>>& pairs,
+                                   double parity) {
+  const auto count = static_cast<double>(pairs.size());
+  Vector3 from = Vector3::Zero(), onto = Vector3::Zero();
+  for (const auto& [x, y] : pairs) {
+    from += x / count;
+    onto += y / count;
+  }
+  Matrix3 products = Matrix3::Zero();
+  for (const auto& [x, y] : pairs) products += (y - onto) * (x - from).transpose();
+  return map_taking(nearest_orthogonal(products, parity), from, onto);
+}
+
+Eigen::Isometry3d map_taking(const Matrix3& linear, const Vector3& from, const Vector3& onto) {
+  Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
+  map.linear() = linear;
+  map.translation() = onto - linear * from;
+  return map;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <symsurf/points.h>
+
+#include <Eigen/Geometry>
+#include <utility>
+#include <vector>
+
+namespace symsurf {
+
+// Eigen's decompositions are slow to compile: those that many searches need are compiled once,
+// these and that of semidefinite_solve.h. They look at the lower triangle.
+
+/// Eigenvalues, ascending, and unit eigenvectors, one a column.
+template <int n>
+struct SymmetricEigen {
+  Eigen::Vector<double, n> values;
+  Eigen::Matrix<double, n, n> vectors;
+};
+
+/// By tridiagonalisation and implicit QR steps (Golub and Van Loan, "Matrix Computations", 8.3).
+SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric);
+SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric);
+
+/// Of the sum of the products of each row with itself.
+SymmetricEigen<3> eigen_of_scatter(const Points& rows);
+
+/// The same of A v = lambda B v, v' B v = 1, for a positive definite B (Golub and Van Loan, 8.7).
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric,
+                                        const Eigen::MatrixXd& definite);
+
+/// The least eigenvalue of a semidefinite matrix with its unit eigenvector, and the others.
+struct LeastEigen {
+  double value, next, greatest;
+  Vector3 vector;
+};
+
+/// In a quarter of the time of eigen_of: Newton's steps on the characteristic polynomial, from
+/// below, then inverse iterations with the adjugate in the inverse's place (Golub and Van Loan,
+/// 7.6.1). For entries that have a fourth power.
+LeastEigen least_eigen_of(const Matrix3& semidefinite);
+
+/// The orthogonal map Q with the greatest trace(Q' products), a rotation for a parity of 1, with a
+/// reflection for -1. Of products sum y x' it takes points x nearest to points y (Umeyama 1991).
+Matrix3 nearest_orthogonal(const Matrix3& products, double parity);
+
+/// The motion, or reflection, that takes the first points of pairs nearest to the second ones.
+Eigen::Isometry3d nearest_isometry(const std::vector<std::pair<Vector3, Vector3>>& pairs,
+                                   double parity);
+
+/// x -> linear (x - from) + onto.
+Eigen::Isometry3d map_taking(const Matrix3& linear, const Vector3& from, const Vector3& onto);
+
+}  // namespace symsurf
