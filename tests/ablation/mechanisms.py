@@ -26,7 +26,7 @@ inline bool without(const char* name) {{
   return false;
 }}
 """
-EVERYWHERE = Path("core/include/symsurf/types.h")
+EVERYWHERE = Path("core/include/symsurf/points.h")
 """The header that gets the function: all sources include it."""
 
 
