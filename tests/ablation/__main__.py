@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import NamedTuple
@@ -13,17 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .mechanisms import VARIABLE, Mechanism, build, mechanisms
-
-Figures = Mapping[str, float]
-Task = tuple[str, str, int]
-
-
-def _trial(task: Task) -> Figures:
-    from accuracy.__main__ import CASES
-
-    name, subject, seed = task
-    return CASES[name].trial(subject, seed)
-
+from .trial import Figures, Task, trial
 
 def _tasks(mechanism: Mechanism, seeds: int | None) -> list[Task]:
     from accuracy.__main__ import CASES
@@ -75,7 +64,7 @@ class Runs:
         left = [task for task in tasks if (off, task) not in self._done]
         os.environ[VARIABLE] = off  # of processes that start afresh: the core looks once
         with ProcessPoolExecutor(self._jobs, mp_context=get_context("spawn")) as pool:
-            self._done |= {(off, t): f for t, f in zip(left, pool.map(_trial, left))}
+            self._done |= {(off, t): f for t, f in zip(left, pool.map(trial, left))}
         return [self._done[off, task] for task in tasks]
 
 
