@@ -19,41 +19,58 @@ void copy_attributes(const Attributes& attributes, std::size_t to, std::size_t f
   }
 }
 
-void add_vertices(CMeshO& mesh, const std::vector<Index>& sources) {
+// Behind the vertices of the layer those that the sources from `from` on stand for.
+void add_vertices(CMeshO& mesh, const std::vector<Index>& sources, std::size_t from) {
   const std::size_t first = mesh.vert.size();
-  if (sources.size() > first) Allocator::AddVertices(mesh, sources.size() - first);
-  for (std::size_t i = first; i < sources.size(); ++i) {
-    mesh.vert[i].ImportData(mesh.vert[sources[i]]);
+  if (sources.size() > from) Allocator::AddVertices(mesh, sources.size() - from);
+  for (std::size_t i = first; i < mesh.vert.size(); ++i) {
+    const auto source = static_cast<std::size_t>(sources[i - first + from]);
+    mesh.vert[i].ImportData(mesh.vert[source]);
     mesh.vert[i].N() = Point3m(0, 0, 0);  // the mirrored one's, where faces do not give it another
-    copy_attributes(mesh.vert_attr, i, sources[i]);
+    copy_attributes(mesh.vert_attr, i, source);
   }
 }
 
-// Of a mirrored face the corners run the other way round: each has the texture of the corner that
-// its vertex comes from, where the source has one.
-void copy_wedges(CMeshO& mesh, CFaceO& face, const CFaceO& source,
-                 const std::vector<Index>& point_sources) {
-  for (int corner = 0; corner < 3; ++corner) {
-    const auto from =
-        static_cast<std::size_t>(point_sources[vcg::tri::Index(mesh, face.cV(corner))]);
-    for (int other = 0; other < 3; ++other)
-      if (vcg::tri::Index(mesh, source.cV(other)) == from) face.WT(corner) = source.cWT(other);
+// What lies between the corners of the source that a point lies between, where it has them.
+CFaceO::TexCoordType texture_between(const CMeshO& mesh, const CFaceO& source,
+                                     const OperationResult& result, Index point) {
+  CFaceO::TexCoordType found;
+  const bool is_other = result.point_parents.rows() > 0;
+  vcg::Point2f sum(0, 0);
+  for (int k = 0; k < (is_other ? 3 : 1); ++k) {
+    const Index parent = is_other ? result.point_parents(point, k) : result.point_sources[point];
+    const double share = is_other ? result.point_shares(point, k) : 1;
+    for (int corner = 0; corner < 3; ++corner)
+      if (static_cast<Index>(vcg::tri::Index(mesh, source.cV(corner))) == parent) {
+        found.n() = source.cWT(corner).n();
+        sum += source.cWT(corner).P() * static_cast<float>(share);
+        break;
+      }
   }
+  found.P() = sum;
+  return found;
 }
 
-void add_faces(CMeshO& mesh, const OperationResult& result) {
+// Faces that the result has from the number `from` on, between vertices that the layer has from
+// `first_vertex` on. Their corners may run the other way round than those of their sources.
+void add_faces(CMeshO& mesh, const OperationResult& result, std::size_t from,
+               std::size_t first_vertex) {
   const std::size_t first = mesh.face.size(), count = result.face_sources.size();
   const bool has_wedges = vcg::tri::HasPerWedgeTexCoord(mesh);
-  if (count > first) Allocator::AddFaces(mesh, count - first);
-  for (std::size_t i = first; i < count; ++i) {
+  if (count > from) Allocator::AddFaces(mesh, count - from);
+  for (std::size_t i = first; i < mesh.face.size(); ++i) {
+    const std::size_t row = i - first + from;
+    const auto made = static_cast<Index>(row);
     CFaceO& face = mesh.face[i];
-    const CFaceO& source = mesh.face[result.face_sources[i]];
+    const CFaceO& source = mesh.face[result.face_sources[row]];
     face.ImportData(source);
-    for (int corner = 0; corner < 3; ++corner)
-      face.V(corner) = &mesh.vert[result.faces(static_cast<Index>(i), corner)];
-    if (has_wedges) copy_wedges(mesh, face, source, result.point_sources);
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index point = result.faces(made, corner);
+      face.V(corner) = &mesh.vert[static_cast<std::size_t>(point) + first_vertex];
+      if (has_wedges) face.WT(corner) = texture_between(mesh, source, result, point);
+    }
     face.ClearAllF();  // edges inside a polygon, which the added faces are not part of
-    copy_attributes(mesh.face_attr, i, result.face_sources[i]);
+    copy_attributes(mesh.face_attr, i, result.face_sources[row]);
   }
 }
 
@@ -61,12 +78,24 @@ void add_what_is_new(MeshModel& layer, const OperationResult& result) {
   CMeshO& mesh = layer.cm;
   const std::size_t vertices = mesh.vert.size(), faces = mesh.face.size();
   layer.clearDataMask(MeshModel::MM_VERTFACETOPO | MeshModel::MM_FACEFACETOPO);
-  add_vertices(mesh, result.point_sources);
-  add_faces(mesh, result);
+  add_vertices(mesh, result.point_sources, vertices);
+  add_faces(mesh, result, faces, 0);
   for (std::size_t i = 0; i < mesh.vert.size(); ++i)
     i < vertices ? mesh.vert[i].ClearS() : mesh.vert[i].SetS();
   for (std::size_t i = 0; i < mesh.face.size(); ++i)
     i < faces ? mesh.face[i].ClearS() : mesh.face[i].SetS();
+}
+
+// Other vertices and faces in place of those of the layer, which they take their attributes from.
+void put_others(MeshModel& layer, const OperationResult& result) {
+  CMeshO& mesh = layer.cm;
+  const std::size_t vertices = mesh.vert.size(), faces = mesh.face.size();
+  layer.clearDataMask(MeshModel::MM_VERTFACETOPO | MeshModel::MM_FACEFACETOPO);
+  add_vertices(mesh, result.point_sources, 0);
+  add_faces(mesh, result, 0, vertices);
+  for (std::size_t i = 0; i < faces; ++i) Allocator::DeleteFace(mesh, mesh.face[i]);
+  for (std::size_t i = 0; i < vertices; ++i) Allocator::DeleteVertex(mesh, mesh.vert[i]);
+  Allocator::CompactEveryVector(mesh);
 }
 
 // Those of a mesh its faces give anew. A cloud's are turned with it, or lost: all zero says so to
@@ -91,7 +120,10 @@ void change_layer(MeshModel& layer, const OperationResult& result) {
   CMeshO& mesh = layer.cm;
   const bool is_moved = operation(result.operation).moves_points;
   if (is_moved && mesh.fn == 0) move_normals(mesh, result);
-  if (!result.point_sources.empty()) add_what_is_new(layer, result);
+  if (result.point_parents.rows() > 0)
+    put_others(layer, result);
+  else if (!result.point_sources.empty())
+    add_what_is_new(layer, result);
   const auto is_placed = [&](Index i) { return result.points.row(i).allFinite(); };
   const Index count = result.points.rows();
   bool all_placed = true;

@@ -39,6 +39,8 @@ std::string OperationFilter::info() const {
                      "auto</i> does, and becomes a new layer.";
   if (operation_.moves_points)
     text += "<br>The vertices of the current layer are moved; the layers of its mirror go along.";
+  if (operation_.makes_shape)
+    text += "<br>Where they are others altogether, they take the attributes of those before.";
   if (operation_.adds_points)
     text +=
         "<br>What is added to the current layer is then what is selected; its vertices and "
@@ -62,7 +64,8 @@ int OperationFilter::changes() const {
   if (!changes_shape()) return changed | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
   changed |= MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
              MeshModel::MM_VERTFLAGSELECT;
-  if (operation_.adds_points) changed |= MeshModel::MM_FACENUMBER | MeshModel::MM_FACEFLAGSELECT;
+  if (operation_.adds_points || operation_.makes_shape)
+    changed |= MeshModel::MM_FACENUMBER | MeshModel::MM_FACEFLAGSELECT;
   return changed;
 }
 

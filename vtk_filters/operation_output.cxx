@@ -55,20 +55,22 @@ struct AddedCells {
 AddedCells added_cells(vtkPolyData* input, const TriangleArray& faces,
                        const symsurf::OperationResult& result) {
   AddedCells added;
-  const symsurf::Index old_faces = faces.view().size();
+  const bool is_other = result.point_parents.rows() > 0;
+  const symsurf::Index old_faces = is_other ? 0 : faces.view().size();
   for (symsurf::Index f = old_faces; f < result.faces.rows(); ++f) {
     const vtkIdType corners[] = {result.faces(f, 0), result.faces(f, 1), result.faces(f, 2)};
     added.polys->InsertNextCell(3, corners);
     added.poly_sources.push_back(faces.cells()->GetValue(result.face_sources[f]));
   }
-  if (old_faces > 0 || input->GetNumberOfVerts() == 0) return added;
+  if (!faces.view().empty() || input->GetNumberOfVerts() == 0) return added;
   Rows vert_of(input->GetNumberOfPoints(), 0);
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < input->GetNumberOfVerts(); ++cell) {
     input->GetVerts()->GetCellAtId(cell, points);
     for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i) vert_of[points->GetId(i)] = cell;
   }
-  for (vtkIdType p = input->GetNumberOfPoints(); p < result.points.rows(); ++p) {
+  const vtkIdType first = is_other ? 0 : input->GetNumberOfPoints();
+  for (vtkIdType p = first; p < result.points.rows(); ++p) {
     added.verts->InsertNextCell(1, &p);
     added.vert_sources.push_back(vert_of[result.point_sources[p]]);
   }
@@ -103,6 +105,42 @@ void add_parts(vtkPolyData* output, vtkPolyData* input, const AddedCells& added,
                     range(strips, cells)}));
 }
 
+// Rows between those of another's data, real numbers by their shares; others are those of the
+// first.
+void blend_rows(vtkDataSetAttributes* to, vtkDataSetAttributes* from,
+                const symsurf::OperationResult& result) {
+  copy_rows(to, from, result.point_sources);
+  for (int k = 0; k < from->GetNumberOfArrays(); ++k) {
+    vtkDataArray* values = from->GetArray(k);
+    if (!values || (values->GetDataType() != VTK_FLOAT && values->GetDataType() != VTK_DOUBLE))
+      continue;
+    for (vtkIdType i = 0; i < result.points.rows(); ++i)
+      for (int component = 0; component < values->GetNumberOfComponents(); ++component) {
+        double sum = 0;
+        for (int parent = 0; parent < 3; ++parent)
+          sum += result.point_shares(i, parent) *
+                 values->GetComponent(result.point_parents(i, parent), component);
+        to->GetArray(k)->SetComponent(i, component, sum);
+      }
+  }
+}
+
+// Points and cells in place of those of the input, with the data that lie between theirs.
+void set_others(vtkPolyData* output, vtkPolyData* input, const AddedCells& made,
+                const symsurf::OperationResult& result) {
+  vtkNew<vtkCellArray> none;
+  output->DeleteCells();
+  output->SetLines(none);
+  output->SetStrips(none);
+  output->SetVerts(made.verts);
+  output->SetPolys(made.polys);
+  output->GetPointData()->Initialize();
+  output->GetCellData()->Initialize();
+  blend_rows(output->GetPointData(), input->GetPointData(), result);
+  copy_rows(output->GetCellData(), input->GetCellData(),
+            joined({made.vert_sources, made.poly_sources}));
+}
+
 }  // namespace
 
 vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
@@ -111,7 +149,10 @@ vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
   const symsurf::Operation& operation = symsurf::operation(result.operation);
   const AddedCells cells = added_cells(input, faces, result);
   output->ShallowCopy(input);
-  if (!result.point_sources.empty()) add_parts(output, input, cells, result.point_sources);
+  if (result.point_parents.rows() > 0)
+    set_others(output, input, cells, result);
+  else if (!result.point_sources.empty())
+    add_parts(output, input, cells, result.point_sources);
   if (operation.moves_points || operation.adds_points) {
     set_points(output, result.points);
     output->GetPointData()->SetNormals(nullptr);

@@ -34,6 +34,8 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   fields["faces"] = owned_array(std::move(result.faces));
   fields["point_sources"] = to_python(result.point_sources);
   fields["face_sources"] = to_python(result.face_sources);
+  fields["point_parents"] = owned_array(std::move(result.point_parents));
+  fields["point_shares"] = owned_array(std::move(result.point_shares));
   fields["arrays"] = to_python(result.arrays, described.arrays);
   fields["parameters"] = to_python(result.parameters);
   fields["statistics"] = to_python(result.statistics);
@@ -69,6 +71,8 @@ void bind_operations(py::module_& module) {
                     "Whether the result's points are not those of the input.")
       .def_readonly("adds_points", &Operation::adds_points,
                     "Whether the result has points and faces behind those of the input.")
+      .def_readonly("makes_shape", &Operation::makes_shape,
+                    "Whether the result may have other points and faces altogether.")
       .def_readonly("takes_mask", &Operation::takes_mask)
       .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
 

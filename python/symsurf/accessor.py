@@ -12,6 +12,8 @@ PyVista finds it by itself where symsurf is installed.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -76,18 +78,11 @@ class Symmetry:
         """The surface of triangles, or the points, with what ``symsurf.complete`` adds: the point
         array "origin" says which is which. What is added has the attributes that its counterpart
         has."""
-        result = self._result("complete", options)
-        made = result.shape.to_pyvista()
-        _carry(self._mesh.point_data, made.point_data, result.sources)
-        if result.given.faces is not None:
-            require_sound_cells(self._mesh)  # ``faces`` may stand in place of them
-            triangles = self._mesh.triangulate()
-            if triangles.n_cells == len(result.given.faces):  # neither lines nor vertices beside
-                _carry(triangles.cell_data, made.cell_data, result.face_sources)
-        return _with_arrays(made, result)
+        return self._other(self._result("complete", options))
 
     def symmetrize(self, **options: Any) -> pyvista.DataSet:
-        """A copy made symmetric by ``symsurf.symmetrize``."""
+        """A copy made symmetric by ``symsurf.symmetrize``; with ``triangles="mirrored"`` a surface of
+        triangles, or points, with the attributes that lie between those of the mesh."""
         return self._operated("symmetrize", options)
 
     def straighten(self, **options: Any) -> pyvista.DataSet:
@@ -126,10 +121,24 @@ class Symmetry:
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         result = self._result(name, options)
+        if result.is_other:
+            return self._other(result)
         made = self._mesh.copy()
         if operations()[name].moves_points:
             made.points = result.shape.points
             drop_normals(made)
+        return _with_arrays(made, result)
+
+    def _other(self, result: OperationResult) -> pyvista.PolyData:
+        """Points and faces of the result, with the attributes of their sources."""
+        made = result.shape.to_pyvista()
+        _carry(self._mesh.point_data, made.point_data, result.carried)
+        if result.given.faces is not None:
+            require_sound_cells(self._mesh)  # ``faces`` may stand in place of them
+            triangles = self._mesh.triangulate()
+            if triangles.n_cells == len(result.given.faces):  # neither lines nor vertices beside
+                of_sources = partial(np.take, indices=result.face_sources, axis=0)
+                _carry(triangles.cell_data, made.cell_data, of_sources)
         return _with_arrays(made, result)
 
     def _result(self, name: str, options: dict[str, Any]) -> Any:
@@ -166,9 +175,14 @@ def _text(name: str, value: str) -> vtkStringArray:
 
 
 def _carry(
-    before: pyvista.DataSetAttributes, after: pyvista.DataSetAttributes, sources: NDArray[np.int64]
+    before: pyvista.DataSetAttributes,
+    after: pyvista.DataSetAttributes,
+    carried: Callable[[NDArray[Any]], NDArray[Any]],
 ) -> None:
-    """Gives each row the attributes of its source; normals, which would be wrong, to none."""
+    """Carries the attributes along; normals, which would be wrong, not."""
     for name, values in before.items():
-        if name != before.active_normals_name:
-            after[name] = np.asarray(values)[sources]
+        if name == before.active_normals_name:
+            continue
+        after[name] = carried(np.asarray(values))
+        if name == before.active_texture_coordinates_name:
+            after.active_texture_coordinates = after[name]

@@ -25,10 +25,19 @@ void expect_sources(const std::vector<Index>& sources, Index rows, Index of) {
 void expect_as_described(const OperationResult& result, const Operation& operation,
                          const Points& points, const Triangles& faces) {
   const Index rows = result.points.rows();
-  expect(operation.adds_points ? rows >= points.rows() : rows == points.rows(), "a row a point");
-  expect(operation.adds_points ? result.faces.rows() >= faces.rows()
-                               : result.faces.rows() == faces.rows(),
-         "faces stay");
+  if (result.point_parents.rows() > 0) {
+    expect(operation.makes_shape && result.point_parents.rows() == rows, "parents of each point");
+    expect((result.point_parents.array() >= 0).all() &&
+               (result.point_parents.array() < points.rows()).all(),
+           "parents are rows of the input");
+    expect((result.point_shares.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-12,
+           "shares sum to 1");
+  } else {
+    expect(operation.adds_points ? rows >= points.rows() : rows == points.rows(), "a row a point");
+    expect(operation.adds_points ? result.faces.rows() >= faces.rows()
+                                 : result.faces.rows() == faces.rows(),
+           "faces stay");
+  }
   expect(result.points.allFinite(), "points are finite");
   if (!operation.moves_points)
     expect(result.points.topRows(points.rows()) == points, "points stay where they are");

@@ -371,6 +371,36 @@ def test_what_completion_adds_has_the_attributes_of_its_sources():
     assert checked > 50
 
 
+def test_mirrored_triangles_have_what_lies_between_their_parents():
+    shape = lump(15)
+    at = lambda points: points[..., :2] / shape.diagonal  # noqa: E731
+    mesh_set = pymeshlab.MeshSet()
+    mesh = pymeshlab.Mesh(
+        shape.points, shape.faces, w_tex_coords_matrix=at(shape.points[shape.faces]).reshape(-1, 2)
+    )
+    mesh.add_vertex_custom_scalar_attribute(np.arange(len(shape.points)), "number")
+    mesh_set.add_mesh(mesh, "shape")
+    plane = add_plane(mesh_set, shape, shift=0.013 * shape.diagonal)
+    apply(mesh_set, "symmetrize", mirror_layer=plane, triangles="mirrored", side="positive")
+    layer = mesh_set.current_mesh()
+    points, faces = layer.vertex_matrix(), layer.face_matrix()
+    offset = shape.offset - 0.013 * shape.diagonal
+    partner = layer.vertex_custom_scalar_attribute_array("partner").astype(int)
+    mirrored = images(points, shape.normal, offset)
+    assert np.allclose(points[partner], mirrored, rtol=0, atol=1e-9 * shape.diagonal)
+    number = layer.vertex_custom_scalar_attribute_array("number").astype(int)
+    side = points @ shape.normal + offset
+    # The side that was kept is the one whose points are those of the shape.
+    same = np.abs(shape.points[number] - points).max(axis=1) < 1e-9 * shape.diagonal
+    kept = np.sign(side[same & (abs(side) > 0.05 * shape.diagonal)])
+    assert len(kept) > 50 and (kept == kept[0]).all()
+    own = np.where((side * kept[0] < 0)[:, None], mirrored, points)
+    texture = layer.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    assert np.allclose(texture, at(own[faces]), rtol=0, atol=1e-6)
+    open_rims = mesh_set.apply_filter("get_topological_measures")["number_holes"]
+    assert open_rims == 4  # twice those at the lump's poles, unless the plane goes through them
+
+
 def test_a_cloud_is_completed_too():
     cut = Cut(12)
     mesh_set = pymeshlab.MeshSet()

@@ -125,6 +125,34 @@ TEST(Operations, KeepCellsAndDataOfTheInput) {
   }
 }
 
+// Texture coordinates lie between those of the parents, ids are those of the sources.
+TEST(Operations, CarryDataToMirroredTriangles) {
+  const vtkNew<vtkPolyData> shape = dented_ball();
+  vtkNew<vtkMirrorSymmetrization> filter;
+  filter->SetInputData(0, shape);
+  filter->SetInputData(1, mirror_data(ball_mirror));
+  filter->SetTriangles("mirrored");
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  const auto expected = by_core("symmetrize", shape, {{"triangles", "mirrored"}});
+  expect_points(output, expected.points);
+  ASSERT_EQ(output->GetNumberOfPolys(), expected.faces.rows());
+  EXPECT_EQ(output->GetNumberOfStrips(), 0);
+  vtkDataArray* texture = shape->GetPointData()->GetTCoords();
+  const TriangleArray faces(shape);
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i) {
+    double between = 0;
+    for (int k = 0; k < 3; ++k)
+      between += expected.point_shares(i, k) * texture->GetTuple2(expected.point_parents(i, k))[0];
+    EXPECT_NEAR(output->GetPointData()->GetTCoords()->GetTuple2(i)[0], between, 1e-6);
+    EXPECT_EQ(output->GetPointData()->GetArray("Id")->GetTuple1(i), expected.point_sources[i]);
+  }
+  for (vtkIdType f = 0; f < output->GetNumberOfPolys(); ++f)
+    EXPECT_EQ(output->GetCellData()->GetArray("CellId")->GetTuple1(f),
+              faces.cells()->GetValue(expected.face_sources[f]));
+  EXPECT_FALSE(output->GetPointData()->GetNormals());
+}
+
 TEST(Operations, FindTheMirrorWhereNoneIsConnected) {
   vtkNew<vtkMirrorDetection> detection;
   detection->SetInputData(dented_ball());

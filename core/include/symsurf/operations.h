@@ -36,6 +36,7 @@ struct Operation {
   std::string shown;          ///< the array to colour points by; none: the colours stay
   bool moves_points = false;  ///< the result's points are not those of the input
   bool adds_points = false;   ///< behind those of the input, and faces behind its faces
+  bool makes_shape = false;   ///< may give OperationResult::point_parents
   bool takes_mask = false;    ///< OperationInput::mask
 };
 
@@ -59,6 +60,11 @@ struct OperationResult {
   /// Where something was added: of each point and face of the result, the one of the input that its
   /// attributes come from. Empty otherwise: each has its own.
   std::vector<Index> point_sources, face_sources;
+  /// Of a shape of other points and faces altogether: of each point the three points of the input
+  /// that it, or what it is the image of, lies between, and their shares, which sum to 1. The one
+  /// with most share comes first and is the point's source. No rows otherwise.
+  Triangles point_parents;
+  Points point_shares;
   std::map<std::string, Eigen::MatrixXd> arrays;  ///< Operation::arrays: one row a point
   Values parameters;                              ///< as used
   Values statistics;

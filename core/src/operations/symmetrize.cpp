@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "operations/counterparts.h"
+#include "operations/mirrored_half.h"
 #include "operations/operation_registry.h"
 
 namespace symsurf {
@@ -96,9 +97,9 @@ class Symmetrization {
   Values unmatched_;
 };
 
-void run_symmetrize(const OperationInput& input, const Mirror& mirror,
-                    const ParameterValues& values, const Context& context,
-                    OperationResult& result) {
+// Of the same points and faces.
+void move_points(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
+                 const Context& context, OperationResult& result) {
   Symmetrization symmetrization(input, mirror, limits_of(values, input.points));
   const std::string& side = values.choice("side");
   Points target;
@@ -117,9 +118,49 @@ void run_symmetrize(const OperationInput& input, const Mirror& mirror,
     else if (share > 0)
       result.points.row(i) += share * (target.row(i) - result.points.row(i));
   }
-  result.arrays = {{"paired", symmetrization.paired()}};
+  result.arrays = {{"paired", symmetrization.paired()},
+                   {"partner", Eigen::VectorXd::Constant(target.rows(), -1)}};
   result.statistics = symmetrization.unmatched();
   result.statistics["paired_share"] = symmetrization.paired().mean();
+}
+
+// Of one side and its image, whose vertices are exact partners.
+void mirror_triangles(const OperationInput& input, const Mirror& mirror,
+                      const ParameterValues& values, const Context& context,
+                      OperationResult& result) {
+  if (values.real("strength") != 1 || input.mask.size() > 0)
+    throw InvalidParameter(
+        "a strength below 1 and a mask move the points that there are; "
+        "triangles has to be kept then, not mirrored");
+  const std::string& side = values.choice("side");
+  Points points = input.points.matrix();
+  if (side == "average") {
+    Symmetrization symmetrization(input, mirror, limits_of(values, input.points));
+    points = symmetrization.average(context.stage(0, 0.7));
+    result.statistics = symmetrization.unmatched();
+  }
+  MirroredHalf made =
+      mirrored_half(points, input.faces, mirror, side != "negative", context.stage(0.7, 1));
+  const Index count = made.points.rows();
+  Eigen::VectorXd partners(count);
+  for (Index i = 0; i < count; ++i) {
+    partners[i] = static_cast<double>(made.partners[i]);
+    result.point_sources.push_back(made.parents(i, 0));
+  }
+  result.points = std::move(made.points);
+  result.faces = std::move(made.faces);
+  result.face_sources = std::move(made.face_sources);
+  result.point_parents = std::move(made.parents);
+  result.point_shares = std::move(made.shares);
+  result.arrays = {{"paired", Eigen::VectorXd::Ones(count)}, {"partner", partners}};
+  result.statistics["paired_share"] = 1.0;
+}
+
+void run_symmetrize(const OperationInput& input, const Mirror& mirror,
+                    const ParameterValues& values, const Context& context,
+                    OperationResult& result) {
+  const bool mirrored = values.choice("triangles") == "mirrored";
+  (mirrored ? mirror_triangles : move_points)(input, mirror, values, context, result);
 }
 
 }  // namespace
@@ -135,12 +176,20 @@ OperationImplementation symmetrize_operation() {
       Parameter::choice("side", "average", {"average", "positive", "negative"},
                         "What both sides will be: their average, or the side where signed "
                         "distances from the mirror are positive or negative."),
+      Parameter::choice("triangles", "kept", {"kept", "mirrored"},
+                        "Whether the points and triangles stay those of the shape and move, or are "
+                        "those of one side and their images, cut along the mirror and exactly "
+                        "symmetric; of the average that is the positive side."),
       Parameter::real("strength", 1, 0, 1, "",
                       "How far the points move: 0 not at all, 1 all the way."),
       max_distance(), max_angle()};
   operation.arrays = {
-      {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."}};
+      {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."},
+      {"partner", ParameterType::Integer, 1,
+       "The point that is its image, itself on the mirror, where triangles are mirrored; else -1.",
+       false, true}};
   operation.moves_points = true;
+  operation.makes_shape = true;
   operation.takes_mask = true;
   operation.shown = "paired";
   operation.run = run_symmetrize;

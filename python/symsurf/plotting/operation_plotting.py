@@ -140,7 +140,11 @@ def _draw_object(
         draw_scalars(plotter, object_, values, "confidence", (0, end), colour_map(COLOURS[::-1]))
         _draw_pairs(plotter, result)
     elif isinstance(result, Symmetrized):
-        moved = np.linalg.norm(result.shape.points - result.given.points, axis=1)
+        before = result.carried(result.given.points)  # of an image, what it is the image of
+        if result.is_other:
+            negative = result.mirror.signed_distance(result.shape.points) < 0
+            before[negative] = result.mirror.reflect(before[negative])
+        moved = np.linalg.norm(result.shape.points - before, axis=1)
         values = in_percent * np.where(result.paired, moved, np.nan)[rows]
         end = clim or range_of(values)
         title = "moved by, % of the diagonal"

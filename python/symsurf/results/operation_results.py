@@ -36,11 +36,22 @@ class OperationResult(Summarised):
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]
     """Whatever else the operation reports."""
+    sources: NDArray[np.int64]
+    """(n,) of each point of ``shape``, the one of the input that its attributes come from."""
+    face_sources: NDArray[np.int64]
+    """(m,) the same of each face."""
+    parents: NDArray[np.int64] | None
+    """(n, 3) where points and faces are other ones altogether, as of ``symmetrize`` with
+    ``triangles="mirrored"``: the points of the input that each, or its image, lies between."""
+    shares: NDArray[np.float64] | None
+    """(n, 3) what each of these counts; they sum to 1."""
 
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
         faces = made["faces"] if len(made["faces"]) else None
+        is_same = not len(made["point_sources"]) and not len(made["face_sources"])
+        is_other = len(made["point_parents"]) > 0
         frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
         return cls(
             given=Shape(made["given"], made["given_faces"], space=made["space"]),
@@ -48,6 +59,10 @@ class OperationResult(Summarised):
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
+            sources=np.arange(len(made["points"])) if is_same else made["point_sources"],
+            face_sources=np.arange(len(made["faces"])) if is_same else made["face_sources"],
+            parents=made["point_parents"] if is_other else None,
+            shares=made["point_shares"] if is_other else None,
             **made["arrays"],
             **cls._own_fields(made),
         )
@@ -56,6 +71,20 @@ class OperationResult(Summarised):
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
         """Those that are no arrays of the operation."""
         return {}
+
+    @property
+    def is_other(self) -> bool:
+        """Whether points and faces are other ones than those of the input altogether."""
+        return self.parents is not None
+
+    def carried(self, values: NDArray[Any]) -> NDArray[Any]:
+        """What the points of ``shape`` have of values of the input's points, such as colours or
+        texture coordinates: real numbers between those of a point's ``parents``, others those of its
+        source. (n, ...) of ``shape`` from (k, ...) of the input."""
+        if self.parents is None or self.shares is None or values.dtype.kind != "f":
+            return values[self.sources]
+        shares = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
+        return (values[self.parents] * shares).sum(axis=1).astype(values.dtype)
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -169,12 +198,15 @@ class Alignment(OperationResult):
 @dataclass(frozen=True, eq=False, repr=False)
 class Symmetrized(OperationResult):
     """The shape made symmetric. ``statistics``: "paired_share", and why the others are unmatched,
-    as those of an asymmetry."""
+    as those of an asymmetry. With ``triangles="mirrored"`` one side and its image: ``partner`` is an
+    exact permutation, ``carried`` takes attributes along."""
 
     operation = "symmetrize"
 
     paired: NDArray[np.bool_]
     """(n,) whether the point has a counterpart; else it stays."""
+    partner: NDArray[np.int64]
+    """(n,) with mirrored triangles the point that is its image, itself on the mirror; else -1."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -199,24 +231,13 @@ class Completed(OperationResult):
 
     origin: NDArray[np.int64]
     """(n,) of each point: 0 original, 1 mirrored, 2 of the seam between them."""
-    sources: NDArray[np.int64]
-    """(n,) of each point, the one of the input that its attributes come from."""
-    face_sources: NDArray[np.int64]
-    """(m,) the same of each face."""
     patch: Shape
     """What was added, with the points of the rim that its faces touch; its own numbering."""
 
     @staticmethod
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
-        points, faces = made["points"], made["faces"]
-        sources, face_sources = made["point_sources"], made["face_sources"]
-        is_unchanged = not len(sources) and not len(face_sources)
         given_faces = 0 if made["given_faces"] is None else len(made["given_faces"])
-        return {
-            "sources": np.arange(len(points)) if is_unchanged else sources,
-            "face_sources": np.arange(len(faces)) if is_unchanged else face_sources,
-            "patch": _patch(points, len(made["given"]), faces[given_faces:]),
-        }
+        return {"patch": _patch(made["points"], len(made["given"]), made["faces"][given_faces:])}
 
 
 RESULTS: dict[str, type[OperationResult]] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import numpy as np
 from .. import _core
 from .._core import InvalidInput, InvalidParameter
 from ..reading import read
-from ..results import Completed, OperationResult
+from ..results import OperationResult
 from ..shapes import Shape
 from . import SHAPE_FORMATS, write_whole
 from .same_format import REWRITERS, NewShape, Rewritten, plain_content
@@ -60,20 +61,21 @@ def save_shape(
     if suffix not in REWRITERS or suffix != path.suffix.lower():
         result.save(path)
         return []
-    count = len(result.shape.points)
-    sources = result.sources if isinstance(result, Completed) else np.arange(count)
+    sources = result.sources
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
     faces = result.shape.faces
     new = NewShape(
         points=result.shape.points,
         faces=np.empty((0, 3), np.int64) if faces is None else faces,
-        old_faces=0 if shape.faces is None else len(shape.faces),
+        old_faces=0 if shape.faces is None or result.is_other else len(shape.faces),
         sources=sources,
-        moved=not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
+        moved=result.is_other
+        or not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
+        is_other=result.is_other,
     )
     given = source.read_bytes() if content is None else content
     rewritten = _kept(given, suffix, new) or _anew(shape, suffix, new)
@@ -84,6 +86,8 @@ def save_shape(
 def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
     """The file with the new shape in it; None where that is written in another way than those that
     are kept, so that what was made would not be read as that shape."""
+    if new.is_other and suffix != ".ply":
+        return None
     try:
         rewritten = REWRITERS[suffix](content, new)
         made = read(BytesIO(rewritten.content), suffix[1:])
@@ -98,6 +102,10 @@ def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
 
 def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
     """A file of points and faces alone."""
+    if new.is_other:
+        shape = Shape(new.points, new.faces if len(new.faces) else None)
+        rows = np.arange(len(new.points))
+        new = replace(new, old_faces=len(new.faces), sources=rows, moved=False, is_other=False)
     rewritten = REWRITERS[suffix](plain_content(shape, suffix), new)
     return rewritten._replace(
         lost=["nothing of the file is kept but points and faces", *rewritten.lost]

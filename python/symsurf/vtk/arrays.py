@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
+    VTK_DOUBLE,
+    VTK_FLOAT,
     vtkDataArray,
     vtkIdList,
     vtkPoints,
@@ -160,6 +162,24 @@ def copy_rows(
     to.CopyAllOn()
     to.CopyAllocate(source, len(rows))
     to.CopyData(source, _ids(rows), _ids(np.arange(len(rows))))
+
+
+def blend_rows(
+    to: vtkDataSetAttributes,
+    source: vtkDataSetAttributes,
+    parents: NDArray[np.int64],
+    shares: NDArray[np.float64],
+) -> None:
+    """Makes the data that between rows of another, real numbers by their shares; others are those of
+    the first."""
+    copy_rows(to, source, parents[:, 0])
+    for i in range(source.GetNumberOfArrays()):
+        array = source.GetArray(i)
+        if array is None or array.GetDataType() not in (VTK_FLOAT, VTK_DOUBLE):
+            continue
+        values = vtk_to_numpy(array)
+        counts = shares.reshape(*shares.shape, *[1] * (values.ndim - 1))
+        vtk_to_numpy(to.GetArray(i))[:] = (values[parents] * counts).sum(axis=1)
 
 
 def _ids(rows: NDArray[np.int64]) -> vtkIdList:

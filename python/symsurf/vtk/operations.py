@@ -27,6 +27,7 @@ from .algorithm import THREADS, Algorithm, Property, described
 from .arrays import (
     Faces,
     add_values,
+    blend_rows,
     copy_rows,
     drop_normals,
     faces_of,
@@ -143,7 +144,21 @@ def _set_operated(
     verts, vert_sources = _added_verts(shape, faces, result)
     polys, poly_sources = _added_polys(faces, result)
     output.ShallowCopy(shape)
-    if len(result["point_sources"]):
+    if len(result["point_parents"]):
+        output.DeleteCells()
+        for set_cells in (output.SetLines, output.SetStrips):
+            set_cells(vtkCellArray())
+        output.SetVerts(verts)
+        output.SetPolys(polys)
+        blend_rows(
+            output.GetPointData(),
+            shape.GetPointData(),
+            result["point_parents"],
+            result["point_shares"],
+        )
+        rows = np.concatenate([vert_sources, poly_sources])
+        copy_rows(output.GetCellData(), shape.GetCellData(), rows)
+    elif len(result["point_sources"]):
         output.DeleteCells()
         output.SetVerts(_joined(shape.GetVerts(), verts))
         output.SetPolys(_joined(shape.GetPolys(), polys))
@@ -173,7 +188,8 @@ def _set_operated(
 
 def _added_polys(faces: Faces, result: dict[str, Any]) -> tuple[vtkCellArray, NDArray[np.int64]]:
     """The triangles behind those of the shape, and the shape's cells that they have their data of."""
-    old = 0 if faces.corners is None else len(faces.corners)
+    is_other = len(result["point_parents"]) > 0
+    old = 0 if faces.corners is None or is_other else len(faces.corners)
     corners = result["faces"][old:]
     return _cells(corners), faces.cells[result["face_sources"][old:]]
 
@@ -189,8 +205,9 @@ def _added_verts(
     verts = shape.GetVerts()
     sizes = np.diff(vtk_to_numpy(verts.GetOffsetsArray()))
     vert_of[vtk_to_numpy(verts.GetConnectivityArray())] = np.repeat(np.arange(cells), sizes)
-    added = np.arange(old, len(result["points"]))
-    return _cells(added[:, None]), vert_of[result["point_sources"][old:]]
+    first = 0 if len(result["point_parents"]) else old
+    added = np.arange(first, len(result["points"]))
+    return _cells(added[:, None]), vert_of[result["point_sources"][first:]]
 
 
 def _cells(rows: NDArray[np.int64]) -> vtkCellArray:

@@ -41,6 +41,8 @@ class NewShape:
     """RAS or LPS, what the axes now mean; None: what they meant before."""
     arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
     """One row a point."""
+    is_other: bool = False
+    """Whether points and faces are none of the file's: ``old_faces`` is 0 then."""
 
     @property
     def added_faces(self) -> NDArray[np.int64]:
@@ -48,7 +50,7 @@ class NewShape:
 
     @property
     def adds_points(self) -> bool:
-        return bool((self.sources != np.arange(len(self.points))).any())
+        return bool(self.is_other or (self.sources != np.arange(len(self.points))).any())
 
     @property
     def changes_points(self) -> bool:

@@ -126,9 +126,9 @@ def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list
     ]
     count = b"element vertex %d" % len(new.points)
     if len(new.added_faces):
-        faces = elements[1]
+        old = 0 if new.is_other else elements[1].count
         after = [
-            b"element face %d" % (faces.count + len(new.added_faces))
+            b"element face %d" % (old + len(new.added_faces))
             if line.split()[:2] == [b"element", b"face"]
             else line
             for line in after
@@ -161,7 +161,9 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
     for values in new.columns().values():
         for row, text in zip(made, texts(values)):
             row.append(text)
-    text = b"".join(b" ".join(row) + b"\n" for row in made) + body[position:]
+    text = b"".join(b" ".join(row) + b"\n" for row in made)
+    if not new.is_other:
+        text += body[position:]
     if len(new.added_faces):
         text = text.rstrip() + b"\n"
         text += b"".join(b"3 %d %d %d\n" % tuple(face) for face in new.added_faces.tolist())
@@ -201,7 +203,8 @@ def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: st
     made = np.empty(len(new.points), [(str(i), v.dtype) for i, v in enumerate(columns.values())])
     for i, values in enumerate(columns.values()):
         made[str(i)] = values
-    return made.tobytes() + body[table.nbytes :] + _binary_faces(elements, new, order)
+    rest = b"" if new.is_other else body[table.nbytes :]
+    return made.tobytes() + rest + _binary_faces(elements, new, order)
 
 
 def _binary_faces(elements: list[_Element], new: NewShape, order: str) -> bytes:
