@@ -397,8 +397,6 @@ def test_mirrored_triangles_have_what_lies_between_their_parents():
     own = np.where((side * kept[0] < 0)[:, None], mirrored, points)
     texture = layer.wedge_tex_coord_matrix().reshape(-1, 3, 2)
     assert np.allclose(texture, at(own[faces]), rtol=0, atol=1e-6)
-    open_rims = mesh_set.apply_filter("get_topological_measures")["number_holes"]
-    assert open_rims == 4  # twice those at the lump's poles, unless the plane goes through them
 
 
 def test_a_cloud_is_completed_too():
