@@ -14,7 +14,7 @@ namespace symsurf {
 namespace {
 
 // Points nearer to the mirror than this lie on it, in diagonals: rounding.
-constexpr double on_mirror = 1e-9;
+constexpr double on_the_mirror = 1e-9;
 
 class Cut {
  public:
@@ -23,7 +23,7 @@ class Cut {
         mirror_(mirror),
         positive_(positive),
         distances_(mirror.signed_distance(points, context)),
-        near_(on_mirror * diagonal_of(points)),
+        near_(on_the_mirror * diagonal_of(points)),
         kept_(points.size(), -1) {
     if (!positive) distances_ = -distances_;
     if (const Index lost = distances_.array().isNaN().count(); lost > 0)
@@ -128,7 +128,7 @@ class Cut {
     constexpr int most_steps = 100;
     constexpr double precision = 1e-15;  // of the edge, and of the diagonal
     const Vector3 from = points_[a], along = points_[b] - from;
-    const double zero = precision * near_ / on_mirror;
+    const double zero = precision * near_ / on_the_mirror;
     double low = 0, high = 1, at_low = distances_[a], at_high = distances_[b], share = 0.5;
     int last = 0;  // which end moved: -1 the low one, 1 the high one
     for (int step = 0; step < most_steps && high - low > precision; ++step) {

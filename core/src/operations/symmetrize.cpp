@@ -118,8 +118,7 @@ void move_points(const OperationInput& input, const Mirror& mirror, const Parame
     else if (share > 0)
       result.points.row(i) += share * (target.row(i) - result.points.row(i));
   }
-  result.arrays = {{"paired", symmetrization.paired()},
-                   {"partner", Eigen::VectorXd::Constant(target.rows(), -1)}};
+  result.arrays = {{"paired", symmetrization.paired()}};
   result.statistics = symmetrization.unmatched();
   result.statistics["paired_share"] = symmetrization.paired().mean();
 }
@@ -186,7 +185,7 @@ OperationImplementation symmetrize_operation() {
   operation.arrays = {
       {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."},
       {"partner", ParameterType::Integer, 1,
-       "The point that is its image, itself on the mirror, where triangles are mirrored; else -1.",
+       "Where triangles are mirrored the point that is its image, itself on the mirror.",
        false, true}};
   operation.moves_points = true;
   operation.makes_shape = true;

@@ -205,8 +205,8 @@ class Symmetrized(OperationResult):
 
     paired: NDArray[np.bool_]
     """(n,) whether the point has a counterpart; else it stays."""
-    partner: NDArray[np.int64]
-    """(n,) with mirrored triangles the point that is its image, itself on the mirror; else -1."""
+    partner: NDArray[np.int64] | None = None
+    """(n,) with mirrored triangles the point that is its image, itself on the mirror."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
