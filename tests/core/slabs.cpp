@@ -12,6 +12,7 @@
 #include "methods/registry.h"
 #include "process_threads.h"
 #include "random_cloud.h"
+#include "score/distributed_matching.h"
 #include "score/matching.h"
 #include "spatial/nearest_points.h"
 

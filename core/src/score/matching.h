@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "distributed/slabs.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -44,11 +43,5 @@ void pair_anew(Result& result, PointsView points, double limit, const Context& c
 
 /// Keeps these rows of the result's pairs, residuals and surface points.
 void keep_pairs(Result& result, const std::vector<Index>& rows);
-
-/// Pairs the points of this process with those of all, numbered through all processes.
-/// `tree`: of this process's slab. An image in or near another slab is sent to its process, so
-/// memory grows with the own points only. Collective; that of matching.h in one process.
-void add_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
-               const ParameterValues& values, const Context& context);
 
 }  // namespace symsurf

@@ -15,6 +15,7 @@
 #include "methods/parametric/shapes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/registry.h"
+#include "score/distributed_matching.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 #include "spatial/nearest_points.h"
