@@ -68,6 +68,8 @@ def test_gives_what_the_core_gives(operation: symsurf.Operation) -> None:
     assert np.array_equal(points_of(output), expected["points"])
     name = type(found).__name__
     for described in operation.arrays:
+        if described.name not in expected["arrays"]:
+            continue
         made = array(output, name + "".join(map(str.capitalize, described.name.split("_"))))
         if described.name != "face":
             np.testing.assert_array_equal(made, expected["arrays"][described.name])
