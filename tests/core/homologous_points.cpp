@@ -294,7 +294,7 @@ TEST(Curvature, OfASphereIsOneOverItsRadius) {
   for (Index i = 0; i < b.points.rows(); ++i) b.points.row(i) *= 2 / b.points.row(i).norm();
   const Points normals = b.points / 2;
   const Eigen::VectorXd curvature =
-      smoothed_mean_curvature(b.points, b.faces, normals, 0.3, Context());
+      smoothed_mean_curvature(b.points, b.faces, normals, 0.1, Context());
   for (Index i = 0; i < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 0.5, 0.02) << i;
 }
 

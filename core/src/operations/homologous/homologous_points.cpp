@@ -6,6 +6,7 @@
 #include "base/math.h"
 #include "cloud/cloud_laplacian.h"
 #include "cloud/distinct_points.h"
+#include "cloud/footprint.h"
 #include "operations/homologous/registration.h"
 #include "operations/homologous/surface_graph.h"
 #include "operations/homologous/vertex_table.h"
@@ -40,25 +41,30 @@ Triangles usable(const Triangles& triangles, const Points& images) {
 HomologousPoints homologous_points(PointsView points, TrianglesView faces, PointsView images,
                                    const Context& context) {
   const DistinctPoints distinct = distinct_points(points, context.stage(0, 0.05));
-  const Points positions = points.matrix()(distinct.first, Eigen::indexing::all);
-  const Points mirrored = images.matrix()(distinct.first, Eigen::indexing::all);
+  const Eigen::RowVector3d origin = points.matrix().colwise().mean();
+  const double unit = diagonal_of(points);
+  const auto normalised = [&](PointsView all) -> Points {
+    return (all.matrix()(distinct.first, Eigen::indexing::all).rowwise() - origin) / unit;
+  };
+  HomologousPoints found{Points::Zero(points.size(), 3), std::vector<Index>(points.size(), -1)};
+  if (!(unit > 0)) return found;
+  const Points positions = normalised(points), mirrored = normalised(images);
   Triangles triangles(faces.size(), 3);
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) triangles(f, c) = distinct.number[faces[f][c]];
   if (faces.empty()) triangles = cloud_laplacian(positions, context.stage(0.05, 0.2)).triangles;
   triangles = usable(triangles, mirrored);
+  if (triangles.rows() == 0) return found;
   const SurfaceGraph graph(positions, triangles);
   const Points moved =
       registered_displacements(positions, mirrored, triangles, graph, context.stage(0.2, 0.9));
   std::vector<Index> table;
   if (!faces.empty())
     table = vertex_table(positions, mirrored, graph, moved, context.stage(0.9, 1));
-  HomologousPoints found;
-  found.displacements = moved(distinct.number, Eigen::indexing::all);
-  for (const std::int32_t vertex : distinct.number) {
-    const Index partner = table.empty() ? -1 : table[vertex];
-    found.partners.push_back(partner < 0 ? -1 : distinct.first[partner]);
-  }
+  found.displacements = unit * moved(distinct.number, Eigen::indexing::all);
+  for (Index i = 0; i < points.size() && !table.empty(); ++i)
+    if (const Index partner = table[distinct.number[i]]; partner >= 0)
+      found.partners[i] = distinct.first[partner];
   return found;
 }
 

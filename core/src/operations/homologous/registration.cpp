@@ -308,13 +308,8 @@ Points Registration::displacements(const Context& context) {
 
 Points registered_displacements(PointsView points, PointsView images, TrianglesView faces,
                                 const SurfaceGraph& graph, const Context& context) {
-  const Eigen::RowVector3d origin = points.matrix().colwise().mean();
-  const double unit = diagonal_of(points);
-  if (faces.empty() || !(unit > 0)) return Points::Zero(points.size(), 3);
-  const Points own = (points.matrix().rowwise() - origin) / unit;
-  const Points mirrored = (images.matrix().rowwise() - origin) / unit;
-  Registration registration(own, mirrored, faces, graph, context.stage(0, 0.5));
-  return unit * registration.displacements(context.stage(0.5, 1));
+  Registration registration(points, images, faces, graph, context.stage(0, 0.5));
+  return registration.displacements(context.stage(0.5, 1));
 }
 
 }  // namespace symsurf
