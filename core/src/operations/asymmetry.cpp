@@ -142,9 +142,11 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   const PointsView points = input.points;
   const Index count = points.size();
   const double diagonal = diagonal_of(points);
-  const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8));
-  Points vector(count, 3);
-  Eigen::VectorXd distance(count), outward(count), lateral(count), matched(count);
+  const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
+                                  pairing_of(values));
+  Points vector(count, 3), weights(count, 3);
+  Eigen::VectorXd distance(count), outward(count), tangential(count), lateral(count),
+      matched(count), face(count), confidence(count);
   interruptible_for(context, count, [&](Index i) {
     const Counterpart& counterpart = counterparts[i];
     const Vector3 x = points[i];
@@ -152,9 +154,14 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
     const Vector3 from_mirror = x - counterparts.image(i);  // twice as far
     vector.row(i) = to_place.transpose();
     distance[i] = to_place.norm();
-    outward[i] = to_place.dot(counterparts.normals().row(i).transpose());
+    const Vector3 normal = counterparts.normals().row(i).transpose();
+    outward[i] = to_place.dot(normal);
+    tangential[i] = (to_place - outward[i] * normal).norm();
     lateral[i] = to_place.dot(from_mirror.stableNormalized());
     matched[i] = counterpart.matched ? 1 : 0;
+    face[i] = counterpart.matched ? static_cast<double>(counterpart.face) : -1;
+    weights.row(i) = counterpart.weights.transpose();
+    confidence[i] = counterparts.confidence(i, points);
   });
   Values& statistics = result.statistics;
   statistics["matched_share"] =
@@ -164,11 +171,13 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
   report_distances(statistics, distance, outward, diagonal, context);
   if (!input.faces.empty())
     report_sides(statistics, input, mirror, counterparts.is_watertight(), context.stage(0.8, 1));
-  result.arrays = {{"vector", vector},
-                   {"distance", distance},
-                   {"signed", outward},
-                   {"lateral", lateral},
-                   {"matched", matched}};
+  result.arrays = {{"vector", vector},         {"distance", distance}, {"signed", outward},
+                   {"tangential", tangential}, {"lateral", lateral},   {"matched", matched},
+                   {"confidence", confidence}};
+  if (!input.faces.empty()) {
+    result.arrays["face"] = face;
+    result.arrays["weights"] = weights;
+  }
 }
 
 }  // namespace
@@ -179,8 +188,8 @@ OperationImplementation asymmetry_operation() {
   operation.title = "Mirror asymmetry";
   operation.summary =
       "Measures for each point how far it is from where the other side says it should be: the "
-      "closest point of the mirrored surface.";
-  operation.parameters = {max_distance(), max_angle()};
+      "closest or the homologous point of the mirrored surface.";
+  operation.parameters = {pairing(), max_distance(), max_angle()};
   operation.arrays = {
       {"vector", ParameterType::Real, 3,
        "From the point to its place, input units; NaN without a counterpart."},
@@ -188,10 +197,17 @@ OperationImplementation asymmetry_operation() {
       {"signed", ParameterType::Real, 1,
        "Its part along the outward normal, input units: positive where the point lies too far in.",
        true},
+      {"tangential", ParameterType::Real, 1, "Its part along the surface, input units."},
       {"lateral", ParameterType::Real, 1, "Its part away from the mirror, input units.", true},
       {"matched", ParameterType::Boolean, 1,
        "Whether the point has a counterpart: none past a rim, too far away, or with another "
        "normal."},
+      {"confidence", ParameterType::Real, 1,
+       "0 to 1: the cosine between the normals, halved where the closest image, or the way to the "
+       "homologous point and back, ends a spacing away."},
+      {"face", ParameterType::Integer, 1,
+       "Of a mesh, the face whose image the place lies on; -1 for none."},
+      {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
   operation.shown = "signed";
   operation.run = run_asymmetry;

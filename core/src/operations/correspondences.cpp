@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "operations/counterparts.h"
 #include "operations/operation_registry.h"
 
@@ -7,21 +5,13 @@ namespace symsurf {
 
 namespace {
 
-// 1 where the image is a point of the input, 1/2 where it lies as far from the closest one as that
-// point's neighbours do.
-double confidence_of(double gap, double apart, double agreement) {
-  if (gap == 0) return agreement;
-  return agreement / (1 + gap * gap / (apart * apart));
-}
-
 void run_correspondences(const OperationInput& input, const Mirror& mirror,
                          const ParameterValues& values, const Context& context,
                          OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
-  const Counterparts counterparts(input, mirror, limits_of(values, points), context);
-  // The spacing, to compare gaps with: the edge of a square for each point.
-  const double apart = counterparts.spacing();
+  const Counterparts counterparts(input, mirror, limits_of(values, points), context,
+                                  pairing_of(values));
   Eigen::VectorXd index(count), confidence(count), face(count);
   Points weights(count, 3);
   for (Index i = 0; i < count; ++i) {
@@ -29,8 +19,7 @@ void run_correspondences(const OperationInput& input, const Mirror& mirror,
     index[i] = c.matched ? static_cast<double>(c.nearest) : -1;
     face[i] = c.matched ? static_cast<double>(c.face) : -1;
     weights.row(i) = c.weights.transpose();
-    const double gap = c.matched ? (counterparts.image(i) - points[c.nearest]).norm() : 0;
-    confidence[i] = c.matched ? confidence_of(gap, apart, c.agreement) : 0;
+    confidence[i] = counterparts.confidence(i, points);
   }
   if (values.boolean("one_to_one")) {
     const Eigen::VectorXd all = index;
@@ -58,6 +47,7 @@ OperationImplementation correspondences_operation() {
   operation.title = "Mirror correspondences";
   operation.summary = "Gives for each point the point of the input that mirrors it.";
   operation.parameters = {
+      pairing(),
       Parameter::boolean("one_to_one", false,
                          "Only pairs of points that are each other's mirror points."),
       max_distance(), max_angle()};
@@ -67,7 +57,8 @@ OperationImplementation correspondences_operation() {
        "corner of the face that the image comes closest to.",
        false, true},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: the cosine between the normals, halved where the image lies a spacing away."},
+       "0 to 1: the cosine between the normals, halved where the closest image, or the way to the "
+       "homologous point and back, ends a spacing away."},
       {"face", ParameterType::Integer, 1,
        "Of a mesh, the face that the image comes closest to; -1 for none."},
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},

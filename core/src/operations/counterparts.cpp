@@ -91,12 +91,16 @@ Vector3 mirrored_normal(const Mirror& mirror, const Vector3& x, const Vector3& i
 }  // namespace
 
 Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
-                           const Context& context)
+                           const Context& context, Pairing pairing)
     : limits_(limits),
+      pairing_(pairing),
       all_(input.points.size()),
       images_(mirror.reflect(input.points, context.stage(0, 0.3))) {
   require_images(images_, mirror.kind());
-  const Context rest = context.stage(0.3, 1);
+  const double registered = pairing == Pairing::Homologous ? 0.8 : 0.3;
+  if (pairing == Pairing::Homologous)
+    homologous_ = homologous_points(input.points, input.faces, images_, context.stage(0.3, 0.8));
+  const Context rest = context.stage(registered, 1);
   if (input.faces.empty())
     match_cloud(input, mirror, rest);
   else
@@ -105,6 +109,7 @@ Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, co
   for (const Counterpart& c : all_) nearest.push_back(c.nearest);
   pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
   for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
+  if (pairing == Pairing::Homologous) go_back(input, mirror, context.stage(1, 1));
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
@@ -113,6 +118,35 @@ void Counterparts::settle(Index i, double cosine) {
   Counterpart& c = all_[i];
   c.agreement = std::isfinite(cosine) ? std::clamp(cosine, 0.0, 1.0) : 1;
   c.matched = !c.past_rim && c.gap <= limits_.distance && c.agreement >= limits_.cosine;
+}
+
+// From the homologous point of a point to the homologous point of that.
+void Counterparts::go_back(const OperationInput& input, const Mirror& mirror,
+                           const Context& context) {
+  parallel_for(context, input.points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Counterpart& c = all_[i];
+      if (!c.matched || homologous_.partners[i] >= 0) continue;
+      Vector3 displacement = Vector3::Zero();
+      if (c.face < 0)
+        displacement = homologous_.displacements.row(c.nearest).transpose();
+      else
+        for (int k = 0; k < 3; ++k)
+          displacement +=
+              c.weights[k] * homologous_.displacements.row(input.faces[c.face][k]).transpose();
+      const Vector3 back = mirror.reflect(Vector3(c.on_surface + displacement));
+      c.return_gap = (back - input.points[i]).norm();
+      if (!std::isfinite(c.return_gap)) c.return_gap = limits_.distance;
+    }
+  });
+}
+
+double Counterparts::confidence(Index i, PointsView points) const {
+  const Counterpart& c = all_[i];
+  if (!c.matched) return 0;
+  const double gap =
+      pairing_ == Pairing::Closest ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  return gap == 0 ? c.agreement : c.agreement / (1 + gap * gap / (spacing_ * spacing_));
 }
 
 void Counterparts::report_unmatched(Values& statistics) const {
@@ -149,15 +183,16 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   for (Index f = input.faces.size() - 1; f >= 0; --f)
     for (int c = 0; c < 3; ++c) face_at[input.faces[f][c]] = f;
 
+  const double exact_reach = exact * diagonal_of(points);
   const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
   const auto settle_at = [&](Index i, const ClosestPoint& closest, bool by_lines) {
     Counterpart& c = all_[i];
-    const Vector3 x = points[i];
+    const Vector3 x = query(points, i);
     const Index* corners = input.faces[closest.face];
     c.face = closest.face;
     c.weights = closest.weights;
     c.place = closest.point;
-    c.gap = std::sqrt(closest.squared_distance);
+    c.gap = (closest.point - points[i]).norm();
     c.on_surface = Vector3::Zero();
     Vector3 normal = Vector3::Zero();
     c.on_rim = true;
@@ -182,7 +217,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     return cosine;
   };
   // A point that is the image of another, whatever the faces around the two.
-  const auto settle_at_point = [&](Index i, Index partner) {
+  const auto settle_at_point = [&](Index i, Index partner, bool is_exact) {
     Counterpart& c = all_[i];
     c.nearest = partner;
     c.face = face_at[partner];
@@ -194,32 +229,33 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     const double cosine =
         cosine_between(image_normals.row(partner).transpose(), normals_.row(i).transpose());
     settle(i, std::abs(cosine));
-    c.matched = true;
+    c.matched = c.matched || is_exact;
     return cosine;
   };
 
   const PointTree images(images_, context.stage(0.2, 0.3));
-  const double exact_reach = exact * diagonal_of(points);
   // Whether the closest place faces the way the point does: 1 or -1; 0: neither, or not known.
   std::vector<signed char> faces_alike(points.size(), 0);
   parallel_for(context.stage(0.3, 0.9), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
+      Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
+      const bool is_exact = partner >= 0;
+      if (!is_exact && pairing_ == Pairing::Homologous) partner = homologous_.partners[i];
       const auto look = [&](double cosine) {
         if (std::abs(cosine) >= limits_.cosine) faces_alike[i] = cosine < 0 ? -1 : 1;
       };
       if (partner >= 0 && face_at[partner] >= 0) {
-        look(settle_at_point(i, partner));
+        look(settle_at_point(i, partner, is_exact));
         continue;
       }
-      const ClosestPoint closest = mirrored(points[i]);
+      const Vector3 x = query(points, i);
+      const ClosestPoint closest = mirrored(x);
       if (closest.face < 0) continue;
       const double cosine = settle_at(i, closest, false);
       if (all_[i].agreement < limits_.cosine) {
         // Where the sides of a thin part differ, the closest layer is the wrong one.
-        const ClosestPoint facing =
-            mirrored.facing(points[i], -normals_.row(i).transpose(), limits_.cosine,
-                            limits_.distance * limits_.distance);
+        const ClosestPoint facing = mirrored.facing(x, -normals_.row(i).transpose(), limits_.cosine,
+                                                    limits_.distance * limits_.distance);
         if (facing.face >= 0) settle_at(i, facing, false);
       }
       if (!all_[i].past_rim && all_[i].gap <= limits_.distance) look(all_[i].matched ? 1 : cosine);
@@ -228,7 +264,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const std::vector<bool> by_lines = wound_against_their_images(points, input.faces, faces_alike);
   parallel_for(context.stage(0.9, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
-      if (by_lines[i] && all_[i].gap > exact_reach) settle_at(i, mirrored(points[i]), true);
+      if (by_lines[i] && all_[i].gap > exact_reach) settle_at(i, mirrored(query(points, i)), true);
   });
   normals_ *= outwards;
   spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
@@ -250,7 +286,7 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
   parallel_for(context.stage(0.4, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Counterpart& c = all_[i];
-      const Vector3 x = points[i];
+      const Vector3 x = query(points, i);
       c.nearest = mirrored.nearest(x).index;
       if (c.nearest < 0) continue;
       const Vector3 y = image(c.nearest), gap = x - y;
@@ -263,7 +299,8 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
         c = {};
         continue;
       }
-      c.gap = std::abs(gap.dot(normal));
+      c.gap =
+          pairing_ == Pairing::Closest ? std::abs(gap.dot(normal)) : (c.place - points[i]).norm();
       c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
       settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
@@ -281,6 +318,17 @@ Parameter max_angle() {
   return Parameter::real("max_angle", 60, 0, 90, "degrees",
                          "A point whose mirrored normal differs by more from that of the surface "
                          "has no counterpart.");
+}
+
+Parameter pairing() {
+  return Parameter::choice(
+      "pairing", "closest", {"closest", "homologous"},
+      "What a point is compared with: the closest point of the mirrored surface, or the homologous "
+      "one, by non-rigid registration.");
+}
+
+Pairing pairing_of(const ParameterValues& values) {
+  return values.choice("pairing") == "homologous" ? Pairing::Homologous : Pairing::Closest;
 }
 
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points) {

@@ -8,11 +8,16 @@
 
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
+#include "operations/homologous/homologous_points.h"
 
 namespace symsurf {
 
-/// Where the other side of a shape says that one of its points should be: the point closest to it
-/// of the mirrored surface, that is of the faces between the images of their corners.
+/// Which point of the mirrored surface a point is compared with: the closest one, or the one that a
+/// non-rigid registration finds to be its homologous point.
+enum class Pairing { Closest, Homologous };
+
+/// Where the other side of a shape says that one of its points should be: a point of the mirrored
+/// surface, that is of the faces between the images of their corners.
 struct Counterpart {
   Vector3 place = nowhere;       ///< that point; NaN where there is none
   Vector3 on_surface = nowhere;  ///< what it is the image of
@@ -21,9 +26,11 @@ struct Counterpart {
   Index face = -1;     ///< of a mesh, whose image the place lies on
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
   double gap = 0;                     ///< from the point to the mirrored surface, input units
-  double agreement = 0;               ///< cosine between the normals there, 0 to 1
-  bool on_rim = false;                ///< the place is on a boundary of the mirrored mesh
-  bool past_rim = false;              ///< the point lies beside the mirrored surface, not above it
+  double return_gap = 0;  ///< of a homologous point: from the point to what the way there and back
+                          ///< leads to, input units
+  double agreement = 0;   ///< cosine between the normals there, 0 to 1
+  bool on_rim = false;    ///< the place is on a boundary of the mirrored mesh
+  bool past_rim = false;  ///< the point lies beside the mirrored surface, not above it
   /// Whose image is a point, or which is not past a rim, nor farther away or turned by more than
   /// allowed.
   bool matched = false;
@@ -41,10 +48,14 @@ class Counterparts {
 
   /// Throws InvalidInput where the mirror has images for less than half of the points.
   Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
-               const Context& context);
+               const Context& context, Pairing pairing = Pairing::Closest);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
   Index matched() const { return matched_; }
+
+  /// 0 to 1: the cosine between the normals, halved where the closest image of a point, or the way
+  /// there and back between homologous points, ends a spacing away. 0 without a counterpart.
+  double confidence(Index i, PointsView points) const;
 
   /// Of all points the share without a counterpart, and what of it is so for which reason.
   void report_unmatched(Values& statistics) const;
@@ -70,8 +81,17 @@ class Counterparts {
   void match_mesh(const OperationInput& input, const Context& context);
   void match_cloud(const OperationInput& input, const Mirror& mirror, const Context& context);
   void settle(Index i, double cosine);
+  void go_back(const OperationInput& input, const Mirror& mirror, const Context& context);
+
+  // From where the counterpart of a point is looked for.
+  Vector3 query(PointsView points, Index i) const {
+    if (pairing_ == Pairing::Closest) return points[i];
+    return points[i] + homologous_.displacements.row(i).transpose();
+  }
 
   const Limits limits_;
+  const Pairing pairing_;
+  HomologousPoints homologous_;  // where these are asked for
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;
   Points images_, normals_;
@@ -83,6 +103,8 @@ class Counterparts {
 /// Parameters that operations share, and the limits that they set.
 Parameter max_distance();
 Parameter max_angle();
+Parameter pairing();
+Pairing pairing_of(const ParameterValues& values);
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
 
 }  // namespace symsurf

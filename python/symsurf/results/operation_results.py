@@ -159,11 +159,20 @@ class Asymmetry(OperationResult):
     """(n,) its length."""
     signed: NDArray[np.float64]
     """(n,) its part along the outward normal: positive where the point lies too far in."""
+    tangential: NDArray[np.float64]
+    """(n,) its part along the surface."""
     lateral: NDArray[np.float64]
     """(n,) its part away from the mirror."""
     matched: NDArray[np.bool_]
     """(n,) whether the point has a counterpart: none past a rim, too far away, or with another
     normal."""
+    confidence: NDArray[np.float64]
+    """(n,) 0 to 1: the cosine between the normals, halved where the closest image, or the way to
+    the homologous point and back, ends a spacing away."""
+    face: NDArray[np.int64] | None = None
+    """(n,) of a mesh, the face whose image the place lies on; -1 for none."""
+    weights: NDArray[np.float64] | None = None
+    """(n, 3) of a mesh, the barycentric coordinates on that face."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -176,7 +185,8 @@ class Correspondences(OperationResult):
     index: NDArray[np.int64]
     """(n,) the mirror point, the point itself on the mirror, -1 for none."""
     confidence: NDArray[np.float64]
-    """(n,) 0 to 1: the cosine between the normals, halved where the image lies a spacing away."""
+    """(n,) 0 to 1: the cosine between the normals, halved where the closest image, or the way to
+    the homologous point and back, ends a spacing away."""
     face: NDArray[np.int64] | None = None
     """(n,) of a mesh, the face that the image comes closest to; -1 for none."""
     weights: NDArray[np.float64] | None = None

@@ -1,0 +1,78 @@
+#include "operations/homologous/vertex_table.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/parallel.h"
+#include "spatial/point_tree.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index table_grain = 1024;
+constexpr int most_rounds = 50;      // a wrong patch shrinks by a ring of vertices a round
+constexpr double most_turned = 0.5;  // of the edges at a vertex: quadrangles divided at random
+constexpr double least_share = 0.9;  // resampled sides reach a half
+
+}  // namespace
+
+std::vector<Index> vertex_table(PointsView points, PointsView images, const SurfaceGraph& graph,
+                                const Points& displacements, const Context& context) {
+  const PointTree tree(images, context.stage(0, 0.1));
+  std::vector<Index> table(points.size());
+  const auto target = [&](Index i) -> Vector3 {
+    return points[i] + displacements.row(i).transpose();
+  };
+  parallel_for(context.stage(0.1, 0.3), points.size(), table_grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) table[i] = tree.nearest(target(i)).index;
+  });
+  // How many edges at a vertex go to edges at its partner, were this the partner.
+  const auto kept_edges = [&](Index i, Index partner) {
+    const auto around = graph.neighbours(i);
+    return std::count_if(around.begin(), around.end(), [&](std::int32_t j) {
+      return table[j] >= 0 && graph.are_neighbours(table[j], partner);
+    });
+  };
+  // Each vertex takes the partner that keeps most of its edges, of several the nearest.
+  const auto best_partner = [&](Index i) {
+    Index best = table[i], most = best < 0 ? 0 : kept_edges(i, best);
+    double nearest = 0;
+    std::map<Index, Index> votes;
+    for (const std::int32_t j : graph.neighbours(i))
+      if (table[j] >= 0)
+        for (const std::int32_t candidate : graph.neighbours(table[j])) ++votes[candidate];
+    for (const auto& [candidate, count] : votes) {
+      if (count < most || (count == most && best == table[i])) continue;
+      const double distance = (images[candidate] - target(i)).squaredNorm();
+      if (count == most && distance >= nearest) continue;
+      best = candidate;
+      most = count;
+      nearest = distance;
+    }
+    return best;
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<Index> next(table.size());
+    parallel_for(context.stage(0.3, 1), points.size(), table_grain, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) next[i] = best_partner(i);
+    });
+    if (next == table) break;
+    table.swap(next);
+  }
+  std::vector<Index> sound(table.size(), -1);
+  Index joined = 0;
+  for (Index i = 0; i < points.size(); ++i) {
+    const auto edges = static_cast<double>(graph.neighbours(i).size());
+    joined += edges > 0;
+    if (table[i] >= 0 && edges > 0 && table[table[i]] == i &&
+        static_cast<double>(kept_edges(i, table[i])) >= (1 - most_turned) * edges)
+      sound[i] = table[i];
+  }
+  const auto held = points.size() - std::count(sound.begin(), sound.end(), Index{-1});
+  if (static_cast<double>(held) < least_share * static_cast<double>(joined) || joined == 0)
+    return {};
+  return sound;
+}
+
+}  // namespace symsurf
