@@ -242,6 +242,17 @@ TEST(HomologousPoints, SayHowSureTheyAre) {
   }
 }
 
+// A point of no face has none; those of the others are the same with it.
+TEST(HomologousPoints, PassOverPointsOfNoFace) {
+  const Ball body = resampled_body(0);
+  Points more(body.points.rows() + 3, 3);
+  more << body.points, 0.1 * Points::Ones(3, 3);
+  more.row(more.rows() - 1) *= 2;
+  const OperationResult with = operate("asymmetry", {more, body.faces}, middle, homologous);
+  EXPECT_TRUE(with.arrays.at("vector").topRows(body.points.rows()).allFinite());
+  EXPECT_GT(with.arrays.at("matched").mean(), 0.9);
+}
+
 TEST(HomologousPoints, StopWhenAsked) {
   const Ball body = resampled_body(5);
   for (const double at : {0.3, 0.5, 0.7})

@@ -17,9 +17,9 @@ Eigen::VectorXd smoothed_mean_curvature(PointsView points, TrianglesView faces,
   Points finite = points.matrix();
   finite = finite.array().isFinite().select(finite, 0);  // vertices of no face may lie nowhere
   const Points bends = stiffness * finite;
-  Eigen::SparseMatrix<double> diffusion = scale * scale * stiffness;
-  const double least = 1e-12 * areas.sum();  // a vertex of no face
-  diffusion.diagonal() += areas.cwiseMax(least);
+  const double least = 1e-12 * areas.sum();  // a vertex of no face, which the stiffness has none of
+  const Eigen::SparseMatrix<double> mass(areas.cwiseMax(least).asDiagonal());
+  const Eigen::SparseMatrix<double> diffusion = scale * scale * stiffness + mass;
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(tolerance);
   solver.setMaxIterations(most_steps);
