@@ -14,6 +14,7 @@ import numpy as np
 from .mechanisms import VARIABLE, Mechanism, build, mechanisms
 from .trial import Figures, Task, trial
 
+
 def _tasks(mechanism: Mechanism, seeds: int | None) -> list[Task]:
     from accuracy.__main__ import CASES
     from accuracy.solids import lacking

@@ -373,7 +373,7 @@ def test_what_completion_adds_has_the_attributes_of_its_sources():
 
 def test_mirrored_triangles_have_what_lies_between_their_parents():
     shape = lump(15)
-    at = lambda points: points[..., :2] / shape.diagonal  # noqa: E731
+    at = lambda points: points[..., :2] / shape.diagonal
     mesh_set = pymeshlab.MeshSet()
     mesh = pymeshlab.Mesh(
         shape.points, shape.faces, w_tex_coords_matrix=at(shape.points[shape.faces]).reshape(-1, 2)

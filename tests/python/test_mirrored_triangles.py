@@ -69,7 +69,11 @@ def test_ply_files_keep_the_properties_of_their_vertices(mesh, tmp_path, binary)
     header = ["ply", f"format {'binary_little_endian' if binary else 'ascii'} 1.0"]
     header += [f"element vertex {mesh.n_points}"]
     header += [f"property double {axis}" for axis in "xyz"] + ["property uchar red"]
-    header += [f"element face {mesh.n_cells}", "property list uchar int vertex_indices", "end_header"]
+    header += [
+        f"element face {mesh.n_cells}",
+        "property list uchar int vertex_indices",
+        "end_header",
+    ]
     faces = mesh.regular_faces
     if binary:
         rows = np.empty(mesh.n_points, [("p", "<f8", 3), ("red", "u1")])

@@ -185,8 +185,8 @@ OperationImplementation symmetrize_operation() {
   operation.arrays = {
       {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."},
       {"partner", ParameterType::Integer, 1,
-       "Where triangles are mirrored the point that is its image, itself on the mirror.",
-       false, true}};
+       "Where triangles are mirrored the point that is its image, itself on the mirror.", false,
+       true}};
   operation.moves_points = true;
   operation.makes_shape = true;
   operation.takes_mask = true;
