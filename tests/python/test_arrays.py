@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from symmetric_shapes import quick
 
 import symsurf
 
@@ -100,7 +101,7 @@ def test_result_arrays_outlive_the_result(blob):
 def test_the_input_is_not_changed(blob):
     before = blob.copy()
     for method in symsurf.methods():
-        symsurf.detect(blob, method)
+        symsurf.detect(blob, method, **quick(method))
     np.testing.assert_array_equal(blob, before)
 
 

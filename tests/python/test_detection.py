@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from symmetric_shapes import diagonal, difference, mirrored_surface, random_rotation
+from symmetric_shapes import diagonal, difference, mirrored_surface, quick, random_rotation
 
 import symsurf
 
@@ -60,9 +60,9 @@ def test_permutation(seed):
 
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_threads_give_the_same_bits(method, blob):
-    one = symsurf.detect(blob, method, threads=1)
+    one = symsurf.detect(blob, method, threads=1, **quick(method))
     for threads in (2, 3, 0):
-        other = symsurf.detect(blob, method, threads=threads)
+        other = symsurf.detect(blob, method, threads=threads, **quick(method))
         assert repr(other.mirror) == repr(one.mirror)
         assert other.score == one.score
         for name in ("pairs", "residuals", "surface_points"):
@@ -72,8 +72,8 @@ def test_threads_give_the_same_bits(method, blob):
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_float32_is_its_own_double(method, blob):
     single = blob.astype(np.float32)
-    one = symsurf.detect(single, method)
-    other = symsurf.detect(single.astype(np.float64), method)
+    one = symsurf.detect(single, method, **quick(method))
+    other = symsurf.detect(single.astype(np.float64), method, **quick(method))
     assert repr(one.mirror) == repr(other.mirror)
     np.testing.assert_array_equal(one.pairs, other.pairs)
 
@@ -83,8 +83,9 @@ def test_the_methods_that_use_normals_are_those_that_say_so(method):
     points, _ = mirrored_surface(600, 3)
     rng = np.random.default_rng(1)
     points += rng.normal(scale=0.01, size=points.shape)
-    plain = symsurf.detect(points, method)
-    other = symsurf.detect(points, method, normals=rng.normal(size=points.shape))
+    plain = symsurf.detect(points, method, **quick(method))
+    normals = rng.normal(size=points.shape)
+    other = symsurf.detect(points, method, normals=normals, **quick(method))
     is_same = repr(plain.mirror) == repr(other.mirror) and np.array_equal(plain.pairs, other.pairs)
     text = symsurf.detect.__doc__.split("normals: ")[1].split("nonfinite: ")[0]
     assert (f"``{method}``" not in text) == is_same

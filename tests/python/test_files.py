@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+from symmetric_shapes import quick
 
 import symsurf
 
@@ -123,7 +124,7 @@ def test_vtp_keeps_the_rows_of_tables(tmp_path, blob):
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_every_method_in_every_format(method, suffix, blob, tmp_path):
     path = tmp_path / f"result{suffix}"
-    symsurf.detect(blob, method).save(path)
+    symsurf.detect(blob, method, **quick(method)).save(path)
     assert path.stat().st_size > 0
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
 

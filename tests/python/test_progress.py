@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import pytest
-from symmetric_shapes import mirrored_surface
+from symmetric_shapes import mirrored_surface, quick
 
 import symsurf
 
@@ -26,7 +26,7 @@ def test_fractions_rise_from_0_to_1_on_the_calling_thread(method, blob):
         fractions.append(fraction)
         threads.add(threading.get_ident())
 
-    symsurf.detect(blob, method, progress=progress)
+    symsurf.detect(blob, method, progress=progress, **quick(method))
     assert fractions[0] == 0 and fractions[-1] == 1
     assert fractions == sorted(fractions)
     assert threads == {threading.get_ident()}
