@@ -44,7 +44,7 @@ WRONG = {
     "symsurf.detect_plane(points).mirror.centre": "centre",
     "symsurf.detect(points).mirror.normal": "normal",
     "symsurf.detect_plane(points, pair_distance='2 mm')": "pair_distance",
-    "symsurf.asymmetry(points).confidence": "confidence",
+    "symsurf.asymmetry(points).index": "index",
     "symsurf.asymmetry(points, speed=3)": "speed",
     "symsurf.symmetries(points, minimum_scores=3)": "minimum_scores",
     "plane.reflect(symsurf.Shape(points)).colours": "colours",

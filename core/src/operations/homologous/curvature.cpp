@@ -10,7 +10,7 @@ namespace symsurf {
 Eigen::VectorXd smoothed_mean_curvature(PointsView points, TrianglesView faces,
                                         const Points& normals, double scale,
                                         const Context& context) {
-  constexpr double tolerance = 1e-8;
+  constexpr double tolerance = 1e-12;
   constexpr Index most_steps = 300;
   const auto [stiffness, areas] = cotangent_laplacian(points, faces);
   // Twice the mean curvature times the normal, integrated over the cell of each vertex.

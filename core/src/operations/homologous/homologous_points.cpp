@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/math.h"
 #include "cloud/cloud_laplacian.h"
 #include "cloud/distinct_points.h"
-#include "cloud/footprint.h"
 #include "operations/homologous/registration.h"
 #include "operations/homologous/surface_graph.h"
 #include "operations/homologous/vertex_table.h"
@@ -14,6 +14,10 @@
 namespace symsurf {
 
 namespace {
+
+// The diagonal of a body's box, over the root mean square distance from its centroid, is about
+// this; and that distance is the same in any pose.
+constexpr double box_of_radii = 3.2;
 
 // Each triangle once, between distinct points that have images.
 Triangles usable(const Triangles& triangles, const Points& images) {
@@ -42,7 +46,8 @@ HomologousPoints homologous_points(PointsView points, TrianglesView faces, Point
                                    const Context& context) {
   const DistinctPoints distinct = distinct_points(points, context.stage(0, 0.05));
   const Eigen::RowVector3d origin = points.matrix().colwise().mean();
-  const double unit = diagonal_of(points);
+  const double unit = box_of_radii * std::sqrt((points.matrix().rowwise() - origin).squaredNorm() /
+                                               static_cast<double>(points.size()));
   const auto normalised = [&](PointsView all) -> Points {
     return (all.matrix()(distinct.first, Eigen::indexing::all).rowwise() - origin) / unit;
   };

@@ -34,8 +34,9 @@ std::vector<Index> vertex_table(PointsView points, PointsView images, const Surf
       return table[j] >= 0 && graph.are_neighbours(table[j], partner);
     });
   };
-  // Each vertex takes the partner that keeps most of its edges, of several the nearest.
-  const auto best_partner = [&](Index i) {
+  // Each vertex takes the partner that keeps most of its edges, of several the nearest; if asked
+  // to, none that has another.
+  const auto best_partner = [&](Index i, bool free_only) {
     Index best = table[i], most = best < 0 ? 0 : kept_edges(i, best);
     double nearest = 0;
     std::map<Index, Index> votes;
@@ -44,6 +45,7 @@ std::vector<Index> vertex_table(PointsView points, PointsView images, const Surf
         for (const std::int32_t candidate : graph.neighbours(table[j])) ++votes[candidate];
     for (const auto& [candidate, count] : votes) {
       if (count < most || (count == most && best == table[i])) continue;
+      if (free_only && table[candidate] >= 0 && table[candidate] != i) continue;
       const double distance = (images[candidate] - target(i)).squaredNorm();
       if (count == most && distance >= nearest) continue;
       best = candidate;
@@ -52,27 +54,37 @@ std::vector<Index> vertex_table(PointsView points, PointsView images, const Surf
     }
     return best;
   };
-  for (int round = 0; round < most_rounds; ++round) {
-    std::vector<Index> next(table.size());
-    parallel_for(context.stage(0.3, 1), points.size(), table_grain, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) next[i] = best_partner(i);
-    });
-    if (next == table) break;
-    table.swap(next);
-  }
-  std::vector<Index> sound(table.size(), -1);
+  const auto relax = [&](bool free_only, const Context& part) {
+    for (int round = 0; round < most_rounds; ++round) {
+      std::vector<Index> next(table.size());
+      parallel_for(part, points.size(), table_grain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) next[i] = best_partner(i, free_only);
+      });
+      if (next == table) break;
+      table.swap(next);
+    }
+  };
+  // Forgets what is no pair, or keeps too few edges. Gives how many partners are left.
+  const auto keep_sound = [&] {
+    std::vector<Index> sound(table.size(), -1);
+    for (Index i = 0; i < points.size(); ++i) {
+      const auto edges = static_cast<double>(graph.neighbours(i).size());
+      if (table[i] >= 0 && edges > 0 && table[table[i]] == i &&
+          static_cast<double>(kept_edges(i, table[i])) >= (1 - most_turned) * edges)
+        sound[i] = table[i];
+    }
+    table.swap(sound);
+    return points.size() - std::count(table.begin(), table.end(), Index{-1});
+  };
   Index joined = 0;
-  for (Index i = 0; i < points.size(); ++i) {
-    const auto edges = static_cast<double>(graph.neighbours(i).size());
-    joined += edges > 0;
-    if (table[i] >= 0 && edges > 0 && table[table[i]] == i &&
-        static_cast<double>(kept_edges(i, table[i])) >= (1 - most_turned) * edges)
-      sound[i] = table[i];
-  }
-  const auto held = points.size() - std::count(sound.begin(), sound.end(), Index{-1});
-  if (static_cast<double>(held) < least_share * static_cast<double>(joined) || joined == 0)
+  for (Index i = 0; i < points.size(); ++i) joined += !graph.neighbours(i).empty();
+  relax(false, context.stage(0.3, 0.8));
+  if (static_cast<double>(keep_sound()) < least_share * static_cast<double>(joined) || joined == 0)
     return {};
-  return sound;
+  // From the sound part into what patches beside it had wrong.
+  relax(true, context.stage(0.8, 1));
+  keep_sound();
+  return table;
 }
 
 }  // namespace symsurf
