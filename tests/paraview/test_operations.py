@@ -42,6 +42,8 @@ def test_every_operation_gives_what_the_core_gives(
         )
         assert np.abs(found["points"] - expected["points"]).max() <= 1e-12 * diagonal
         for array in operation.arrays:
+            if array.name not in expected["arrays"]:
+                continue
             np.testing.assert_allclose(
                 found[proxy + camel_case(array.name)],
                 expected["arrays"][array.name],
