@@ -11,7 +11,9 @@ namespace symsurf {
 namespace {
 
 constexpr Index table_grain = 1024;
-constexpr int most_rounds = 50;      // a wrong patch shrinks by a ring of vertices a round
+constexpr int most_rounds = 50;  // a wrong patch shrinks by a ring of vertices a round
+// After so many rounds one in so many vertices may still change: on resampled sides they go on.
+constexpr int few_rounds = 5, most_changing = 10;
 constexpr double most_turned = 0.5;  // of the edges at a vertex: quadrangles divided at random
 constexpr double least_share = 0.9;  // resampled sides reach a half
 
@@ -60,8 +62,10 @@ std::vector<Index> vertex_table(PointsView points, PointsView images, const Surf
       parallel_for(part, points.size(), table_grain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) next[i] = best_partner(i, free_only);
       });
-      if (next == table) break;
+      Index changed = 0;
+      for (std::size_t i = 0; i < table.size(); ++i) changed += next[i] != table[i];
       table.swap(next);
+      if (changed == 0 || (round >= few_rounds && changed > points.size() / most_changing)) break;
     }
   };
   // Forgets what is no pair, or keeps too few edges. Gives how many partners are left.
