@@ -189,9 +189,8 @@ def test_a_table_that_ends_anywhere_has_the_rows_before(tmp_path):
 def test_rows_that_are_kept_are_those_that_were_written(tmp_path):
     table_of(tmp_path / "t.csv", range(5))
     kept = GrowingTable(tmp_path / "t.csv", TASKS, [], resume=True).rows
-    assert kept == {index: row for index, row in enumerate(ROWS) if not row["error"]} | {
-        index: row | {"unit": ""} for index, row in enumerate(ROWS) if not row["error"]
-    }
+    good = {index: row for index, row in enumerate(ROWS) if not row["error"]}
+    assert kept == {index: row | {"unit": ""} for index, row in good.items()}
 
 
 FOREIGN = {
@@ -249,14 +248,14 @@ def test_the_number_of_jobs_and_threads_may_differ(clouds, tmp_path):
         ("detect clouds --shard 1/60 --table clouds/shape0005.csv", "is an input"),
         ("table merge a.csv b.csv --output a.csv", "a.csv would overwrite an input"),
         ("table merge a.csv b.csv --output a.txt", "allowed is the suffix .csv"),
-        ("table merge a.csv none.csv --output c.csv", "none.csv"),
+        ("table merge none.csv --output c.csv", "No such file or directory: 'none.csv'"),
     ],
 )
 def test_bad_options_are_one_error(line, says, clouds, tmp_path):
     (clouds / "shape0005.xyz").rename(clouds / "shape0005.csv")
     done = run_here(line, tmp_path)
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1
-    assert says in done.stderr.replace("[Errno 2] No such file or directory: ", "")
+    assert says in done.stderr
 
 
 def test_more_shards_than_files(tmp_path):
@@ -372,20 +371,24 @@ def test_no_process_outlives_one_that_is_killed(tmp_path):
     assert len(workers) >= 2 and not any(map(is_alive, workers))
 
 
+def pieces_from(terminal):
+    try:
+        while piece := os.read(terminal, 1 << 16):
+            yield piece
+    except OSError:  # the other end is closed
+        return
+
+
 def test_a_terminal_is_told_how_many_files_are_done(clouds, tmp_path):
     ours, theirs = pty.openpty()
     words = ("detect", clouds, *PLANE, "--table", tmp_path / "t.csv")
-    subprocess.run(
-        [sys.executable, "-m", "symsurf", *map(str, words)], stdout=-3, stderr=theirs, check=False
-    )
-    os.close(theirs)
-    told = os.read(ours, 1 << 20).decode()
+    command = [sys.executable, "-m", "symsurf", *map(str, words)]
+    with subprocess.Popen(command, stdout=-3, stderr=theirs):
+        os.close(theirs)
+        told = b"".join(pieces_from(ours)).decode()
     os.close(ours)
-    assert (
-        "1 of 60 files" in told
-        and "59 of 60 files" in told
-        and "\n" not in told.split("symsurf:")[0]
-    )
+    assert "1 of 60 files" in told and "59 of 60 files" in told
+    assert "\n" not in told.split("symsurf:")[0]
 
 
 @pytest.mark.parametrize(
