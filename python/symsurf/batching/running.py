@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -62,7 +62,7 @@ def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Ende
                 del left[index]
                 yield index, record
         for index in list(left):
-            for _, record, _ in _submitted({index: left[index]}, executor):
+            for _, record, _ in _submitted({index: left[index]}, executor, _perform_again):
                 del left[index]
                 yield index, record
     except BrokenExecutor:
@@ -70,7 +70,9 @@ def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Ende
 
 
 def _submitted(
-    tasks: Mapping[int, FileTask], executor: Executor
+    tasks: Mapping[int, FileTask],
+    executor: Executor,
+    work: Callable[[FileTask], Record] = perform,
 ) -> Iterator[tuple[int, Record, bool]]:
     """Index, record, and whether the executor did not finish it, whatever it says of a worker that
     died. Raises BrokenExecutor, of an executor that can do no more, and what is wrong with all
@@ -78,7 +80,7 @@ def _submitted(
     futures: dict[Future[Record], tuple[int, FileTask]] = {}
     try:
         for index, task in tasks.items():
-            futures[executor.submit(perform, task)] = index, task
+            futures[executor.submit(work, task)] = index, task
         for future in as_completed(futures):
             index, task = futures.pop(future)
             yield index, *_record_of(task, future)
@@ -88,6 +90,11 @@ def _submitted(
     finally:
         for future in futures:
             future.cancel()
+
+
+def _perform_again(task: FileTask) -> Record:
+    """A function of its own, as Dask remembers what came of the same function of the same task."""
+    return perform(task)
 
 
 def _finished(
