@@ -26,9 +26,9 @@ class ProgressBar:
             done = round(WIDTH * fraction)
             bar = _mark(sys.stderr.encoding) * done + " " * (WIDTH - done)
             left = time_left(time.monotonic() - self._started, fraction)
-            line = f"{self.title} {bar} {fraction:4.0%}{left}"
-            width = shutil.get_terminal_size().columns - 1
-            print(f"\r{line[:width]}", end="\033[K", file=sys.stderr, flush=True)
+            state = f" {bar} {fraction:4.0%}{left}"
+            title = self.title[: max(0, shutil.get_terminal_size().columns - 1 - len(state))]
+            print(f"\r{title}{state}", end="\033[K", file=sys.stderr, flush=True)
 
     def clear(self) -> None:
         if self._shown:

@@ -2,7 +2,7 @@
 
 Each call is made in a process with 2 GB and 20 s of a processor. A finding, a line of the log, is a
 process that dies, an exception but the documented ones, a number that is none, and a call that takes
-longer. ``--show SEED`` makes one call here, and says which."""
+longer. ``--show SEED`` makes one call here, and writes its points and faces to ``--output``."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import signal
 import subprocess
 import sys
 import time
-import traceback
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 from select import select
 
-os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # each asks for memory
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # each asks for memory
 sys.path.insert(0, str(Path(__file__).parent))
 
 MEMORY = 2 << 30
@@ -32,12 +32,13 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=9000)
     parser.add_argument("--log", type=Path)
     parser.add_argument("--show", type=int)
+    parser.add_argument("--output", type=Path, metavar="NPZ")
     parser.add_argument("--work", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.work:
         return work(range(given.first, given.first + given.count))
     if given.show is not None:
-        return show(given.show)
+        return show(given.show, given.output)
     return watch(given.first, given.first + given.count, given.log)
 
 
@@ -45,33 +46,52 @@ def watch(first: int, end: int, log: Path | None) -> int:
     """Has all seeds worked on: after one that ends the process by another."""
     findings, done = 0, Counter[str]()
     while first < end:
-        command = [sys.executable, __file__, "--work", "--first", str(first), "--count"]
-        with subprocess.Popen([*command, str(end - first)], stdout=subprocess.PIPE) as child:
-            assert child.stdout is not None
-            seed = kind = rest_of_line = ""
-            while select([child.stdout], [], [], PATIENCE)[0]:
-                if not (text := os.read(child.stdout.fileno(), 1 << 16).decode()):
-                    break
-                *lines, rest_of_line = (rest_of_line + text).split("\n")
-                for line in lines:
-                    what, rest = line.split(" ", 1)
-                    if what == "begin":
-                        seed, kind = rest.split(" ")
-                    elif what == "end":
-                        first, seed = int(rest) + 1, ""
-                        done[kind] += 1
-                    else:
-                        findings += 1
-                        tell(rest, log)
-            else:
-                child.kill()
+        seed = kind = words = ""
+        with started(range(first, end)) as child:
+            for line in lines_of(child):
+                what, rest = line.split(" ", 1)
+                if what == "begin":
+                    seed, kind = rest.split(" ")
+                elif what == "call":
+                    words = rest
+                elif what == "finding":
+                    findings += 1
+                    tell(f"seed {seed} {kind}: {words}: {rest}", log)
+                elif what == "slow":
+                    tell(f"# seed {seed} {kind}: {words}: {rest}", log)
+                else:
+                    first, seed = int(rest) + 1, ""
+                    done[kind] += 1
         if seed:
             findings, first = findings + 1, int(seed) + 1
             done[kind] += 1
-            reason = signal.Signals(-child.returncode).name if child.returncode < 0 else "exit"
-            tell(f"seed {seed} {kind}: the process ended: {reason}", log)
+            tell(f"seed {seed} {kind}: {words}: {end_of(child)}", log)
         tell(f"# {dict(done)}, {findings} findings", log)
     return 1 if findings else 0
+
+
+def started(seeds: range) -> subprocess.Popen[bytes]:
+    words = ["--work", "--first", str(seeds.start), "--count", str(len(seeds))]
+    return subprocess.Popen([sys.executable, __file__, *words], stdout=subprocess.PIPE)
+
+
+def lines_of(child: subprocess.Popen[bytes]) -> Iterator[str]:
+    """Until it ends, or says nothing for long."""
+    assert child.stdout is not None
+    rest = ""
+    while select([child.stdout], [], [], PATIENCE)[0]:
+        if not (text := os.read(child.stdout.fileno(), 1 << 16).decode()):
+            return
+        *lines, rest = (rest + text).split("\n")
+        yield from lines
+    child.kill()
+
+
+def end_of(child: subprocess.Popen[bytes]) -> str:
+    if child.returncode == -signal.SIGPROF:
+        return f"more than {SECONDS} s"
+    name = signal.Signals(-child.returncode).name if child.returncode < 0 else "an exit"
+    return f"the process ended with {name}"
 
 
 def tell(line: str, log: Path | None) -> None:
@@ -87,32 +107,38 @@ def work(seeds: range) -> int:
 
     signal.signal(signal.SIGPROF, signal.SIG_DFL)  # which ends the process
     for seed in seeds:
-        case = Case(seed)
-        print(f"begin {seed} {case.kind}", flush=True)
+        case = Case(seed, lambda words: say("call", words))
+        say("begin", f"{seed} {case.kind}")
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
-        started = time.process_time()
+        began = time.process_time()
         try:
             case.run()
         except BaseException as error:  # noqa: BLE001 - that is what is sought
-            reason = f"{type(error).__name__}: {error}".replace("\n", " ")
-            print(f"finding seed {seed} {case.words}: {reason}", flush=True)
+            say("finding", f"{type(error).__name__}: {error}")
         signal.setitimer(signal.ITIMER_PROF, 0)
-        if (took := time.process_time() - started) > SECONDS / 4:
-            print(f"finding # seed {seed} {case.words}: {took:.1f} s", flush=True)
-        print(f"end {seed}", flush=True)
+        if (took := time.process_time() - began) > SECONDS / 4:
+            say("slow", f"{took:.1f} s")
+        say("end", str(seed))
     return 0
 
 
-def show(seed: int) -> int:
+def say(what: str, words: str) -> None:
+    print(what, " ".join(words.split()), flush=True)
+
+
+def show(seed: int, output: Path | None) -> int:
     from cases import Case
 
-    case = Case(seed)
-    started = time.process_time()
+    case = Case(seed, print)
+    if output is not None:
+        import numpy
+
+        numpy.savez(output, points=case.points, faces=() if case.faces is None else case.faces)
+    began = time.process_time()
     try:
         case.run()
-    except BaseException:  # noqa: BLE001
-        traceback.print_exc()
-    print(case.words, f"{time.process_time() - started:.1f} s")
+    finally:
+        print(f"{time.process_time() - began:.1f} s")
     return 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -25,15 +25,16 @@ class NotFinite(Exception):
 
 
 class Case:
-    """One call: ``words`` say it, ``run`` makes it and judges what it gives."""
+    """One call: ``run`` makes it and judges what it gives; ``tell`` is told before what it is."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, tell: Callable[[str], None]) -> None:
+        self.tell = tell
         random = np.random.default_rng(seed)
         self.kind = KINDS[seed % len(KINDS)]
         self.points = cloud(random)
         self.faces = faces(random, len(self.points))
         self.random = random
-        self.words: dict[str, Any] = {"kind": self.kind, "points": len(self.points)}
+        self.words = f"{len(self.points)} points"
 
     def run(self) -> None:
         """Raises whatever is a finding."""
@@ -45,12 +46,12 @@ class Case:
                 return
             require_finite(result, np.isfinite(self.points).all(axis=1))
 
-    def _detect(self, method: str | None = None) -> Any:
+    def _detect(self) -> Any:
         random = self.random
-        method = method or drawn_method(random)
+        method = drawn_method(random)
         given = drawn_values(symsurf.methods()[method].parameters, random)
-        self.words |= {"method": method, "method_parameters": given}
         nonfinite = "refuse" if random.integers(4) == 0 else "skip"
+        self._say(method, given)
         return symsurf.detect(
             self.points, method, faces=self.faces, nonfinite=nonfinite, threads=1, **given
         )
@@ -59,17 +60,21 @@ class Case:
         random = self.random
         name = one_of(symsurf.operations(), random)
         given = drawn_values(symsurf.operations()[name].parameters, random)
-        self.words |= {"operation": name, "parameters": given}
+        self._say(name, given)
         found = None
         if random.integers(4):
             found = drawn_mirror(random) if random.integers(3) == 0 else self._detect()
         shape = (self.points, self.faces) if self.faces is not None else self.points
         return getattr(symsurf, name)(shape, found, threads=1, **given)
 
+    def _say(self, name: str, given: dict[str, Any]) -> None:
+        self.words += f", {name} {given}"
+        self.tell(self.words)
+
     def _analyse(self) -> Any:
         name = one_of(symsurf.analyses(), self.random)
         given = drawn_values(symsurf.analyses()[name].parameters, self.random)
-        self.words |= {"analysis": name, "parameters": given}
+        self._say(name, given)
         return getattr(symsurf, name)(self.points, faces=self.faces, threads=1, **given)
 
 
