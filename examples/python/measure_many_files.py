@@ -48,4 +48,4 @@ figure.savefig("table.png", dpi=110)
 #     symsurf asymmetry scans --jobs 4 --table asymmetry.csv
 #     symsurf report scans --output report.html
 #
-# :doc:`/command_line` has every column of the table.
+# :doc:`/command_line` has every column of the table, :doc:`many_files` what goes on after a crash.

@@ -94,6 +94,51 @@ def test_dask(files):
             list(symsurf.batch(files, "asymmetry", executor, max_angle=1000))
 
 
+@pytest.fixture
+def cluster():
+    """Dask's, of two processes that are replaced when they die, as on a cluster."""
+    distributed = pytest.importorskip("distributed", reason="needs Dask: pip install distributed")
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as all_,
+        distributed.Client(all_) as client,
+    ):
+        yield client
+
+
+def test_a_worker_of_dask_that_is_killed_costs_no_file(files, cluster):
+    paths = list(files) * 10
+    expected = told(symsurf.batch(paths))
+    with cluster.get_executor() as executor:
+        rows = symsurf.batch(paths, executor=executor)
+        first = next(rows)
+        os.kill(next(iter(cluster.run(os.getpid).values())), signal.SIGKILL)
+        assert told([first, *rows]) == expected
+
+
+class PoisonedCluster:
+    """Dask's executor, and a file that kills each worker it comes to."""
+
+    def __init__(self, executor):
+        self._executor = executor
+
+    def submit(self, work, task):
+        return self._executor.submit(dies if task.file.stem == "shape3" else work, task)
+
+
+def test_a_file_that_kills_workers_of_dask_costs_no_other(files, cluster):
+    """Dask gives up all that it had sent to a worker whenever that dies, where it allows no failure."""
+    paths = [path for path in files for _ in range(5 if path.stem != "shape3" else 1)]
+    expected = told(symsurf.batch(paths))
+    cluster.run_on_scheduler(lambda dask_scheduler: setattr(dask_scheduler, "allowed_failures", 0))
+    with cluster.get_executor() as executor:
+        rows = told(symsurf.batch(paths, executor=PoisonedCluster(executor)))
+    lost = next(row for row in rows if "shape3" in row["file"])
+    assert "KilledWorker" in lost["error"]
+    assert [row for row in rows if row is not lost] == [
+        row for row in expected if "shape3" not in row["file"]
+    ]
+
+
 def test_a_process_that_is_killed_costs_no_file(files):
     paths = list(files) * 4
     expected = told(symsurf.batch(paths))

@@ -117,6 +117,8 @@ OTHER_PAGES = [
 @pytest.mark.parametrize("page", OTHER_PAGES, ids=lambda page: page.stem)
 def test_examples_of_the_other_pages(page, folder):
     pytest.importorskip("pyvista")
+    if "dask" in script_of(page):
+        pytest.importorskip("distributed")
     output_of(script_of(page), folder)
 
 

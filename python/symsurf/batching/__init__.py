@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import os
-import signal
-from collections import deque
 from collections.abc import Iterable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
 from .. import _core
 from .._core import InvalidParameter
-from ..base.own_process import ProcessDied, call
 from ..reading import files_in
 from ..saving.output_files import output_files
 from ..saving.shape_files import output_suffix
-from .file_task import DETECT, FileTask, Record, failed, perform
+from .file_task import DETECT, FileTask
 from .result_table import row_of
+from .running import records
 
 __all__ = ["batch"]
 
@@ -65,9 +62,11 @@ def batch(
     Returns:
         A row a file, in the order of the files, each as soon as it and those before it are done.
         A row is what ``symsurf OPERATION --table`` writes, by the name of the column. A file that
-        fails, or whose worker dies, has the reason in "error", which is "" for the others. What a
-        broken executor leaves is done by a process for each file. Closing the iterator drops what was
-        not begun.
+        fails, or whose worker dies, has the reason in "error", which is "" for the others. What an
+        executor loses it is asked for once more, at the end; what a broken one leaves is done by a
+        process for each file. Closing the iterator drops what was not begun. Nothing is kept of the
+        rows: a script that may be ended writes each as it comes, or calls the command line, which has
+        ``--resume``.
 
     Raises:
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
@@ -123,72 +122,3 @@ def processors() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
-
-
-def records(
-    tasks: Iterable[FileTask], executor: Executor | None = None, jobs: int = 1
-) -> Iterator[Record]:
-    """The record of each task, in their order."""
-    if executor is not None:
-        return _by_executor(tasks, executor)
-    return map(perform, tasks) if jobs == 1 else _by_processes(tasks, jobs)
-
-
-def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
-    left = deque(tasks)
-    try:
-        for record in _submitted(tuple(left), executor):
-            left.popleft()
-            yield record
-    except BrokenExecutor:
-        yield from map(_by_itself, left)
-
-
-def _submitted(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Record]:
-    """Whatever an executor says of a worker that died is the error of the file. Raises
-    BrokenExecutor, of an executor that can do no more, and what is wrong with all files."""
-    futures = deque((task, executor.submit(perform, task)) for task in tasks)
-    try:
-        while futures:
-            task, future = futures.popleft()
-            try:
-                record = future.result()
-            except (BrokenExecutor, InvalidParameter, ImportError):
-                raise
-            except Exception as error:  # noqa: BLE001 - each executor has its own
-                reason = f"{type(error).__name__}: {error}"
-                record = failed(
-                    task, f"the executor did not finish it ({' '.join(reason.split())})"
-                )
-            yield record
-    finally:
-        for _, future in futures:
-            future.cancel()
-
-
-def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Record]:
-    """A process that dies takes its pool with it: the file that is next in order is then done again
-    by a process of its own, and is at fault if that dies too; the rest go to a new pool."""
-    left = deque(tasks)
-    while left:
-        try:
-            # Spawned: a fork would copy the locks of the core's threads, not the threads.
-            workers = min(jobs, len(left)), get_context("spawn"), _die_quietly
-            with ProcessPoolExecutor(*workers) as pool:
-                for record in _submitted(tuple(left), pool):
-                    left.popleft()
-                    yield record
-        except BrokenExecutor:
-            yield _by_itself(left.popleft())
-
-
-def _by_itself(task: FileTask) -> Record:
-    try:
-        return call(perform.__module__, perform.__name__, task)
-    except ProcessDied:
-        return failed(task, "the process that worked on it died, perhaps for want of memory")
-
-
-def _die_quietly() -> None:
-    """Without a traceback when the terminal interrupts all processes."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
 import time
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,9 @@ DETECT = "detect"
 SUMMARY_SUFFIX = ".summary.json"
 PICTURE_SUFFIX = ".png"
 PAGE_SUFFIX = ".html"
+
+# Of a task: what it is done to, by and for, and what settings have under other names.
+_NO_SETTINGS = {"file", "content", "threads", "outputs", "operation", "parameters"}
 
 Record = dict[str, Any]
 """What is told of a file, in what JSON knows. A file that failed has an "error"."""
@@ -76,6 +80,18 @@ class FileTask:
         """Of the format that the file is read in."""
         return suffix_of(self.file) if self.input_format is None else f".{self.input_format}"
 
+    @property
+    def settings(self) -> str:
+        """What the record depends on beside the file, such as 'asymmetry max_angle=45.0': the
+        operation, and what was chosen otherwise than it is by default."""
+        chosen = {
+            each.name: getattr(self, each.name)
+            for each in fields(self)
+            if each.name not in _NO_SETTINGS and getattr(self, each.name) != each.default
+        }
+        words = sorted((chosen | self.parameters).items())
+        return " ".join([self.operation, *(f"{name}={_shown(value)}" for name, value in words)])
+
 
 class _Content(BytesIO):
     """An open file that errors name."""
@@ -89,7 +105,7 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
     """Does the task. What is wrong with the file is in the record; what is wrong with the
     parameters is raised."""
     started = time.perf_counter()
-    record: Record = {"file": str(task.file), "operation": task.operation, "unit": task.unit}
+    record = _head(task)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", InputWarning)  # it is told in the record
@@ -106,12 +122,15 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
 
 def failed(task: FileTask, reason: str) -> Record:
     """The record of a task that nobody could finish."""
+    return _head(task) | {"error": f"{task.file}: {reason}", "seconds_in_all": math.nan}
+
+
+def _head(task: FileTask) -> Record:
     return {
         "file": str(task.file),
         "operation": task.operation,
         "unit": task.unit,
-        "error": f"{task.file}: {reason}",
-        "seconds_in_all": math.nan,
+        "settings": task.settings,
     }
 
 
@@ -245,6 +264,10 @@ def _downsampled(shape: Shape, task: FileTask, notices: list[str]) -> Shape:
             points = points[finite]
     thinned = downsample(points, math.ceil(len(points) / task.downsample))
     return Shape(thinned, space=shape.space)
+
+
+def _shown(value: Any) -> str:
+    return json.dumps(plain(value), default=str)
 
 
 def _one_line(file: Path, error: BaseException) -> str:

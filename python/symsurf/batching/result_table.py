@@ -5,16 +5,18 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from .._core import __version__
+from .._core import InvalidInput, __version__
 from .file_task import Record
 
 _FIRST = ("file", "points", "unit", "method", "kind", "score", "verdict")
-_LAST = ("seconds", "version", "error")
+_LAST = ("seconds", "settings", "version", "error")
 # What the table calls the statistics of an asymmetry.
 _STATISTICS = {
     "matched_share": "paired_share",
@@ -33,6 +35,13 @@ _MEASURED = tuple(_STATISTICS.values())
 # What begins one, by OWASP's page on CSV injection.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _LARGEST = 16  # numbers in a cell: a matrix, not the net of a surface
+# Columns of words. The others hold numbers, and truth values.
+_WORDS = ("file", "unit", "method", "kind", "verdict", "group", "settings", "version", "error")
+POSITION = "position"
+"""The column of a shard's table that says where the file stands among all: "3 of 10"."""
+
+Cells: TypeAlias = dict[str, str]
+"""A row as it is written: the text of each cell that has one, by the name of the column."""
 
 
 def row_of(record: Record) -> dict[str, Any]:
@@ -58,27 +67,75 @@ def row_of(record: Record) -> dict[str, Any]:
     row |= {name: len(record[name]) for name in found if name in record}
     row |= {
         "seconds": record["seconds_in_all"],
+        "settings": record["settings"],
         "version": __version__,
         "error": record.get("error", ""),
     }
     return {name: value for name, value in row.items() if value is not None}
 
 
-def columns_of(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """What the rows have, and the columns that every table has, in one order."""
-    own = dict.fromkeys(name for row in rows for name in row)
-    common = {*_FIRST, *_MEASURED, *_LAST}
-    return [*_FIRST, *_MEASURED, *(name for name in own if name not in common), *_LAST]
+def columns_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """What the rows have, and the columns that every table has, in one order for all orders of the
+    rows."""
+    common = (*_FIRST, *_MEASURED, *_LAST)
+    own = {name for row in rows for name in row}.difference(common, [POSITION])
+    position = [POSITION] if any(POSITION in row for row in rows) else []
+    return [*_FIRST, *_MEASURED, *sorted(own), *position, *_LAST]
 
 
-def csv_bytes(rows: Sequence[Mapping[str, Any]]) -> bytes:
+def cells_of(row: Mapping[str, Any]) -> Cells:
+    """The row as it is written."""
+    return {name: text for name, value in row.items() if (text := written(value))}
+
+
+def row_from(cells: Cells) -> dict[str, Any]:
+    """The row that was written as these cells."""
+    row = {name: _read(name, text) for name, text in cells.items()}
+    return row | {"unit": row.get("unit", ""), "error": row.get("error", "")}
+
+
+def csv_bytes(rows: Iterable[Cells], columns: Sequence[str]) -> bytes:
     """The table, comma-separated, with a row of names; file names keep their bytes."""
+    return b"".join([_line(columns), *(line_of(row, columns) for row in rows)])
+
+
+def line_of(row: Cells, columns: Sequence[str]) -> bytes:
+    return _line([row.get(name, "") for name in columns])
+
+
+def read_table(path: Path) -> list[Cells]:
+    """The rows of a table, without a last one that is not whole.
+
+    Raises InvalidInput for a file that is no table of symsurf, OSError."""
+    whole, newline, _ = path.read_bytes().rpartition(b"\n")
+    text = (whole + newline).decode("utf-8", "surrogateescape")
+    try:
+        names, *lines = csv.reader(io.StringIO(text, newline=""))
+    except (ValueError, csv.Error):
+        names, lines = [], []
+    if lines and len(lines[-1]) < len(names):  # cut off within a name of two lines
+        lines.pop()
+    _require_columns(path, names)
+    for number, line in enumerate(lines, 1):
+        if len(line) != len(names):
+            raise InvalidInput(
+                f"{path}: row {number} has {len(line)} cells; the table has {len(names)} columns"
+            )
+    return [{name: text for name, text in zip(names, line) if text} for line in lines]
+
+
+def _require_columns(path: Path, names: Sequence[str]) -> None:
+    missing = [name for name in columns_of([]) if name not in names]
+    if missing or len(set(names)) < len(names):
+        what = f"there is no column {missing[0]}" if missing else "two columns have one name"
+        raise InvalidInput(f"{path}: this is no table that symsurf has written: {what}")
+
+
+def _line(cells: Sequence[str]) -> bytes:
     text = io.StringIO()
-    writer = csv.DictWriter(text, columns_of(rows), restval="", lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        writer.writerow({name: _written(value) for name, value in row.items()})
-    return text.getvalue().encode("utf-8", "surrogateescape")
+    # Quotes a carriage return too, which ends lines for those who read.
+    csv.writer(text, lineterminator="\r\n").writerow(cells)
+    return (text.getvalue().removesuffix("\r\n") + "\n").encode("utf-8", "surrogateescape")
 
 
 def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -95,11 +152,29 @@ def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
     return cells
 
 
-def _written(value: Any) -> Any:
+def written(value: Any) -> str:
     """Every digit of a number, those of a matrix row by row; nothing for what is no number. A text
     that a spreadsheet would take for a formula begins with an apostrophe."""
     if isinstance(value, float) and math.isnan(value):
         return ""
     if isinstance(value, str) and value.startswith(_FORMULA):
         return f"'{value}"
-    return " ".join(map(repr, value)) if isinstance(value, tuple) else value
+    return " ".join(map(repr, value)) if isinstance(value, tuple) else str(value)
+
+
+def _read(name: str, text: str) -> Any:
+    if name in _WORDS:
+        return text[1:] if text.startswith("'") and text[1:].startswith(_FORMULA) else text
+    if text in ("True", "False"):
+        return text == "True"
+    for number in (int, float):
+        with suppress(ValueError):
+            return number(text)
+    return _numbers(text)
+
+
+def _numbers(text: str) -> Any:
+    try:
+        return tuple(map(float, text.split()))
+    except ValueError:
+        return text

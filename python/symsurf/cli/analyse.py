@@ -79,7 +79,7 @@ class AnalysisCommand:
         ]
         if not getattr(arguments, "bop", False):
             return run_tasks(tasks, arguments, _text)[0]
-        for name in ("json", "table"):
+        for name in ("json", "table", "resume", "shard"):
             if getattr(arguments, name):
                 raise InvalidParameter(f"{name} is given beside bop; allowed is one of them")
         return _print_models_info(tasks, arguments)

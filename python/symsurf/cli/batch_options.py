@@ -5,18 +5,21 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter, require_found_parameter
-from ..batching import records, require_jobs, threads_of_each
+from ..batching import require_jobs, threads_of_each
 from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, perform
-from ..batching.result_table import csv_bytes, row_of
+from ..batching.growing_table import GrowingTable
+from ..batching.result_table import row_of
+from ..batching.running import Ended, ended, in_order
+from ..batching.shards import positions, shard_from
 from ..plotting.drawing import import_pyvista
 from ..reading import files_in, known_names, require_format
-from ..saving import write_whole
 from ..saving.output_files import output_files
 from .progress_bar import ProgressBar
 from .values import number, whole
@@ -80,12 +83,24 @@ def add_batch_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--plot", action="store_true", help="draw a PNG a file into the folder of --output"
     )
+    parser.add_argument(
+        "--shard",
+        metavar="I/N",
+        help="work on every N-th file from the I-th on, I from 1 to N, as a job of an array that is "
+        "given the same files in each; `symsurf table merge` makes one table of theirs",
+    )
     add_table_options(parser)
 
 
 def add_table_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="keep what the table has, and do the other files and those that failed; without a table "
+        "begin one",
     )
     parser.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
     parser.add_argument(
@@ -148,19 +163,53 @@ def run_tasks(
 ) -> tuple[int, list[dict[str, Any]]]:
     """Does the tasks and prints each record. Gives the exit status, 1 where any failed, and the
     rows of the table."""
-    table: Path | None = arguments.table
-    if table is not None:
-        _require_table(table, tasks)
-    rows = []
+    if arguments.table is not None:
+        _require_table(arguments.table, tasks)
+    tasks, places = _share_of(tasks, arguments)
+    table = _begun_table(tasks, places, arguments)
+    rows = {} if table is None else table.rows
+    left = [index for index in range(len(tasks)) if index not in rows]
+
+    def keep(number: int, record: Record) -> None:
+        index = left[number]
+        rows[index] = row_of(record)
+        if table is not None:
+            table.add(index, rows[index])
+
     status = 0
-    for record in worked_on(tasks, arguments):
-        rows.append(row_of(record))
+    for record in worked_on([tasks[index] for index in left], arguments, keep):
         status = max(status, tell(record))
         if "error" not in record:
             print(json.dumps(record) if arguments.json else text_of(record), flush=True)
     if table is not None:
-        write_whole(table, csv_bytes(rows))
-    return status, rows
+        table.finish()
+    return status, [rows[index] for index in range(len(tasks))]
+
+
+def _share_of(
+    tasks: Sequence[FileTask], arguments: argparse.Namespace
+) -> tuple[Sequence[FileTask], list[str]]:
+    """The tasks of the shard, and where they stand among all; without a shard all tasks."""
+    text = getattr(arguments, "shard", None)  # reports have none
+    if text is None:
+        return tasks, []
+    shard = shard_from(text)
+    its = [tasks[index] for index in shard.indices(len(tasks))]
+    return its, positions(shard, len(tasks))
+
+
+def _begun_table(
+    tasks: Sequence[FileTask], places: Sequence[str], arguments: argparse.Namespace
+) -> GrowingTable | None:
+    table: Path | None = arguments.table
+    if table is not None:
+        table.parent.mkdir(parents=True, exist_ok=True)
+        return GrowingTable(table, tasks, places, arguments.resume)
+    if arguments.resume:
+        raise InvalidParameter(
+            "resume is given without table; allowed is with the table to go on with"
+        )
+    return None
 
 
 def tell(record: Record) -> int:
@@ -172,32 +221,53 @@ def tell(record: Record) -> int:
     return 1 if "error" in record else 0
 
 
-def worked_on(tasks: Sequence[FileTask], arguments: argparse.Namespace) -> Iterator[Record]:
-    """The records in the order of the tasks, with a bar on a terminal."""
+def worked_on(
+    tasks: Sequence[FileTask],
+    arguments: argparse.Namespace,
+    keep: Callable[[int, Record], None] | None = None,
+) -> Iterator[Record]:
+    """The records in the order of the tasks, with a bar on a terminal. What is to be kept of each is
+    kept as soon as it ends, with the index of its task."""
     jobs, _ = jobs_and_threads(arguments)
-    if jobs == 1:
-        for task in tasks:
-            with ProgressBar(task.file.name) as bar:
-                record = perform(task, bar)
-            yield record
-    else:
-        yield from _counted(records(tasks, jobs=jobs), len(tasks))
 
+    def kept(bar: ProgressBar) -> Iterator[Ended]:
+        found = ended(tasks, jobs=jobs) if jobs > 1 else _one_by_one(tasks, bar)
+        for done, (index, record) in enumerate(found, 1):
+            if keep is not None:
+                keep(index, record)
+            if done < len(tasks):
+                bar.title = _title(tasks, done)
+                bar(done / len(tasks))
+            yield index, record
 
-def _counted(records_: Iterable[Record], count: int) -> Iterator[Record]:
-    with ProgressBar(f"{count} files") as bar:
-        for done, record in enumerate(records_, 1):
+    with ProgressBar(_title(tasks, 0)) as bar:
+        for record in in_order(kept(bar)):
             bar.clear()
             yield record
-            bar(done / count)
+
+
+def _one_by_one(tasks: Sequence[FileTask], bar: ProgressBar) -> Iterator[Ended]:
+    for index, task in enumerate(tasks):
+        yield index, perform(task, partial(_within, bar, index, len(tasks)))
+
+
+def _within(bar: ProgressBar, done: int, files: int, fraction: float) -> None:
+    bar((done + fraction) / files)
+
+
+def _title(tasks: Sequence[FileTask], done: int) -> str:
+    return tasks[0].file.name if len(tasks) == 1 else f"{done} of {len(tasks)} files"
 
 
 def _require_table(table: Path, tasks: Sequence[FileTask]) -> None:
     """Raises what would be wrong with the table before the work is done."""
-    if table.suffix.lower() != ".csv":
-        raise InvalidParameter(f"table is {str(table)!r}; allowed is the suffix .csv")
+    require_csv("table", table)
     taken = {task.file.resolve() for task in tasks}
     taken |= {output.resolve() for task in tasks for output in task.outputs}
     if table.resolve() in taken:
         raise InvalidParameter(f"{table} is an input or another output; allowed is another name")
-    table.parent.mkdir(parents=True, exist_ok=True)
+
+
+def require_csv(name: str, table: Path) -> None:
+    if table.suffix.lower() != ".csv":
+        raise InvalidParameter(f"{name} is {str(table)!r}; allowed is the suffix .csv")

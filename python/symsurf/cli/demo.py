@@ -6,10 +6,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..batching import processors, records, threads_of_each
+from ..batching import processors, threads_of_each
 from ..batching.file_task import FileTask
 from ..batching.report_files import report_tasks, write_report
 from ..batching.result_table import row_of
+from ..batching.running import records
 from ..demonstration import Deed, Finding, cases, deeds, draw, file_name, find
 from ..report import require_viewer
 from ..saving import write_whole
