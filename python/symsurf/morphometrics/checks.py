@@ -13,10 +13,10 @@ from .._core import InvalidInput
 _SHOWN = 5  # of many, the most that an error lists
 
 
-def points_of(given: Any) -> NDArray[np.float64]:
-    """(k, 3) of an array, or of what has points. Raises InvalidInput."""
+def points_of(given: Any, may_be_flat: bool = False) -> NDArray[np.float64]:
+    """(k, 3), or (k, 2) of flat ones, of an array, or of what has points. Raises InvalidInput."""
     points = numbers(getattr(given, "points", given), "points")
-    if points.ndim != 2 or points.shape[1] != 3:
+    if points.ndim != 2 or not (points.shape[1] == 3 or (may_be_flat and points.shape[1] == 2)):
         raise InvalidInput(f"points have shape {points.shape}; allowed is (k, 3)")
     return points
 

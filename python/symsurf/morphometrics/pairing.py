@@ -62,7 +62,7 @@ def landmark_pairs(
     mirror lie as close to their partners as they can in all: the assignment of least sum.
 
     Args:
-        points: (k, 3), or what ``read_landmarks`` gives, with its names.
+        points: (k, 3), or what ``read_landmarks`` gives, with its names; without a mirror also (k, 2).
         mirror: a result or a mirror of any kind; None where names tell the pairs: all others then
             mirror themselves.
         names: one a landmark; None: those of ``points``, where it has some.
@@ -77,7 +77,7 @@ def landmark_pairs(
         raise InvalidParameter(f"max_distance is {max_distance!r}; allowed is a number above 0")
     if names is None and isinstance(points, Landmarks):
         names = points.names
-    array = points_of(points)
+    array = points_of(points, may_be_flat=mirror is None)
     if names and len(names) != len(array):
         raise InvalidInput(f"there are {len(names)} names; allowed are {len(array)}, as of points")
     named, odd = _pairs_of_names(names or ())
