@@ -37,8 +37,18 @@ from .detection.sampling import downsample, estimate_normals
 from .mirror_operations import functions
 from .mirror_operations.bending import bend, straight_mirror
 from .mirror_operations.functions import *  # one for each in operations()
+from .morphometrics import (
+    AnovaRow,
+    Cohort,
+    LandmarkPairs,
+    carry_landmarks,
+    cohort,
+    landmark_pairs,
+    plane_of_landmarks,
+)
 from .reading import read
 from .reading.inputs import InputWarning
+from .reading.landmarks import read_landmark_sets, read_landmarks
 from .results import (
     Alignment,
     AnalysisResult,
@@ -59,7 +69,7 @@ from .results import (
 )
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
-from .shapes import Shape
+from .shapes import Landmarks, Shape
 
 if TYPE_CHECKING:
     from .batching import batch
@@ -68,9 +78,11 @@ __all__ = [
     "Alignment",
     "Analysis",
     "AnalysisResult",
+    "AnovaRow",
     "Asymmetry",
     "Axis",
     "Cancelled",
+    "Cohort",
     "Completed",
     "Correspondences",
     "Cylinder",
@@ -80,6 +92,8 @@ __all__ = [
     "IntrinsicSymmetry",
     "InvalidInput",
     "InvalidParameter",
+    "LandmarkPairs",
+    "Landmarks",
     "Method",
     "Mirror",
     "Operation",
@@ -103,15 +117,21 @@ __all__ = [
     "analyses",
     "batch",
     "bend",
+    "carry_landmarks",
+    "cohort",
     "detect",
     "downsample",
     "estimate_normals",
+    "landmark_pairs",
     "make_mirror",
     "match",
     "methods",
     "metrics",
     "operations",
+    "plane_of_landmarks",
     "read",
+    "read_landmark_sets",
+    "read_landmarks",
     "straight_mirror",
     "synthetic",
 ]

@@ -17,6 +17,17 @@ double diagonal(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
+// Points near the centre of a sphere have no image, but may be the image of others.
+TEST(Asymmetry, IsConfidentOfPointsWithoutAnImage) {
+  Points points(8, 3);
+  points << .9, 0, .5, .8, 0, .7, .4, -.4, .5, .1, -.8, -.2, -.9, 0, -.1, -.2, .2, -.8, .9, .4, .6,
+      .8, .2, -.9;
+  const OperationResult result =
+      operate("asymmetry", {points}, std::make_shared<Sphere>(Vector3(.4, .1, .7), .7),
+              {{"max_distance", 1.0}, {"max_angle", 90.0}});
+  EXPECT_TRUE(std::get<Eigen::VectorXd>(result.arrays.at("confidence")).allFinite());
+}
+
 TEST(Asymmetry, IsZeroWhateverTheTriangulation) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const Ball b = ball(seed);

@@ -17,7 +17,7 @@ PACKAGE = ROOT / "python" / "symsurf"
 # Folders and files from the lowest layer up: a module imports from its own layer and from lower ones.
 LAYERS = (
     "_core", "base", "shapes", "reflection", "reading", "results",
-    "detection", "mirror_operations", "shape_analyses",
+    "detection", "mirror_operations", "shape_analyses", "morphometrics",
     "saving", "plotting", "report",
     "benchmark", "synthetic", "metrics", "thesis", "batching", "demonstration",
     "vtk", "accessor", "cli", "__main__", "__init__",

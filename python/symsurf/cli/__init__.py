@@ -13,7 +13,7 @@ from io import TextIOWrapper
 from typing import Any
 
 from .._core import InvalidInput, InvalidParameter, __version__, analyses, operations
-from . import damage, demo, detect, evaluate, generate, methods, report, table
+from . import cohort, damage, demo, detect, evaluate, generate, methods, report, table
 from .analyse import AnalysisCommand
 from .operate import OperationCommand
 from .values import attach_negative_numbers
@@ -22,6 +22,7 @@ COMMANDS: dict[str, Any] = {
     "detect": detect,
     **{name: OperationCommand(operation) for name, operation in operations().items()},
     **{name: AnalysisCommand(analysis) for name, analysis in analyses().items()},
+    "cohort": cohort,
     "report": report,
     "table": table,
     "generate": generate,

@@ -1,0 +1,143 @@
+"""symsurf cohort: directional and fluctuating asymmetry of individuals."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from .._core import InvalidParameter
+from ..base.plain import plain
+from ..morphometrics import Cohort, LandmarkPairs, cohort
+from ..morphometrics.checks import listed
+from ..morphometrics.specimens import (
+    Specimens,
+    in_replicates,
+    pairs_in,
+    read_pairs,
+    read_specimens,
+    without_odd,
+)
+from ..report import individuals_page, require_viewer
+from ..saving import write_whole
+from ..saving.cohort_format import anova_rows, csv_bytes, individual_rows
+from .values import whole
+
+SUMMARY = "Compares individuals and sides: directional and fluctuating asymmetry of a cohort."
+_SUFFIXES = {"table": ".csv", "individuals": ".csv", "report": ".html"}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "files",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="landmarks, .mrk.json, .fcsv, .tps, .pts or .csv, of one individual each, of a TPS as many "
+        "as it holds; or meshes of one topology",
+    )
+    parser.add_argument(
+        "--pairs",
+        type=Path,
+        metavar="FILE",
+        help="a CSV of landmarks that mirror each other, two a row, by name or by number from 0 on; "
+        "without it their names tell, as l_eye and r_eye, else the mirror of their mean, which is found",
+    )
+    parser.add_argument(
+        "--replicates",
+        default="1",
+        metavar="N",
+        help="measurements of each individual, one behind the other among the files; default %(default)s",
+    )
+    parser.add_argument("--table", type=Path, metavar="FILE", help="write the ANOVA, CSV")
+    parser.add_argument(
+        "--individuals", type=Path, metavar="FILE", help="write a CSV with a row an individual"
+    )
+    parser.add_argument(
+        "--report",
+        type=Path,
+        metavar="FILE",
+        help="write a page, HTML, with the ANOVA, the individuals and, of meshes, the mean asymmetry",
+    )
+    parser.add_argument(
+        "--permutations", default="999", metavar="N", help="for p; default %(default)s"
+    )
+    parser.add_argument("--seed", default="0", metavar="N", help="of the permutations")
+    parser.add_argument("--json", action="store_true", help="print a JSON object")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    outputs = _outputs(arguments)
+    if "report" in outputs:
+        require_viewer()
+    replicates = whole(arguments.replicates)
+    if not isinstance(replicates, int):
+        raise InvalidParameter(f"replicates is {replicates!r}; allowed are whole numbers from 1 on")
+    specimens, pairs, source = _paired(arguments)
+    found = cohort(
+        in_replicates(specimens.points, replicates),
+        pairs,
+        permutations=whole(arguments.permutations),
+        seed=whole(arguments.seed),
+    )
+    labels = specimens.labels[::replicates]
+    contents = {
+        "table": lambda: csv_bytes(anova_rows(found)),
+        "individuals": lambda: csv_bytes(individual_rows(found, labels)),
+        "report": lambda: individuals_page(
+            arguments.report.stem, found, individual_rows(found, labels), specimens.faces
+        ),
+    }
+    made = {path: contents[name]() for name, path in outputs.items()}
+    for path, content in made.items():
+        write_whole(path, content)
+    print(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
+    return 0
+
+
+def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """The files to write, by option; raises what would be wrong with them before the work is done."""
+    given = {name: getattr(arguments, name) for name in _SUFFIXES}
+    outputs = {name: path for name, path in given.items() if path is not None}
+    taken = {path.resolve() for path in (*arguments.files, arguments.pairs) if path is not None}
+    for name, path in outputs.items():
+        if path.suffix.lower() != _SUFFIXES[name]:
+            raise InvalidParameter(
+                f"{name} is {str(path)!r}; allowed is the suffix {_SUFFIXES[name]}"
+            )
+        if path.resolve() in taken:
+            raise InvalidParameter(f"{path} is an input or another output; allowed is another name")
+        taken.add(path.resolve())
+        path.parent.mkdir(parents=True, exist_ok=True)
+    return outputs
+
+
+def _paired(arguments: argparse.Namespace) -> tuple[Specimens, LandmarkPairs, str]:
+    """The specimens, without landmarks that have no counterpart, their pairs, and what told them."""
+    specimens = read_specimens(arguments.files)
+    if arguments.pairs is not None:
+        return specimens, read_pairs(arguments.pairs, specimens), str(arguments.pairs)
+    pairs, source = pairs_in(specimens)
+    rest, own = without_odd(specimens, pairs)
+    if len(pairs.odd):
+        odd = listed(pairs.odd_names or pairs.odd)
+        print(f"symsurf: left out, as they have no counterpart: {odd}", file=sys.stderr)
+    return rest, own, source
+
+
+def _record(found: Cohort, source: str) -> dict[str, object]:
+    record = {
+        "individuals": found.size.shape[0],
+        "replicates": found.size.shape[1],
+        "landmarks": len(found.mean),
+        "pairs": len(found.pairs),
+        "pairs_from": source,
+        "table": found.table,
+    }
+    return plain(record)
+
+
+def _text(found: Cohort, source: str) -> str:
+    pairs = f"{len(found.pairs)}, {len(found.midline)} on the midline, by {source}"
+    return f"{found}\n{'pairs':<16} {pairs}"

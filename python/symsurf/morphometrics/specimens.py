@@ -1,0 +1,217 @@
+"""The files of a cohort as configurations of one order, and which of their landmarks are pairs."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import InvalidInput, InvalidParameter
+from ..detection import detect
+from ..mirror_operations.operate import operate
+from ..reading import read, stem_of
+from ..reading.landmarks import is_landmark_file, read_landmark_sets
+from ..results import Correspondences, found_mirror
+from ..shapes import Landmarks, Shape
+from .checks import listed
+from .pairing import LandmarkPairs, landmark_pairs, side_of
+from .procrustes import superimposed
+
+
+@dataclass(frozen=True, eq=False)
+class Specimens:
+    """Configurations with the same landmarks in the same order."""
+
+    labels: list[str]
+    """(n,) what each is called."""
+    points: NDArray[np.float64]
+    """(n, k, d)."""
+    names: tuple[str, ...] = ()
+    """(k,) of landmarks; none where the files name none."""
+    faces: NDArray[np.int64] | None = None
+    """(m, 3) of meshes."""
+
+
+def read_specimens(files: Sequence[Path]) -> Specimens:
+    """Those of files of landmarks, in the order of the first's names, or of meshes of one topology.
+
+    Raises InvalidInput, naming the file: whatever ``read_landmarks`` and ``read`` raise; landmarks
+    that one lacks or that others lack; other faces.
+    """
+    given = [each for file in files for each in _read(file)]
+    first = given[0]
+    points = [_in_order(each, first) for each in given]
+    names = first.shape.names if isinstance(first.shape, Landmarks) else ()
+    faces = first.shape.faces if isinstance(first.shape, Shape) else None
+    return Specimens([each.label for each in given], np.array(points), names, faces)
+
+
+class _Read(NamedTuple):
+    """A specimen as its file has it."""
+
+    where: str
+    """What errors call it."""
+    label: str
+    shape: Landmarks | Shape
+
+
+def _read(file: Path) -> list[_Read]:
+    """The specimens of a file."""
+    if not is_landmark_file(file):
+        return [_Read(str(file), stem_of(file), read(file))]
+    sets = read_landmark_sets(file)
+    stem = stem_of(file).removesuffix(".mrk")
+    if len(sets) == 1:
+        return [_Read(str(file), stem, sets[0])]
+    return [
+        _Read(f"{file}: specimen {i}", each.specimen or f"{stem} {i}", each)
+        for i, each in enumerate(sets)
+    ]
+
+
+def _in_order(each: _Read, first: _Read) -> NDArray[np.float64]:
+    """The points in the order of the first."""
+    shape, like = each.shape, first.shape
+    names: tuple[str, ...] = ()
+    if isinstance(shape, Landmarks) and isinstance(like, Landmarks):
+        points, names = shape.points[_order_of(each.where, shape, first.where, like)], like.names
+    elif isinstance(shape, Shape) and isinstance(like, Shape):
+        if not np.array_equal(shape.faces, like.faces):  # type: ignore[arg-type]
+            raise InvalidInput(
+                f"{each.where}: its faces are not those of {first.where}; allowed is one topology"
+            )
+        points = shape.points
+    else:
+        raise InvalidInput(
+            f"{each.where}: of this and {first.where} one has landmarks and the other is a mesh; "
+            "allowed are all of one kind"
+        )
+    if points.shape != like.points.shape:
+        raise InvalidInput(
+            f"{each.where}: its points have shape {points.shape}, those of {first.where} "
+            f"{like.points.shape}; allowed is one shape"
+        )
+    missing = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(missing):
+        what = listed(names[i] if names else i for i in missing)
+        raise InvalidInput(
+            f"{each.where}: landmark {what} is missing; allowed are all, in every specimen"
+        )
+    return points
+
+
+def _order_of(where: str, own: Landmarks, first: str, like: Landmarks) -> list[int] | slice:
+    """What puts the landmarks into the order of the first's names."""
+    if not own.names and not like.names:
+        return slice(None)
+    place = {name: i for i, name in enumerate(own.names)}
+    if len(place) < len(own.names):
+        twice = next(name for name in own.names if own.names.count(name) > 1)
+        raise InvalidInput(f"{where}: two landmarks are called {twice!r}; allowed is one")
+    if place.keys() == set(like.names):
+        return [place[name] for name in like.names]
+    lacking = listed(sorted(set(like.names) - place.keys())) or "none"
+    more = listed(sorted(place.keys() - set(like.names))) or "none"
+    raise InvalidInput(
+        f"{where}: its landmarks are not those of {first}: it lacks {lacking} and has {more} besides; "
+        "allowed are the same names"
+    )
+
+
+def in_replicates(points: NDArray[np.float64], replicates: int) -> NDArray[np.float64]:
+    """(individuals, replicates, k, d) of (n, k, d), those of an individual one behind the other."""
+    if replicates < 1:
+        raise InvalidParameter(f"replicates is {replicates}; allowed are whole numbers from 1 on")
+    if len(points) % replicates:
+        raise InvalidInput(
+            f"there are {len(points)} specimens; allowed is a multiple of the replicates, {replicates}"
+        )
+    return points.reshape(-1, replicates, *points.shape[1:])
+
+
+def pairs_in(specimens: Specimens) -> tuple[LandmarkPairs, str]:
+    """The pairs of specimens, and what told them: their names; else the mirror of their mean, which
+    is found, with the homologous vertices of a mesh. Raises InvalidInput without a mirror."""
+    if any(map(side_of, specimens.names)):
+        return landmark_pairs(specimens.points[0], None, specimens.names), "names"
+    mean = superimposed(specimens.points).mean(axis=0)
+    if mean.shape[1] == 2:
+        raise InvalidInput("flat landmarks whose names tell no pairs; allowed is with pairs given")
+    mirror, warning = found_mirror(detect(mean, faces=specimens.faces))
+    source = f"the mirror found{', of which ' + warning if warning else ''}"
+    if specimens.faces is None:
+        return landmark_pairs(mean, mirror, specimens.names or None), source
+    found = operate(
+        "correspondences", Shape(mean, specimens.faces), mirror, pairing="homologous",
+        one_to_one=True,
+    )  # fmt: skip
+    assert isinstance(found, Correspondences)
+    return _of_vertices(found.index), source
+
+
+def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:
+    own = np.arange(len(index))
+    lower = np.flatnonzero((index > own) & (index[index] == own))
+    pairs = np.column_stack([lower, index[lower]])
+    midline = np.flatnonzero(index == own)
+    return LandmarkPairs(pairs, midline, np.setdiff1d(own, np.append(pairs, midline)))
+
+
+def read_pairs(path: Path, specimens: Specimens) -> LandmarkPairs:
+    """The pairs of a table: two names a row, or two numbers of landmarks, from 0 on. All others are
+    on the midline. Raises InvalidInput, naming the file and the line."""
+    try:
+        lines = path.read_text("utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{path}: {getattr(error, 'strerror', None) or error}") from error
+    place = {name: i for i, name in enumerate(specimens.names)}
+    rows: list[list[int]] = []
+    taken: set[int] = set()
+    for line, cells in enumerate(csv.reader(lines, skipinitialspace=True), 1):
+        if cells and not cells[0].startswith("#"):
+            row = _row(f"{path}: line {line}", cells, place, specimens.points.shape[1])
+            if row[0] == row[1] or not taken.isdisjoint(row):
+                raise InvalidInput(
+                    f"{path}: line {line}: one of the two stands twice; allowed is once"
+                )
+            rows.append(row)
+            taken.update(row)
+    pairs = np.array(rows, dtype=np.int64).reshape(-1, 2)
+    rest = np.setdiff1d(np.arange(specimens.points.shape[1]), pairs)
+    return LandmarkPairs(pairs, rest, np.empty(0, np.int64))
+
+
+def _row(where: str, cells: Sequence[str], place: dict[str, int], count: int) -> list[int]:
+    if len(cells) != 2:
+        raise InvalidInput(f"{where}: there are {len(cells)} cells; allowed are the two of a pair")
+    found = []
+    for cell in map(str.strip, cells):
+        index = place.get(cell, int(cell) if cell.isdecimal() else -1)
+        if not 0 <= index < count:
+            raise InvalidInput(
+                f"{where}: {cell!r} is no landmark; allowed are their names, and 0 to {count - 1}"
+            )
+        found.append(index)
+    return found
+
+
+def without_odd(specimens: Specimens, found: LandmarkPairs) -> tuple[Specimens, LandmarkPairs]:
+    """Only the landmarks that have a counterpart."""
+    kept = np.sort(np.concatenate([found.pairs.ravel(), found.midline]))
+    if not len(found.odd):
+        return specimens, found
+    if specimens.faces is not None:
+        raise InvalidInput(
+            f"{len(found.odd)} of {specimens.points.shape[1]} vertices have no counterpart; allowed is "
+            "with a table of pairs"
+        )
+    place = np.full(specimens.points.shape[1], -1)
+    place[kept] = np.arange(len(kept))
+    names = tuple(specimens.names[i] for i in kept) if specimens.names else ()
+    rest = LandmarkPairs(place[found.pairs], place[found.midline], np.empty(0, np.int64))
+    return Specimens(specimens.labels, specimens.points[:, kept], names), rest

@@ -1,0 +1,47 @@
+"""Cohorts as tables: a row a term of the ANOVA, and a row an individual."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..morphometrics import Cohort
+
+INDIVIDUAL_COLUMNS = ("individual", "size", "asymmetry", "fluctuating", "largest")
+
+
+def anova_rows(cohort: Cohort) -> list[dict[str, Any]]:
+    """The table, the name of a row in "source"."""
+    return [{"source": name, **row} for name, row in cohort.table.items()]
+
+
+def individual_rows(cohort: Cohort, labels: Sequence[str]) -> list[dict[str, Any]]:
+    """Of each individual its centroid size, in input units, and at unit size the Procrustes lengths
+    of its asymmetry, with and without the directional part, and its largest at one landmark."""
+    lengths = (
+        cohort.size.mean(axis=1),
+        np.linalg.norm(cohort.asymmetric, axis=(1, 2)),
+        np.linalg.norm(cohort.fluctuating, axis=(1, 2)),
+        cohort.magnitude.max(axis=1),
+    )
+    rows = zip(labels, *(each.tolist() for each in lengths), strict=True)
+    return [dict(zip(INDIVIDUAL_COLUMNS, row, strict=True)) for row in rows]
+
+
+def csv_bytes(rows: Sequence[Mapping[str, Any]]) -> bytes:
+    """Every digit a double holds; nothing for what is no number."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    for row in rows:
+        writer.writerow({name: _written(value) for name, value in row.items()})
+    return text.getvalue().encode("utf-8", "surrogateescape")
+
+
+def _written(value: Any) -> Any:
+    return "" if isinstance(value, float) and math.isnan(value) else value
