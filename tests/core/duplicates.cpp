@@ -102,6 +102,23 @@ TEST(Duplicates, OfFewPlacesHarmNoMethod) {
 }
 
 // Apart by less than the square root of the least double: their distances are 0. Found by fuzzing.
+// A thousand points in five positions, but for rounding, are thinned; halves of halves towards a
+// corner are equal to the search's rounding.
+TEST(Duplicates, ButForRoundingHarmNoSearch) {
+  RandomCloud random(0);
+  const Points middles = random.box(5), noise = 1e-12 * random.box(1000);
+  Points points(1000, 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) = middles.row(i % 5) + noise.row(i);
+  const Options fixed{.method = "fixed_direction", .parameters = {{"sample_size", Index{150}}}};
+  EXPECT_TRUE(std::isfinite(detect(points, fixed).score));
+
+  Points crowded = random.box(120);
+  for (Index i = 0; i < crowded.rows(); ++i) crowded.row(i) *= std::pow(0.5, i);
+  Points both(2 * crowded.rows(), 3);
+  both << crowded, crowded + 1e-3 * random.box(crowded.rows());
+  EXPECT_TRUE(std::isfinite(detect(both, {.method = "perpendicular"}).score));
+}
+
 TEST(Duplicates, MayDifferByLessThanADistance) {
   const Points corners = RandomCloud(1).box(12);
   Points copies(288, 3);

@@ -105,6 +105,9 @@ std::vector<Index> drawn_with_images(const Points& all, Index count) {
   }
   for (Index i = 0; i < all.rows(); ++i)
     if (hashes[i] < limit) rows.push_back(i);
+  if (rows.empty())  // more than `count` share the least
+    for (Index i = 0; i < all.rows(); ++i)
+      if (hashes[i] == limit) rows.push_back(i);
   return rows;
 }
 

@@ -144,8 +144,8 @@ void Counterparts::go_back(const OperationInput& input, const Mirror& mirror,
 double Counterparts::confidence(Index i, PointsView points) const {
   const Counterpart& c = all_[i];
   if (!c.matched) return 0;
-  const double gap =
-      pairing_ == Pairing::Closest ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  double gap = pairing_ == Pairing::Closest ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  if (!std::isfinite(gap)) gap = c.gap;  // a point without an image may be another's
   return gap == 0 ? c.agreement : c.agreement / (1 + gap * gap / (spacing_ * spacing_));
 }
 

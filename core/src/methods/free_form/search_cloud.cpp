@@ -128,8 +128,10 @@ std::vector<std::int32_t> ascending(const Points& points, const Context& context
 // (a jet: Cazals and Pouget 2005).
 void jet(const Points& points, const std::vector<Neighbour>& around, Vector3& x, Vector3& normal) {
   const Matrix3 axes = plane_through(points, around).axes;
-  QuadraticFit quadratic;
+  normal = axes.col(0);
   const double radius = std::sqrt(around.back().squared_distance);
+  if (radius == 0) return;  // rounding made them one point
+  QuadraticFit quadratic;
   for (const Neighbour& other : around) {
     const Vector3 d = axes.transpose() * (points.row(other.index).transpose() - x) / radius;
     quadratic.add(d.y(), d.z(), d.x(), 1.05 - d.squaredNorm());
