@@ -394,6 +394,20 @@ def test_command_line_of_one_tps(rng, tmp_path):
     check_table(tmp_path / "a.csv", symsurf.cohort(landmarks, PAIRS, permutations=9).table)
 
 
+def test_no_specimen_becomes_a_formula(rng, tmp_path):
+    """The name of a specimen is what its file says, and a spreadsheet may open the table."""
+    texts = [
+        "LM=15\n" + "\n".join(f"{x!r} {y!r}" for x, y in each.tolist()) + f"\nID={name}\n"
+        for each, name in zip(sample(rng, fa=0.05, d=2)[:, 0], ["=1+1", "@a", "-b", "c"])
+    ]
+    (tmp_path / "all.tps").write_text("".join(texts))
+    (tmp_path / "pairs.csv").write_text("\n".join(f"{a},{b}" for a, b in PAIRS))
+    line = "cohort all.tps --pairs pairs.csv --individuals i.csv --permutations 9"
+    assert run_here(line, tmp_path).returncode == 0
+    names = [row["individual"] for row in rows_of(tmp_path / "i.csv")]
+    assert names == ["'=1+1", "'@a", "'-b", "c"]
+
+
 def test_command_line_finds_pairs_by_the_mirror(rng, tmp_path):
     """Where no names tell: over the plane of the mean."""
     points, plane = mirrored_surface(30, 3)

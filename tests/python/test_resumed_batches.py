@@ -19,8 +19,9 @@ from symmetric_shapes import mirrored_surface
 import symsurf
 from symsurf.batching.file_task import FileTask
 from symsurf.batching.growing_table import GrowingTable
-from symsurf.batching.result_table import columns_of, csv_bytes, read_table
+from symsurf.batching.result_table import columns_of, read_table
 from symsurf.cli.progress_bar import time_left
+from symsurf.saving.csv_rows import rows_bytes
 
 PLANE = ("--method", "plane")
 
@@ -178,7 +179,7 @@ def test_a_table_that_ends_anywhere_has_the_rows_before(tmp_path):
     whole = path.read_bytes()
     rows = read_table(path)
     assert [row["file"] for row in rows] == [*NAMES[:3], "'=1+1.xyz", "last.xyz"]
-    ends = [len(csv_bytes(rows[:count], columns_of(rows))) for count in range(6)]
+    ends = [len(rows_bytes(rows[:count], columns_of(rows))) for count in range(6)]
     for length in range(ends[0], len(whole) + 1):
         path.write_bytes(whole[:length])
         assert read_table(path) == rows[: sum(end <= length for end in ends) - 1]

@@ -101,13 +101,11 @@ std::vector<Index> drawn_with_images(const Points& all, Index count) {
   if (count < all.rows()) {
     std::vector<std::uint64_t> ranked = hashes;
     std::nth_element(ranked.begin(), ranked.begin() + count, ranked.end());
-    limit = ranked[count];
+    // At least those of the least hash, which more than `count` may share.
+    limit = std::max(ranked[count], *std::min_element(ranked.begin(), ranked.end()) + 1);
   }
   for (Index i = 0; i < all.rows(); ++i)
     if (hashes[i] < limit) rows.push_back(i);
-  if (rows.empty())  // more than `count` share the least
-    for (Index i = 0; i < all.rows(); ++i)
-      if (hashes[i] == limit) rows.push_back(i);
   return rows;
 }
 

@@ -9,18 +9,9 @@ from typing import Any
 
 from .._core import InvalidParameter
 from ..saving import write_whole
+from ..saving.csv_rows import Cells, cells_of, line_of, rows_bytes, written
 from .file_task import FileTask
-from .result_table import (
-    POSITION,
-    Cells,
-    cells_of,
-    columns_of,
-    csv_bytes,
-    line_of,
-    read_table,
-    row_from,
-    written,
-)
+from .result_table import POSITION, columns_of, read_table, row_from
 
 
 class GrowingTable:
@@ -68,7 +59,7 @@ class GrowingTable:
         """Writes all rows, in the order of the files."""
         rows = [self._rows[index] for index in sorted(self._rows)]
         self._columns = columns_of(rows)
-        write_whole(self._path, csv_bytes(rows, self._columns))
+        write_whole(self._path, rows_bytes(rows, self._columns))
 
     def _positioned(self, index: int, row: Cells) -> Cells:
         row = {name: text for name, text in row.items() if name != POSITION}

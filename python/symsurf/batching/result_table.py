@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from .._core import InvalidInput, __version__
+from ..saving.csv_rows import FORMULA, Cells
 from .file_task import Record
 
 _FIRST = ("file", "points", "unit", "method", "kind", "score", "verdict")
@@ -32,16 +32,11 @@ _STATISTICS = {
     "matrix": "matrix",
 }
 _MEASURED = tuple(_STATISTICS.values())
-# What begins one, by OWASP's page on CSV injection.
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _LARGEST = 16  # numbers in a cell: a matrix, not the net of a surface
 # Columns of words. The others hold numbers, and truth values.
 _WORDS = ("file", "unit", "method", "kind", "verdict", "group", "settings", "version", "error")
 POSITION = "position"
 """The column of a shard's table that says where the file stands among all: "3 of 10"."""
-
-Cells: TypeAlias = dict[str, str]
-"""A row as it is written: the text of each cell that has one, by the name of the column."""
 
 
 def row_of(record: Record) -> dict[str, Any]:
@@ -83,24 +78,10 @@ def columns_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [*_FIRST, *_MEASURED, *sorted(own), *position, *_LAST]
 
 
-def cells_of(row: Mapping[str, Any]) -> Cells:
-    """The row as it is written."""
-    return {name: text for name, value in row.items() if (text := written(value))}
-
-
 def row_from(cells: Cells) -> dict[str, Any]:
     """The row that was written as these cells."""
     row = {name: _read(name, text) for name, text in cells.items()}
     return row | {"unit": row.get("unit", ""), "error": row.get("error", "")}
-
-
-def csv_bytes(rows: Iterable[Cells], columns: Sequence[str]) -> bytes:
-    """The table, comma-separated, with a row of names; file names keep their bytes."""
-    return b"".join([_line(columns), *(line_of(row, columns) for row in rows)])
-
-
-def line_of(row: Cells, columns: Sequence[str]) -> bytes:
-    return _line([row.get(name, "") for name in columns])
 
 
 def read_table(path: Path) -> list[Cells]:
@@ -131,13 +112,6 @@ def _require_columns(path: Path, names: Sequence[str]) -> None:
         raise InvalidInput(f"{path}: this is no table that symsurf has written: {what}")
 
 
-def _line(cells: Sequence[str]) -> bytes:
-    text = io.StringIO()
-    # Quotes a carriage return too, which ends lines for those who read.
-    csv.writer(text, lineterminator="\r\n").writerow(cells)
-    return (text.getvalue().removesuffix("\r\n") + "\n").encode("utf-8", "surrogateescape")
-
-
 def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
     cells: dict[str, Any] = {}
     for name, value in values.items():
@@ -152,19 +126,9 @@ def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
     return cells
 
 
-def written(value: Any) -> str:
-    """Every digit of a number, those of a matrix row by row; nothing for what is no number. A text
-    that a spreadsheet would take for a formula begins with an apostrophe."""
-    if isinstance(value, float) and math.isnan(value):
-        return ""
-    if isinstance(value, str) and value.startswith(_FORMULA):
-        return f"'{value}"
-    return " ".join(map(repr, value)) if isinstance(value, tuple) else str(value)
-
-
 def _read(name: str, text: str) -> Any:
     if name in _WORDS:
-        return text[1:] if text.startswith("'") and text[1:].startswith(_FORMULA) else text
+        return text[1:] if text.startswith("'") and text[1:].startswith(FORMULA) else text
     if text in ("True", "False"):
         return text == "True"
     for number in (int, float):

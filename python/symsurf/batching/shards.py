@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .._core import InvalidInput, InvalidParameter
-from .result_table import POSITION, Cells, read_table
+from ..saving.csv_rows import Cells
+from .result_table import POSITION, read_table
 
 
 class Shard(NamedTuple):

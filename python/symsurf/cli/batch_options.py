@@ -21,6 +21,7 @@ from ..batching.shards import positions, shard_from
 from ..plotting.drawing import import_pyvista
 from ..reading import files_in, known_names, require_format
 from ..saving.output_files import output_files
+from .output_paths import require_apart, require_suffix
 from .progress_bar import ProgressBar
 from .values import number, whole
 
@@ -261,13 +262,7 @@ def _title(tasks: Sequence[FileTask], done: int) -> str:
 
 def _require_table(table: Path, tasks: Sequence[FileTask]) -> None:
     """Raises what would be wrong with the table before the work is done."""
-    require_csv("table", table)
+    require_suffix("table", table, ".csv")
     taken = {task.file.resolve() for task in tasks}
     taken |= {output.resolve() for task in tasks for output in task.outputs}
-    if table.resolve() in taken:
-        raise InvalidParameter(f"{table} is an input or another output; allowed is another name")
-
-
-def require_csv(name: str, table: Path) -> None:
-    if table.suffix.lower() != ".csv":
-        raise InvalidParameter(f"{name} is {str(table)!r}; allowed is the suffix .csv")
+    require_apart(table, taken)

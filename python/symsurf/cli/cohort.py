@@ -21,7 +21,8 @@ from ..morphometrics.specimens import (
 )
 from ..report import individuals_page, require_viewer
 from ..saving import write_whole
-from ..saving.cohort_format import anova_rows, csv_bytes, individual_rows
+from ..saving.cohort_format import anova_rows, individual_rows, table_bytes
+from .output_paths import require_apart, require_suffix
 from .values import whole
 
 SUMMARY = "Compares individuals and sides: directional and fluctuating asymmetry of a cohort."
@@ -81,12 +82,12 @@ def run(arguments: argparse.Namespace) -> int:
         permutations=whole(arguments.permutations),
         seed=whole(arguments.seed),
     )
-    labels = specimens.labels[::replicates]
+    individuals = individual_rows(found, specimens.labels[::replicates])
     contents = {
-        "table": lambda: csv_bytes(anova_rows(found)),
-        "individuals": lambda: csv_bytes(individual_rows(found, labels)),
+        "table": lambda: table_bytes(anova_rows(found)),
+        "individuals": lambda: table_bytes(individuals),
         "report": lambda: individuals_page(
-            arguments.report.stem, found, individual_rows(found, labels), specimens.faces
+            arguments.report.stem, found, individuals, specimens.faces
         ),
     }
     made = {path: contents[name]() for name, path in outputs.items()}
@@ -102,12 +103,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
     outputs = {name: path for name, path in given.items() if path is not None}
     taken = {path.resolve() for path in (*arguments.files, arguments.pairs) if path is not None}
     for name, path in outputs.items():
-        if path.suffix.lower() != _SUFFIXES[name]:
-            raise InvalidParameter(
-                f"{name} is {str(path)!r}; allowed is the suffix {_SUFFIXES[name]}"
-            )
-        if path.resolve() in taken:
-            raise InvalidParameter(f"{path} is an input or another output; allowed is another name")
+        require_suffix(name, path, _SUFFIXES[name])
+        require_apart(path, taken)
         taken.add(path.resolve())
         path.parent.mkdir(parents=True, exist_ok=True)
     return outputs

@@ -7,10 +7,11 @@ import sys
 from pathlib import Path
 
 from .._core import InvalidParameter
-from ..batching.result_table import columns_of, csv_bytes
+from ..batching.result_table import columns_of
 from ..batching.shards import merged
 from ..saving import write_whole
-from .batch_options import require_csv
+from ..saving.csv_rows import rows_bytes
+from .output_paths import require_suffix
 
 SUMMARY = "Merges the tables of shards."
 
@@ -29,12 +30,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     output: Path = arguments.output
-    require_csv("output", output)
+    require_suffix("output", output, ".csv")
     if output.resolve() in {table.resolve() for table in arguments.tables}:
         raise InvalidParameter(f"{output} would overwrite an input; allowed is another name")
     rows, missing = merged(arguments.tables)
     output.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(output, csv_bytes(rows, columns_of(rows)))
+    write_whole(output, rows_bytes(rows, columns_of(rows)))
     if missing:
         print(
             f"symsurf: {output}: {missing} of {missing + len(rows)} files are missing",

@@ -58,10 +58,10 @@ def _counterparts(
 ) -> NDArray[np.float64]:
     """Where the chosen vertices come out: on a face of a mesh, at a point of a cloud; else NaN."""
     index = found.index[chosen]
-    places = np.where((index >= 0)[:, None], vertices[index], np.nan)
+    positions = np.where((index >= 0)[:, None], vertices[index], np.nan)
     if found.face is None or found.weights is None or found.given.faces is None:
-        return places
+        return positions
     face = found.face[chosen]
     corners = vertices[found.given.faces[face]]
     on_face = np.einsum("kc,kcx->kx", found.weights[chosen], corners)
-    return np.where((face >= 0)[:, None], on_face, places)
+    return np.where((face >= 0)[:, None], on_face, positions)

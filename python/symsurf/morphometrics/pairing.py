@@ -88,7 +88,7 @@ def landmark_pairs(
         found = _indices(named, 2), rest, _indices(odd)
     else:
         limit = max_distance * diagonal_of(array)
-        pairs, midline, far = _pairs_of_places(array[rest], mirror_of(mirror), limit)
+        pairs, midline, far = _pairs_of_positions(array[rest], mirror_of(mirror), limit)
         both = np.concatenate([_indices(named, 2), rest[pairs]])
         found = both, rest[midline], np.sort(np.concatenate([_indices(odd), rest[far]]))
     return LandmarkPairs(*found, tuple(names[i] for i in found[2]) if names else ())
@@ -118,7 +118,7 @@ def _pairs_of_names(names: Sequence[str]) -> tuple[list[tuple[int, int]], list[i
 def side_of(name: str) -> Side | None:
     """The name without its side, in small letters, and the side; None where it says none, or two."""
     parts = [part.lower() for part in _PART.findall(name)]
-    said = [place for place, part in enumerate(parts) if part in _WORDS or part in _LETTERS]
+    said = [index for index, part in enumerate(parts) if part in _WORDS or part in _LETTERS]
     if len(said) != 1:
         return None
     word = parts.pop(said[0])
@@ -129,7 +129,7 @@ def _has_word(name: str) -> bool:
     return any(part.lower() in _WORDS for part in _PART.findall(name))
 
 
-def _pairs_of_places(
+def _pairs_of_positions(
     points: NDArray[np.float64], mirror: Mirror, limit: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Pairs, those that mirror themselves, and those left."""

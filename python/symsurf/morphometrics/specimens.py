@@ -109,14 +109,14 @@ def _order_of(where: str, own: Landmarks, first: str, like: Landmarks) -> list[i
     """What puts the landmarks into the order of the first's names."""
     if not own.names and not like.names:
         return slice(None)
-    place = {name: i for i, name in enumerate(own.names)}
-    if len(place) < len(own.names):
+    index_of = {name: i for i, name in enumerate(own.names)}
+    if len(index_of) < len(own.names):
         twice = next(name for name in own.names if own.names.count(name) > 1)
         raise InvalidInput(f"{where}: two landmarks are called {twice!r}; allowed is one")
-    if place.keys() == set(like.names):
-        return [place[name] for name in like.names]
-    lacking = listed(sorted(set(like.names) - place.keys())) or "none"
-    more = listed(sorted(place.keys() - set(like.names))) or "none"
+    if index_of.keys() == set(like.names):
+        return [index_of[name] for name in like.names]
+    lacking = listed(sorted(set(like.names) - index_of.keys())) or "none"
+    more = listed(sorted(index_of.keys() - set(like.names))) or "none"
     raise InvalidInput(
         f"{where}: its landmarks are not those of {first}: it lacks {lacking} and has {more} besides; "
         "allowed are the same names"
@@ -169,12 +169,12 @@ def read_pairs(path: Path, specimens: Specimens) -> LandmarkPairs:
         lines = path.read_text("utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InvalidInput(f"{path}: {getattr(error, 'strerror', None) or error}") from error
-    place = {name: i for i, name in enumerate(specimens.names)}
+    index_of = {name: i for i, name in enumerate(specimens.names)}
     rows: list[list[int]] = []
     taken: set[int] = set()
     for line, cells in enumerate(csv.reader(lines, skipinitialspace=True), 1):
         if cells and not cells[0].startswith("#"):
-            row = _row(f"{path}: line {line}", cells, place, specimens.points.shape[1])
+            row = _row(f"{path}: line {line}", cells, index_of, specimens.points.shape[1])
             if row[0] == row[1] or not taken.isdisjoint(row):
                 raise InvalidInput(
                     f"{path}: line {line}: one of the two stands twice; allowed is once"
@@ -186,12 +186,12 @@ def read_pairs(path: Path, specimens: Specimens) -> LandmarkPairs:
     return LandmarkPairs(pairs, rest, np.empty(0, np.int64))
 
 
-def _row(where: str, cells: Sequence[str], place: dict[str, int], count: int) -> list[int]:
+def _row(where: str, cells: Sequence[str], index_of: dict[str, int], count: int) -> list[int]:
     if len(cells) != 2:
         raise InvalidInput(f"{where}: there are {len(cells)} cells; allowed are the two of a pair")
     found = []
     for cell in map(str.strip, cells):
-        index = place.get(cell, int(cell) if cell.isdecimal() else -1)
+        index = index_of.get(cell, int(cell) if cell.isdecimal() else -1)
         if not 0 <= index < count:
             raise InvalidInput(
                 f"{where}: {cell!r} is no landmark; allowed are their names, and 0 to {count - 1}"
@@ -210,8 +210,8 @@ def without_odd(specimens: Specimens, found: LandmarkPairs) -> tuple[Specimens, 
             f"{len(found.odd)} of {specimens.points.shape[1]} vertices have no counterpart; allowed is "
             "with a table of pairs"
         )
-    place = np.full(specimens.points.shape[1], -1)
-    place[kept] = np.arange(len(kept))
+    index_of = np.full(specimens.points.shape[1], -1)
+    index_of[kept] = np.arange(len(kept))
     names = tuple(specimens.names[i] for i in kept) if specimens.names else ()
-    rest = LandmarkPairs(place[found.pairs], place[found.midline], np.empty(0, np.int64))
+    rest = LandmarkPairs(index_of[found.pairs], index_of[found.midline], np.empty(0, np.int64))
     return Specimens(specimens.labels, specimens.points[:, kept], names), rest

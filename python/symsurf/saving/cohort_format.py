@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..morphometrics import Cohort
+from .csv_rows import cells_of, rows_bytes
 
 INDIVIDUAL_COLUMNS = ("individual", "size", "asymmetry", "fluctuating", "largest")
 
@@ -33,15 +31,6 @@ def individual_rows(cohort: Cohort, labels: Sequence[str]) -> list[dict[str, Any
     return [dict(zip(INDIVIDUAL_COLUMNS, row, strict=True)) for row in rows]
 
 
-def csv_bytes(rows: Sequence[Mapping[str, Any]]) -> bytes:
-    """Every digit a double holds; nothing for what is no number."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        writer.writerow({name: _written(value) for name, value in row.items()})
-    return text.getvalue().encode("utf-8", "surrogateescape")
-
-
-def _written(value: Any) -> Any:
-    return "" if isinstance(value, float) and math.isnan(value) else value
+def table_bytes(rows: Sequence[Mapping[str, Any]]) -> bytes:
+    """The rows as a CSV, with those columns that the first has."""
+    return rows_bytes(map(cells_of, rows), list(rows[0]))

@@ -19,8 +19,8 @@ def read(path: Path) -> list[Landmarks]:
         for n, line in enumerate(path.read_text("utf-8-sig").splitlines(), 1)
         if line.strip()
     ]
-    keys = [(place, found) for place, (_, line) in enumerate(lines) if (found := _KEY.match(line))]
-    starts = [place for place, found in keys if found[1].upper() in ("LM", "LM3")]
+    keys = [(index, found) for index, (_, line) in enumerate(lines) if (found := _KEY.match(line))]
+    starts = [index for index, found in keys if found[1].upper() in ("LM", "LM3")]
     if not starts and lines:
         raise InvalidInput("there is no line LM= or LM3=")
     ends = [*starts[1:], len(lines)]
