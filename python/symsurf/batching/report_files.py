@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
-from ..report.cohort import cohort_page
+from ..report.files import files_page
 from ..saving import write_whole
 from ..saving.output_files import output_files
 from .file_task import PAGE_SUFFIX, FileTask
@@ -39,4 +39,4 @@ def write_report(page: Path, tasks: Sequence[FileTask], rows: Sequence[Mapping[s
     """
     if len(tasks) > 1:
         links = {str(task.file): f"{page.stem}_files/{task.outputs[0].name}" for task in tasks}
-        write_whole(page, cohort_page(page.stem, rows, links))
+        write_whole(page, files_page(page.stem, rows, links))

@@ -19,7 +19,7 @@ from ..morphometrics.specimens import (
     read_specimens,
     without_odd,
 )
-from ..report import individuals_page, require_viewer
+from ..report import cohort_page, require_viewer
 from ..saving import write_whole
 from ..saving.cohort_format import anova_rows, individual_rows, table_bytes
 from .output_paths import require_apart, require_suffix
@@ -86,9 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
     contents = {
         "table": lambda: table_bytes(anova_rows(found)),
         "individuals": lambda: table_bytes(individuals),
-        "report": lambda: individuals_page(
-            arguments.report.stem, found, individuals, specimens.faces
-        ),
+        "report": lambda: cohort_page(arguments.report.stem, found, individuals, specimens.faces),
     }
     made = {path: contents[name]() for name, path in outputs.items()}
     for path, content in made.items():

@@ -1,96 +1,90 @@
-"""The page of many shapes: a row each, and percentiles over all of them."""
+"""The page of a cohort: its ANOVA, its individuals and, of meshes, where the asymmetry lies."""
 
 from __future__ import annotations
 
-import os
+import math
 from collections.abc import Mapping, Sequence
-from html import escape
-from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..morphometrics import Cohort
+from ..plotting.drawing import new_plotter
+from ..shapes import Shape
 from .charts import histogram
-from .html import Html, heading, page, paragraph, table
+from .html import framed, heading, page, paragraph, ranks_of, table
+from .scene import scripts_of, viewer_page
 
-PERCENTILES = (0, 5, 25, 50, 75, 95, 100)
-# Of the columns of a batch: their names here, and what they are multiplied by. Lengths are shares
-# of the diagonal: shapes differ in size.
-_FIGURES = {
-    "score": ("score", 1),
-    "paired_share": ("paired, %", 100),
-    "mean_of_diagonal": ("mean, % of the diagonal", 100),
-    "rms_of_diagonal": ("rms, % of the diagonal", 100),
-    "median_of_diagonal": ("median, % of the diagonal", 100),
-    "p95_of_diagonal": ("95th percentile, % of the diagonal", 100),
-    "maximum_of_diagonal": ("maximum, % of the diagonal", 100),
-    "signed_mean_of_diagonal": ("signed mean, % of the diagonal", 100),
-    "area_index": ("area index", 1),
-    "volume_index": ("volume index", 1),
+_SOURCES = {
+    "individual": "individuals",
+    "side": "sides: directional asymmetry",
+    "individual_side": "individuals x sides: fluctuating asymmetry",
+    "error": "replicates: error of measurement",
 }
-_SHOWN = ("score", "paired_share", "rms_of_diagonal", "p95_of_diagonal", "maximum_of_diagonal")
 
 
-def cohort_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> bytes:
-    """The page of a batch of asymmetries.
+def cohort_page(
+    title: str,
+    cohort: Cohort,
+    individuals: Sequence[Mapping[str, Any]],
+    faces: NDArray[np.int64] | None = None,
+) -> bytes:
+    """The page.
 
     Args:
-        rows: of ``symsurf.batch``.
-        links: the page of each file, relative to this.
+        individuals: a row each, of which "asymmetry" is drawn.
+        faces: (m, 3) of meshes.
     """
-    good = [row for row in rows if not row["error"]]
-    doubtful = sum(row["verdict"] == "none" for row in good)
-    sentence = f"{len(good) - doubtful} of {len(rows)} files have a mirror."
-    if doubtful:
-        sentence += f' {doubtful} more, with the verdict "none", are among the figures.'
-    parts = [paragraph(sentence)]
-    if good:
-        rms = 100 * _column(good, "rms_of_diagonal")
-        label = "root mean square of the asymmetry, % of the diagonal"
+    lengths = np.array([row["asymmetry"] for row in individuals])
+    scene = None if faces is None else _scene(cohort, faces)
+    parts = [
+        paragraph(
+            f"{len(individuals)} individuals, {cohort.size.shape[1]} replicates, "
+            f"{len(cohort.mean)} landmarks. Lengths are shares of the centroid size."
+        ),
+        heading("Procrustes ANOVA"),
+        table(_anova_rows(cohort), ("", "SS", "df", "MS", "F", "p")),
+    ]
+    if scene is not None:
         parts += [
-            heading("Over all files"),
-            table(_percentile_rows(good), ("", *(_name(p) for p in PERCENTILES), "files")),
-            histogram(rms, label, "files", symmetric=False),
+            heading("Mean shape, coloured by the mean length of the asymmetry"),
+            framed(scene, "mean asymmetry in 3D"),
         ]
-        names = (
-            "file",
-            "mirror",
-            "verdict",
-            *(_FIGURES[name][0] for name in _SHOWN),
-            "rank by rms",
-        )
-        parts += [heading("Files"), table(_file_rows(good, links), names)]
-    if errors := [(Path(row["file"]).name, row["error"]) for row in rows if row["error"]]:
-        parts += [heading("Files that failed"), table(errors, ("file", "reason"), numbers=False)]
-    return page(title, parts)
+    parts += [
+        heading("Individuals"),
+        histogram(lengths, "length of the asymmetry", "individuals", symmetric=False),
+        table(_individual_rows(individuals), [*individuals[0], "rank by asymmetry"]),
+    ]
+    return page(title, parts, () if scene is None else scripts_of(scene))
 
 
-def _percentile_rows(good: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    made = []
-    for name, (title, factor) in _FIGURES.items():
-        values = factor * _column(good, name)
-        if len(values):
-            percentiles = np.percentile(values, PERCENTILES).tolist()
-            made.append([title, *(f"{value:.4g}" for value in percentiles), str(len(values))])
-    return made
+def _scene(cohort: Cohort, faces: NDArray[np.int64]) -> str:
+    """The viewer's page."""
+    mesh = Shape(cohort.mean, faces).to_pyvista()
+    mesh["mean asymmetry"] = cohort.magnitude.mean(axis=0)
+    plotter = new_plotter(off_screen=True)
+    plotter.add_mesh(mesh, scalars="mean asymmetry", cmap="viridis")
+    scene = viewer_page(plotter)
+    plotter.close()
+    return scene
 
 
-def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> list[list[str]]:
-    order = np.sort(_column(good, "rms_of_diagonal"))
-    made = []
-    for row in good:
-        target = quote(os.fsencode(links[row["file"]]))
-        link = Html(f'<a href="{target}">{escape(Path(row["file"]).name)}</a>')
-        figures = [f"{_FIGURES[key][1] * row[key]:.4g}" if key in row else "" for key in _SHOWN]
-        rank = int(np.searchsorted(order, row["rms_of_diagonal"], side="right"))
-        made.append([link, row["kind"], row["verdict"], *figures, f"{rank} of {len(order)}"])
-    return made
+def _anova_rows(cohort: Cohort) -> list[list[str]]:
+    return [
+        [_SOURCES[name], *(_shown(row[key]) for key in ("ss", "df", "ms", "F", "p"))]  # type: ignore[literal-required]
+        for name, row in cohort.table.items()
+    ]
 
 
-def _column(rows: Sequence[Mapping[str, Any]], name: str) -> np.ndarray:
-    return np.array([row[name] for row in rows if name in row], dtype=float)
+def _individual_rows(individuals: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    ranks = ranks_of(np.array([row["asymmetry"] for row in individuals]))
+    return [
+        [*map(_shown, row.values()), rank] for row, rank in zip(individuals, ranks, strict=True)
+    ]
 
 
-def _name(percentile: int) -> str:
-    return {0: "minimum", 50: "median", 100: "maximum"}.get(percentile, f"{percentile} %")
+def _shown(value: Any) -> str:
+    if not isinstance(value, float):
+        return str(value)
+    return "" if math.isnan(value) else f"{value:.4g}"

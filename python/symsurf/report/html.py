@@ -7,6 +7,9 @@ from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from html import escape
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .._core import __version__
 
 _STYLE = """
@@ -92,6 +95,12 @@ def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: boo
     )
     thead = f"<thead><tr>{head}</tr></thead>" if names else ""
     return f'<div class="wide"><table>{thead}<tbody>{body}</tbody></table></div>'
+
+
+def ranks_of(values: NDArray[np.float64]) -> list[str]:
+    """Of each where it stands from below, as "3 of 12"."""
+    ranks = np.searchsorted(np.sort(values), values, side="right")
+    return [f"{rank} of {len(values)}" for rank in ranks]
 
 
 def framed(whole_page: str, title: str) -> str:
