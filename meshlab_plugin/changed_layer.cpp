@@ -2,6 +2,9 @@
 #include "changed_layer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include "cloud_conversion.h"
 
@@ -35,9 +38,9 @@ void add_vertices(CMeshO& mesh, const std::vector<Index>& sources, std::size_t f
 CFaceO::TexCoordType texture_between(const CMeshO& mesh, const CFaceO& source,
                                      const OperationResult& result, Index point) {
   CFaceO::TexCoordType found;
-  const bool is_other = result.point_parents.rows() > 0;
+  const bool is_other = result.is_other_shape();
   vcg::Point2f sum(0, 0);
-  for (int k = 0; k < (is_other ? 3 : 1); ++k) {
+  for (Index k = 0; k < (is_other ? result.point_parents.cols() : 1); ++k) {
     const Index parent = is_other ? result.point_parents(point, k) : result.point_sources[point];
     const double share = is_other ? result.point_shares(point, k) : 1;
     for (int corner = 0; corner < 3; ++corner)
@@ -96,6 +99,54 @@ void put_others(MeshModel& layer, const OperationResult& result) {
   for (std::size_t i = 0; i < faces; ++i) Allocator::DeleteFace(mesh, mesh.face[i]);
   for (std::size_t i = 0; i < vertices; ++i) Allocator::DeleteVertex(mesh, mesh.vert[i]);
   Allocator::CompactEveryVector(mesh);
+  for (CFaceO& face : mesh.face) face.ClearS();
+  for (const auto& [name, is_so] : result.face_arrays)
+    for (Index f = 0; f < is_so.rows(); ++f)
+      if (is_so(f, 0) != 0) mesh.face[static_cast<std::size_t>(f)].SetS();
+}
+
+// What lies between the values that the parents of each vertex have; `of`: a vertex's value.
+template <typename Value, typename Of>
+std::vector<Value> between(const CMeshO& mesh, const OperationResult& result, const Of& of) {
+  std::vector<Value> values(mesh.vert.size(), Value());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (Index k = 0; k < result.point_parents.cols(); ++k)
+      if (const double share = result.point_shares(static_cast<Index>(i), k); share > 0)
+        values[i] += of(static_cast<std::size_t>(result.point_parents(static_cast<Index>(i), k))) *
+                     static_cast<Scalarm>(share);
+  return values;
+}
+
+template <typename Value>
+void carry_attributes(CMeshO& mesh, const OperationResult& result) {
+  std::vector<std::string> names;
+  Allocator::GetAllPerVertexAttribute<Value>(mesh, names);
+  for (const std::string& name : names) {
+    auto attribute = Allocator::GetPerVertexAttribute<Value>(mesh, name);
+    const std::vector<Value> values =
+        between<Value>(mesh, result, [&](std::size_t i) { return attribute[i]; });
+    for (std::size_t i = 0; i < values.size(); ++i) attribute[i] = values[i];
+  }
+}
+
+// Colours, quality and attributes of the vertices; selects those without a counterpart.
+void carry_values(CMeshO& mesh, const OperationResult& result) {
+  using Colour = vcg::Point4<Scalarm>;
+  const auto colours = between<Colour>(mesh, result, [&](std::size_t i) {
+    const vcg::Color4b& c = mesh.vert[i].cC();
+    return Colour(c[0], c[1], c[2], c[3]);
+  });
+  const auto qualities =
+      between<Scalarm>(mesh, result, [&](std::size_t i) { return mesh.vert[i].cQ(); });
+  const Eigen::MatrixXd& failed = result.arrays.at("failed");
+  for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
+    for (int c = 0; c < 4; ++c)
+      mesh.vert[i].C()[c] = static_cast<unsigned char>(std::lround(colours[i][c]));
+    mesh.vert[i].Q() = qualities[i];
+    failed(static_cast<Index>(i), 0) != 0 ? mesh.vert[i].SetS() : mesh.vert[i].ClearS();
+  }
+  carry_attributes<Scalarm>(mesh, result);
+  carry_attributes<Point3m>(mesh, result);
 }
 
 // Those of a mesh its faces give anew. A cloud's are turned with it, or lost: all zero says so to
@@ -118,9 +169,10 @@ void move_normals(CMeshO& mesh, const OperationResult& result) {
 
 void change_layer(MeshModel& layer, const OperationResult& result) {
   CMeshO& mesh = layer.cm;
+  if (operation(result.operation).carries_values) return carry_values(mesh, result);
   const bool is_moved = operation(result.operation).moves_points;
   if (is_moved && mesh.fn == 0) move_normals(mesh, result);
-  if (result.point_parents.rows() > 0)
+  if (result.is_other_shape())
     put_others(layer, result);
   else if (!result.point_sources.empty())
     add_what_is_new(layer, result);

@@ -41,6 +41,12 @@ std::string OperationFilter::info() const {
     text += "<br>The vertices of the current layer are moved; the layers of its mirror go along.";
   if (operation_.makes_shape)
     text += "<br>Where they are others altogether, they take the attributes of those before.";
+  if (operation_.carries_values)
+    text +=
+        "<br>Vertices and faces stay; colours, quality and attributes of the vertices are carried. "
+        "Vertices without a counterpart are then selected.";
+  for (const PointArray& array : operation_.face_arrays)
+    text += "<br>Selected are then the faces of which this is so: " + array.doc;
   if (operation_.adds_points)
     text +=
         "<br>What is added to the current layer is then what is selected; its vertices and "
@@ -52,6 +58,8 @@ std::string OperationFilter::info() const {
 }
 
 FilterPlugin::FilterClass OperationFilter::menus() const {
+  if (operation_.carries_values)
+    return FilterPlugin::FilterClass(FilterPlugin::Quality | FilterPlugin::VertexColoring);
   if (operation_.adds_points) return FilterPlugin::Remeshing;
   if (operation_.moves_points)
     return FilterPlugin::FilterClass(FilterPlugin::Normal | FilterPlugin::Smoothing);
@@ -62,6 +70,9 @@ FilterPlugin::FilterClass OperationFilter::menus() const {
 int OperationFilter::changes() const {
   int changed = MeshModel::MM_VERTNUMBER;
   if (!changes_shape()) return changed | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
+  if (operation_.carries_values)
+    return changed | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR |
+           MeshModel::MM_VERTFLAGSELECT;
   changed |= MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL |
              MeshModel::MM_VERTFLAGSELECT;
   if (operation_.adds_points || operation_.makes_shape)

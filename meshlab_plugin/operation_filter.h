@@ -25,7 +25,9 @@ class OperationFilter final : public Filter {
                 const Context::Progress& progress) const override;
 
  private:
-  bool changes_shape() const { return operation_.moves_points || operation_.adds_points; }
+  bool changes_shape() const {
+    return operation_.moves_points || operation_.adds_points || operation_.carries_values;
+  }
   std::vector<Parameter> own_parameters() const;
 
   const Operation& operation_;

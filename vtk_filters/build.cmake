@@ -22,7 +22,7 @@ message(STATUS "symsurf: VTK ${VTK_VERSION}")
 
 # The titles of the core's operations: a filter and a proxy each.
 set(symsurf_operations MirrorAsymmetry MirrorCorrespondences MirrorAlignment MirrorCompletion
-    MirrorSymmetrization MirrorStraightening)
+    MirrorSymmetrization MirrorStraightening MirrorRemeshing MirrorCut MirrorTransfer)
 
 add_executable(symsurf_generate)
 file(GLOB generate_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/generate/*.cpp)

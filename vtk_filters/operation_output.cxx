@@ -1,5 +1,6 @@
 #include "operation_output.h"
 
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -25,6 +26,13 @@ void add_arrays(vtkPolyData* output, const TriangleArray& faces,
   const symsurf::Operation& operation = symsurf::operation(result.operation);
   add_point_arrays(output, filter_name(operation), operation.arrays, result.arrays,
                    operation.shown);
+  for (const symsurf::PointArray& each : operation.face_arrays)
+    if (const auto found = result.face_arrays.find(each.name);
+        found != result.face_arrays.end() && found->second.rows() > 0) {
+      const auto array = array_of(each, found->second);
+      array->SetName(array_name(operation, each.name).c_str());
+      output->GetCellData()->AddArray(array);
+    }
   vtkDataArray* face = output->GetPointData()->GetArray(array_name(operation, "face").c_str());
   if (!face) return;
   for (vtkIdType i = 0; i < face->GetNumberOfTuples(); ++i)  // a triangle is a part of a cell
@@ -55,7 +63,7 @@ struct AddedCells {
 AddedCells added_cells(vtkPolyData* input, const TriangleArray& faces,
                        const symsurf::OperationResult& result) {
   AddedCells added;
-  const bool is_other = result.point_parents.rows() > 0;
+  const bool is_other = result.is_other_shape();
   const symsurf::Index old_faces = is_other ? 0 : faces.view().size();
   for (symsurf::Index f = old_faces; f < result.faces.rows(); ++f) {
     const vtkIdType corners[] = {result.faces(f, 0), result.faces(f, 1), result.faces(f, 2)};
@@ -105,22 +113,29 @@ void add_parts(vtkPolyData* output, vtkPolyData* input, const AddedCells& added,
                     range(strips, cells)}));
 }
 
-// Rows between those of another's data, real numbers by their shares; others are those of the
-// first.
+// Whether there are values between two: of real numbers, and of colours.
+bool lies_between(const vtkDataArray* values) {
+  const int type = values->GetDataType(), components = values->GetNumberOfComponents();
+  const bool is_colour = type == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
+  return is_colour || type == VTK_FLOAT || type == VTK_DOUBLE;
+}
+
+// Rows between those of another's data by their shares, or those of the source where there is
+// nothing between two.
 void blend_rows(vtkDataSetAttributes* to, vtkDataSetAttributes* from,
                 const symsurf::OperationResult& result) {
   copy_rows(to, from, result.point_sources);
   for (int k = 0; k < from->GetNumberOfArrays(); ++k) {
     vtkDataArray* values = from->GetArray(k);
-    if (!values || (values->GetDataType() != VTK_FLOAT && values->GetDataType() != VTK_DOUBLE))
-      continue;
+    if (!values || !lies_between(values)) continue;
+    const bool is_rounded = values->GetDataType() == VTK_UNSIGNED_CHAR;
     for (vtkIdType i = 0; i < result.points.rows(); ++i)
       for (int component = 0; component < values->GetNumberOfComponents(); ++component) {
         double sum = 0;
-        for (int parent = 0; parent < 3; ++parent)
+        for (symsurf::Index parent = 0; parent < result.point_parents.cols(); ++parent)
           sum += result.point_shares(i, parent) *
                  values->GetComponent(result.point_parents(i, parent), component);
-        to->GetArray(k)->SetComponent(i, component, sum);
+        to->GetArray(k)->SetComponent(i, component, is_rounded ? std::round(sum) : sum);
       }
   }
 }
@@ -149,7 +164,11 @@ vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
   const symsurf::Operation& operation = symsurf::operation(result.operation);
   const AddedCells cells = added_cells(input, faces, result);
   output->ShallowCopy(input);
-  if (result.point_parents.rows() > 0)
+  if (operation.carries_values) {
+    blend_rows(output->GetPointData(), input->GetPointData(), result);
+    output->GetPointData()->SetNormals(input->GetPointData()->GetNormals());
+    output->GetPointData()->SetTCoords(input->GetPointData()->GetTCoords());
+  } else if (result.is_other_shape())
     set_others(output, input, cells, result);
   else if (!result.point_sources.empty())
     add_parts(output, input, cells, result.point_sources);

@@ -54,6 +54,13 @@ def main(folder):
         folder / "straighten.png",
         above,
     )
+    even = symsurf.remesh(symmetric, plane, edge_length=0.025)
+    write(even, folder / "remesh.png", front)
+    write(symsurf.cut(symmetric, plane), folder / "cut.png", (-1, -0.6, 0.3))
+    stripes = np.where(symmetric.points[:, 0] > 0, np.sin(25 * symmetric.points[:, 2]), 0)
+    side = "positive" if plane.normal[0] > 0 else "negative"
+    painted = symsurf.transfer(stripes, symmetric, plane, side=side)
+    write(painted, folder / "transfer.png", front)
     if "complete" in symsurf.operations():
         x, y, z = symmetric.points.T
         broken = without(symmetric, (x > 0.1) & (y < 0.3 + 0.2 * np.sin(5 * z)) & (z > -0.3))

@@ -29,6 +29,7 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   OperationResult result =
       without_gil([&] { return operate(name, input, mirror, values, context); });
   py::dict fields;
+  fields["operation"] = described.name;
   fields["given"] = points.array;
   fields["points"] = owned_array(std::move(result.points));
   fields["faces"] = owned_array(std::move(result.faces));
@@ -37,6 +38,7 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   fields["point_parents"] = owned_array(std::move(result.point_parents));
   fields["point_shares"] = owned_array(std::move(result.point_shares));
   fields["arrays"] = to_python(result.arrays, described.arrays);
+  fields["face_arrays"] = to_python(result.face_arrays, described.face_arrays);
   fields["parameters"] = to_python(result.parameters);
   fields["statistics"] = to_python(result.statistics);
   return fields;
@@ -65,6 +67,7 @@ void bind_operations(py::module_& module) {
       .def_readonly("summary", &Operation::summary, "One sentence.")
       .def_readonly("parameters", &Operation::parameters)
       .def_readonly("arrays", &Operation::arrays)
+      .def_readonly("face_arrays", &Operation::face_arrays, "Likewise, one value a face.")
       .def_readonly("shown", &Operation::shown,
                     "The name of the array to colour points by; empty: none.")
       .def_readonly("moves_points", &Operation::moves_points,
@@ -74,6 +77,9 @@ void bind_operations(py::module_& module) {
       .def_readonly("makes_shape", &Operation::makes_shape,
                     "Whether the result may have other points and faces altogether.")
       .def_readonly("takes_mask", &Operation::takes_mask)
+      .def_readonly("needs_faces", &Operation::needs_faces, "Whether bare clouds are refused.")
+      .def_readonly("carries_values", &Operation::carries_values,
+                    "Whether points and faces stay and what the input has at its points moves.")
       .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
 
   module.def(

@@ -21,9 +21,10 @@ import pyvista
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkStringArray
 
-from . import mirror_operations, shape_analyses
+from . import shape_analyses
 from ._core import InvalidInput, operations
 from .detection import detect
+from .mirror_operations.operate import operate
 from .results import AnalysisResult, OperationResult, Result
 from .shapes.grids import drop_normals, is_grid, require_sound_cells
 
@@ -89,6 +90,21 @@ class Symmetry:
         """A copy whose mirror ``symsurf.straighten`` has laid flat."""
         return self._operated("straighten", options)
 
+    def remesh(self, **options: Any) -> pyvista.PolyData:
+        """The surface with the even, exactly symmetric triangles of ``symsurf.remesh``, with the
+        attributes that lie between those of the mesh."""
+        return self._operated("remesh", options)
+
+    def cut(self, **options: Any) -> pyvista.PolyData:
+        """One side of the mirror, by ``symsurf.cut``, with the attributes that lie between those of
+        the mesh; the cell array "cap" says which faces close it."""
+        return self._operated("cut", options)
+
+    def transfer(self, **options: Any) -> pyvista.DataSet:
+        """A copy whose point arrays ``symsurf.transfer`` has carried to the other side, but for
+        normals and texture coordinates; the point array "failed" says where that was not possible."""
+        return self._operated("transfer", options)
+
     def symmetries(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the group of ``symsurf.symmetries`` and its other statistics in
         ``field_data``; planes, axes and elements are then in ``analysis``. Options and errors are
@@ -127,6 +143,9 @@ class Symmetry:
         if operations()[name].moves_points:
             made.points = result.shape.points
             drop_normals(made)
+        if operations()[name].carries_values:
+            kept = made.point_data.active_texture_coordinates_name
+            _carry(self._mesh.point_data, made.point_data, result.carried, kept)
         return _with_arrays(made, result)
 
     def _other(self, result: OperationResult) -> pyvista.PolyData:
@@ -143,7 +162,7 @@ class Symmetry:
 
     def _result(self, name: str, options: dict[str, Any]) -> Any:
         self._require_points(name)
-        return getattr(mirror_operations, name)(self._mesh, self.result, **options)
+        return operate(name, self._mesh, self.result, **options)
 
     def _require_points(self, name: str) -> None:
         if is_grid(self._mesh):
@@ -158,6 +177,9 @@ def _with_arrays(
 ) -> pyvista.DataSet:
     for array, values in result.arrays.items():
         made.point_data[array] = values
+    if isinstance(result, OperationResult):
+        for array, values in result.face_arrays.items():
+            made.cell_data[array] = values
     for figure, value in result.statistics.items():
         if isinstance(value, str):
             made.GetFieldData().AddArray(_text(figure, value))
@@ -178,10 +200,11 @@ def _carry(
     before: pyvista.DataSetAttributes,
     after: pyvista.DataSetAttributes,
     carried: Callable[[NDArray[Any]], NDArray[Any]],
+    kept: str | None = None,
 ) -> None:
-    """Carries the attributes along; normals, which would be wrong, not."""
+    """Carries the attributes along, but for one; normals, which would be wrong, not."""
     for name, values in before.items():
-        if name == before.active_normals_name:
+        if name in (before.active_normals_name, kept):
             continue
         after[name] = carried(np.asarray(values))
         if name == before.active_texture_coordinates_name:

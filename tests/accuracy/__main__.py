@@ -15,6 +15,7 @@ from . import (
     curved,
     deformed,
     exact,
+    halves,
     intrinsic,
     judged_bends,
     judged_scores,
@@ -37,7 +38,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
+           halves, intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
            recurring, scores, single_kinds, spheres, symmetries, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

@@ -26,13 +26,16 @@ void expect_as_described(const OperationResult& result, const Operation& operati
                          const Points& points, const Triangles& faces) {
   const Index rows = result.points.rows();
   if (result.point_parents.rows() > 0) {
-    expect(operation.makes_shape && result.point_parents.rows() == rows, "parents of each point");
+    expect(
+        (operation.makes_shape || operation.carries_values) && result.point_parents.rows() == rows,
+        "parents of each point");
     expect((result.point_parents.array() >= 0).all() &&
                (result.point_parents.array() < points.rows()).all(),
            "parents are rows of the input");
     expect((result.point_shares.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-12,
            "shares sum to 1");
-  } else {
+  }
+  if (!result.is_other_shape()) {
     expect(operation.adds_points ? rows >= points.rows() : rows == points.rows(), "a row a point");
     expect(operation.adds_points ? result.faces.rows() >= faces.rows()
                                  : result.faces.rows() == faces.rows(),
@@ -45,6 +48,8 @@ void expect_as_described(const OperationResult& result, const Operation& operati
     expect(corner >= 0 && corner < rows, "a face's corner is a point");
   expect_sources(result.point_sources, rows, points.rows());
   expect_sources(result.face_sources, result.faces.rows(), faces.rows());
+  for (const PointArray& each : operation.face_arrays)
+    expect(result.face_arrays.at(each.name).rows() == result.faces.rows(), "a row a face");
   // Some are of meshes only.
   for (const auto& [name, array] : result.arrays) {
     const auto described = std::find_if(operation.arrays.begin(), operation.arrays.end(),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,6 +11,7 @@ from hypothesis import strategies as st
 from symmetric_shapes import diagonal, mirrored_surface
 
 import symsurf
+from symsurf.mirror_operations.operate import operate
 
 LENGTHS = [
     (f"detect_{name}", parameter.name)
@@ -30,9 +33,12 @@ def points():
 
 @pytest.mark.parametrize(("function", "parameter"), LENGTHS)
 def test_every_length_may_be_in_input_units(function, parameter, points):
-    call = getattr(symsurf, function)
+    is_operation = function in symsurf.operations()
+    call = partial(operate, function) if is_operation else getattr(symsurf, function)
     shape = 25.4 * points
-    length = 0.0625 * diagonal(shape)
+    if is_operation and symsurf.operations()[function].needs_faces:
+        shape = symsurf.Shape(shape, [[i, i + 1, i + 2] for i in range(0, len(shape) - 2, 3)])
+    length = 0.0625 * diagonal(25.4 * points)
     made = call(shape, absolute=True, **{parameter: length})
     if made.parameters.keys() >= {parameter}:  # "auto" names those of the method it chose
         assert made.parameters[parameter] == pytest.approx(0.0625, rel=1e-12)

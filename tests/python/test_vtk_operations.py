@@ -87,8 +87,11 @@ def test_keeps_cells_and_data_of_the_input(operation: symsurf.Operation) -> None
     found = on_ball(operation)
     found.Update()
     output = found.output
+    if operation.name in ("remesh", "cut"):
+        pytest.skip("makes other points and cells")
     count, cells = ball.GetNumberOfPoints(), ball.GetNumberOfCells()
-    assert np.array_equal(array(output, "Id")[:count], np.arange(count))
+    if not operation.carries_values:
+        assert np.array_equal(array(output, "Id")[:count], np.arange(count))
     ids = vtk_to_numpy(output.GetCellData().GetArray("CellId"))
     assert np.array_equal(ids[:cells], np.arange(cells))
     ends = vtk_to_numpy(ball.GetPolys().GetConnectivityArray())
@@ -116,8 +119,11 @@ def test_a_mirror_that_is_none_warns_unless_refused(operation: symsurf.Operation
     points = lopsided_blob(600)
     found = filter_of(operation, method="plane", input_data=polydata(points))
     reason = symsurf.detect(points, "plane").reason
+    if operation.needs_faces:
+        assert f"{operation.name} needs a mesh" in error_of(found)
+        return
     assert reason in error_of(found, "WarningEvent")
-    assert found.output.GetNumberOfPoints() >= len(points)
+    assert found.output.GetNumberOfPoints() >= len(points) * (0.3 if operation.makes_shape else 1)
     found.require_found = True
     assert f"the shape has no mirror: {reason}" in error_of(found)
     assert found.output.GetNumberOfPoints() == 0

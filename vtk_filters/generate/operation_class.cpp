@@ -12,10 +12,13 @@ namespace {
 const char* const mask = "MaskArray";
 
 std::string array_list(const Described& d) {
-  std::string text;
-  for (const PointArray& array : d.operation->arrays)
-    text += "\n * - " + array_name(*d.operation, array.name) + ": " + array.doc;
-  return text.empty() ? text : "Point data:\n *" + text + "\n *\n * ";
+  const auto listed = [&](const std::string& of, const std::vector<PointArray>& arrays) {
+    std::string text;
+    for (const PointArray& array : arrays)
+      text += "\n * - " + array_name(*d.operation, array.name) + ": " + array.doc;
+    return text.empty() ? text : of + " data:\n *" + text + "\n *\n * ";
+  };
+  return listed("Point", d.operation->arrays) + listed("Cell", d.operation->face_arrays);
 }
 
 std::string outputs_documentation(const Described& d) {

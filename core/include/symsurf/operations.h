@@ -33,11 +33,15 @@ struct Operation {
   std::string summary;  ///< one sentence
   std::vector<Parameter> parameters;
   std::vector<PointArray> arrays;
-  std::string shown;          ///< the array to colour points by; none: the colours stay
-  bool moves_points = false;  ///< the result's points are not those of the input
-  bool adds_points = false;   ///< behind those of the input, and faces behind its faces
-  bool makes_shape = false;   ///< may give OperationResult::point_parents
-  bool takes_mask = false;    ///< OperationInput::mask
+  std::vector<PointArray> face_arrays;  ///< likewise, one value a face
+  std::string shown;                    ///< the array to colour points by; none: the colours stay
+  bool moves_points = false;            ///< the result's points are not those of the input
+  bool adds_points = false;             ///< behind those of the input, and faces behind its faces
+  bool makes_shape = false;             ///< may give OperationResult::point_parents
+  bool takes_mask = false;              ///< OperationInput::mask
+  bool needs_faces = false;             ///< bare clouds are refused
+  /// Points and faces stay, what the input has at its points moves: OperationResult::point_parents.
+  bool carries_values = false;
 };
 
 /// All operations, in the order front ends show them.
@@ -60,14 +64,18 @@ struct OperationResult {
   /// Where something was added: of each point and face of the result, the one of the input that its
   /// attributes come from. Empty otherwise: each has its own.
   std::vector<Index> point_sources, face_sources;
-  /// Of a shape of other points and faces altogether: of each point the three points of the input
-  /// that it, or what it is the image of, lies between, and their shares, which sum to 1. The one
-  /// with most share comes first and is the point's source. No rows otherwise.
-  Triangles point_parents;
-  Points point_shares;
-  std::map<std::string, Eigen::MatrixXd> arrays;  ///< Operation::arrays: one row a point
-  Values parameters;                              ///< as used
+  /// Of a shape of other points and faces altogether, and where values are carried: of each point
+  /// the points of the input that its values lie between, and their shares, which sum to 1. The
+  /// one with most share is the point's source. No rows otherwise.
+  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> point_parents;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> point_shares;
+  std::map<std::string, Eigen::MatrixXd> arrays;       ///< Operation::arrays: one row a point
+  std::map<std::string, Eigen::MatrixXd> face_arrays;  ///< Operation::face_arrays: one row a face
+  Values parameters;                                   ///< as used
   Values statistics;
+
+  /// Whether points and faces are other ones than those of the input altogether.
+  bool is_other_shape() const;
 };
 
 /// Runs an operation over a mirror of any kind, in the unit and pose of the points.

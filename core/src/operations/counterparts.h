@@ -12,6 +12,9 @@
 
 namespace symsurf {
 
+/// Points nearer to the mirror than this lie on it, in diagonals: single precision.
+constexpr double mirror_tolerance = 1e-6;
+
 /// Which point of the mirrored surface a point is compared with: the closest one, or the one that a
 /// non-rigid registration finds to be its homologous point.
 enum class Pairing { Closest, Homologous };

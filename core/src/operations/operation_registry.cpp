@@ -17,8 +17,9 @@ namespace {
 
 const std::vector<OperationImplementation>& operation_implementations() {
   static const std::vector<OperationImplementation> all{
-      asymmetry_operation(), correspondences_operation(), align_operation(),
-      complete_operation(),  symmetrize_operation(),      straighten_operation()};
+      asymmetry_operation(),  correspondences_operation(), align_operation(),  complete_operation(),
+      symmetrize_operation(), straighten_operation(),      remesh_operation(), cut_operation(),
+      transfer_operation()};
   return all;
 }
 
@@ -60,6 +61,10 @@ const std::vector<Operation>& operations() {
 
 const Operation& operation(std::string_view name) { return operation_implementation(name); }
 
+bool OperationResult::is_other_shape() const {
+  return point_parents.rows() > 0 && !symsurf::operation(operation).carries_values;
+}
+
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters, const Context& context) {
   const OperationImplementation& operation = operation_implementation(name);
@@ -67,6 +72,9 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   require_points(input.points);
   require_coordinates(input.points);
   require_corners(input.faces, input.points.size());
+  if (operation.needs_faces && input.faces.empty())
+    throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
+                       operation.name + " needs a mesh of triangles");
   require_mask(operation, input.mask, input.points.size());
   require_near(input.points, mirror);
   OperationResult result;

@@ -17,5 +17,8 @@ OperationImplementation align_operation();
 OperationImplementation complete_operation();
 OperationImplementation symmetrize_operation();
 OperationImplementation straighten_operation();
+OperationImplementation remesh_operation();
+OperationImplementation cut_operation();
+OperationImplementation transfer_operation();
 
 }  // namespace symsurf

@@ -2,15 +2,12 @@
 
 #include "base/parallel.h"
 #include "operations/counterparts.h"
-#include "operations/mirrored_half.h"
+#include "operations/half.h"
 #include "operations/operation_registry.h"
 
 namespace symsurf {
 
 namespace {
-
-// Points nearer to the mirror than this lie on it, in diagonals: single precision.
-constexpr double on_mirror = 1e-6;
 
 // Of so many matched points, the vertices mirror each other and are kept together; fewer meet by
 // chance, and pairs of them would slide over the surface.
@@ -23,7 +20,7 @@ class Symmetrization {
       : input_(input),
         mirror_(mirror),
         limits_(limits),
-        on_mirror_(on_mirror * diagonal_of(input.points)) {}
+        on_mirror_(mirror_tolerance * diagonal_of(input.points)) {}
 
   // Each point halfway to its place.
   Points average(const Context& context) {
@@ -138,20 +135,11 @@ void mirror_triangles(const OperationInput& input, const Mirror& mirror,
     points = symmetrization.average(context.stage(0, 0.7));
     result.statistics = symmetrization.unmatched();
   }
-  MirroredHalf made =
-      mirrored_half(points, input.faces, mirror, side != "negative", context.stage(0.7, 1));
-  const Index count = made.points.rows();
-  Eigen::VectorXd partners(count);
-  for (Index i = 0; i < count; ++i) {
-    partners[i] = static_cast<double>(made.partners[i]);
-    result.point_sources.push_back(made.parents(i, 0));
-  }
-  result.points = std::move(made.points);
-  result.faces = std::move(made.faces);
-  result.face_sources = std::move(made.face_sources);
-  result.point_parents = std::move(made.parents);
-  result.point_shares = std::move(made.shares);
-  result.arrays = {{"paired", Eigen::VectorXd::Ones(count)}, {"partner", partners}};
+  Half half = half_of(points, input.faces, mirror, side != "negative", context.stage(0.7, 0.8));
+  MirroredHalf made = with_image(std::move(half), mirror, context.stage(0.8, 1));
+  result.arrays = {{"paired", Eigen::VectorXd::Ones(made.points.rows())},
+                   {"partner", partner_array(made)}};
+  set_shape(std::move(made), result);
   result.statistics["paired_share"] = 1.0;
 }
 

@@ -10,9 +10,14 @@ from typing import Any
 from .._core import Operation, operations, require_found_parameter
 from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
 from ..results.operation_results import RESULTS, OperationResult
-from .operate import operate
+from .operate import operate, with_values
 
 _ARGUMENTS = inspect.signature(operate).parameters
+
+_VALUES = (
+    "values: (n,) or (n, k), what the points have, or a dictionary of such arrays; None: "
+    "``carried`` of the result takes them later."
+)
 
 _DOCUMENTED = {
     "shape": "points, a mesh or a file, as ``detect`` takes them; all points finite.",
@@ -40,6 +45,11 @@ def _signature(operation: Operation) -> inspect.Signature:
         del shared["mask"]
     own = {parameter.name: keyword(parameter) for parameter in operation.parameters}
     words = {name: shared.pop(name) for name in ("shape", "result")} | own | shared
+    if operation.carries_values:
+        values = inspect.Parameter(
+            "values", inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation="ArrayLike | dict | None"
+        )
+        words = {"values": values} | words
     returned = RESULTS[operation.name].__name__
     return inspect.Signature(list(words.values()), return_annotation=returned)
 
@@ -54,6 +64,7 @@ def _documentation(operation: Operation) -> list[str]:
         textwrap.fill(operation.summary, 96),
         "",
         "Args:",
+        *([argument_text(_VALUES)] if operation.carries_values else []),
         *shared[:2],
         *parameter_texts(operation.parameters),
         *shared[2:],
@@ -65,8 +76,15 @@ def _function(operation: Operation) -> Callable[..., OperationResult]:
     def function(shape: Any, result: Any = None, **options: Any) -> OperationResult:
         return operate(operation.name, shape, result, **options)
 
+    def carry(values: Any, shape: Any, result: Any = None, **options: Any) -> OperationResult:
+        return with_values(operate(operation.name, shape, result, **options), values)
+
     return name_function(
-        function, operation.name, __name__, _signature(operation), _documentation(operation)
+        carry if operation.carries_values else function,
+        operation.name,
+        __name__,
+        _signature(operation),
+        _documentation(operation),
     )
 
 

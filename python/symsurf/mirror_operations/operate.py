@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -41,6 +45,28 @@ def operate(
     return RESULTS[name].from_fields(
         made | {"given_faces": given.faces, "space": given.space, "mirror": mirror}
     )
+
+
+def with_values(made: OperationResult, values: Any) -> OperationResult:
+    """The result with the values that its points then have of those of the input's points, an array
+    or a dictionary of arrays. Raises InvalidInput where one is not a value a point."""
+    if values is None:
+        return made
+    if isinstance(values, Mapping):
+        carried: Any = {name: _carried(made, each, name) for name, each in values.items()}
+    else:
+        carried = _carried(made, values, "values")
+    return replace(made, values=carried)
+
+
+def _carried(made: OperationResult, values: ArrayLike, name: object) -> NDArray[Any]:
+    array = np.asarray(values)
+    points = len(made.given.points)
+    if array.ndim == 0 or len(array) != points:
+        raise InvalidInput(
+            f"{name} has shape {array.shape}; allowed is one value a point: ({points}, ...)"
+        )
+    return made.carried(array)
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -15,9 +15,12 @@ from ..results import (
     Asymmetry,
     Completed,
     Correspondences,
+    Half,
     OperationResult,
+    Remeshed,
     Straightened,
     Symmetrized,
+    Transferred,
     outputs,
 )
 from ..results.summary import percent
@@ -151,6 +154,14 @@ def _draw_object(
         draw_scalars(plotter, object_, values, title, (0, end), colour_map(COLOURS))
     elif isinstance(result, Completed):
         _draw_origins(plotter, object_, result.origin[rows])
+    elif isinstance(result, Remeshed):
+        plotter.add_mesh(object_, color=OBJECT, show_edges=True, edge_color=INK)
+    elif isinstance(result, Half) and result.cap.any():
+        _draw_parts(plotter, object_, {"surface": ~result.cap, "cap": result.cap})
+    elif isinstance(result, Transferred) and np.ndim(result.values) == 1:
+        values = np.asarray(result.values, float)[rows]
+        ends = (clim and (0, clim)) or (float(np.nanmin(values)), float(np.nanmax(values)))
+        draw_scalars(plotter, object_, values, "values", ends, colour_map(COLOURS))
     else:
         plotter.add_mesh(object_, color=OBJECT, **style_of(object_))
 
@@ -183,10 +194,16 @@ def _draw_origins(
     if object_.n_cells != object_.n_verts:
         corners = origin[object_.regular_faces]
         of_cells = np.where(corners.min(axis=1) > 0, 1, 2 * (corners.max(axis=1) > 0))
-    for number, (name, colour) in enumerate(ORIGINS.items()):
-        chosen = np.flatnonzero(of_cells == number)
-        if len(chosen):
-            part = object_.extract_cells(chosen).extract_surface(algorithm=None)
+    _draw_parts(plotter, object_, {name: of_cells == k for k, name in enumerate(ORIGINS)})
+
+
+def _draw_parts(
+    plotter: pyvista.Plotter, object_: pyvista.PolyData, parts: dict[str, NDArray[np.bool_]]
+) -> None:
+    """Each part, chosen among the cells, in a colour of its own."""
+    for colour, (name, chosen) in zip(ORIGINS.values(), parts.items(), strict=False):
+        if chosen.any():
+            part = object_.extract_cells(np.flatnonzero(chosen)).extract_surface(algorithm=None)
             plotter.add_mesh(part, color=colour, label=name, **style_of(part))
     plotter.add_legend(bcolor=None, face="rectangle", size=(0.16, 0.12), loc="lower center")
 
@@ -240,6 +257,13 @@ def _title(result: OperationResult) -> str:
     if isinstance(result, Completed):
         added = len(result.shape.points) - len(result.given.points)
         return f"completed over a {kind}: {added} points added"
+    if isinstance(result, Remeshed):
+        length = 100 * figures["edge_length_of_diagonal"]
+        return f"remeshed over a {kind}: edges of {length:.2g} % of the diagonal"
+    if isinstance(result, Half):
+        return f"cut along a {kind}: {figures['cap_faces']} faces close it"
+    if isinstance(result, Transferred):
+        return f"transferred over a {kind}: {figures['failed_points']} points have no counterpart"
     if isinstance(result, Straightened):
         return f"{'bent back' if result.parameters['back'] else 'straightened'} over a {kind}"
     return f"aligned by a {kind}"

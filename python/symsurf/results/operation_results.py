@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import Mirror, Plane, operations
+from .._core import InvalidInput, Mirror, Plane, operations
 from ..shapes import Shape
 from .outputs import plot, save
 from .summary import Summarised, value_text
@@ -41,17 +41,19 @@ class OperationResult(Summarised):
     face_sources: NDArray[np.int64]
     """(m,) the same of each face."""
     parents: NDArray[np.int64] | None
-    """(n, 3) where points and faces are other ones altogether, as of ``symmetrize`` with
-    ``triangles="mirrored"``: the points of the input that each, or its image, lies between."""
+    """(n, k) where points and faces are other ones altogether, as of ``symmetrize`` with
+    ``triangles="mirrored"``, and where values are carried: the points of the input that the values of
+    each lie between."""
     shares: NDArray[np.float64] | None
-    """(n, 3) what each of these counts; they sum to 1."""
+    """(n, k) what each of these counts; they sum to 1."""
 
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
         faces = made["faces"] if len(made["faces"]) else None
-        is_same = not len(made["point_sources"]) and not len(made["face_sources"])
-        is_other = len(made["point_parents"]) > 0
+        own = [np.arange(len(made[rows])) for rows in ("points", "faces")]
+        sources = [made[rows] for rows in ("point_sources", "face_sources")]
+        has_parents = len(made["point_parents"]) > 0
         frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
         return cls(
             given=Shape(made["given"], made["given_faces"], space=made["space"]),
@@ -59,11 +61,12 @@ class OperationResult(Summarised):
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
-            sources=np.arange(len(made["points"])) if is_same else made["point_sources"],
-            face_sources=np.arange(len(made["faces"])) if is_same else made["face_sources"],
-            parents=made["point_parents"] if is_other else None,
-            shares=made["point_shares"] if is_other else None,
+            sources=sources[0] if len(sources[0]) else own[0],
+            face_sources=sources[1] if len(sources[1]) else own[1],
+            parents=made["point_parents"] if has_parents else None,
+            shares=made["point_shares"] if has_parents else None,
             **made["arrays"],
+            **made["face_arrays"],
             **cls._own_fields(made),
         )
 
@@ -75,16 +78,18 @@ class OperationResult(Summarised):
     @property
     def is_other(self) -> bool:
         """Whether points and faces are other ones than those of the input altogether."""
-        return self.parents is not None
+        return self.parents is not None and not operations()[self.operation].carries_values
 
     def carried(self, values: NDArray[Any]) -> NDArray[Any]:
         """What the points of ``shape`` have of values of the input's points, such as colours or
-        texture coordinates: real numbers between those of a point's ``parents``, others those of its
-        source. (n, ...) of ``shape`` from (k, ...) of the input."""
-        if self.parents is None or self.shares is None or values.dtype.kind != "f":
+        texture coordinates: real numbers, and colours of three or four bytes, between those of a
+        point's ``parents``, others those of its source. (n, ...) of ``shape`` from (k, ...) of the
+        input."""
+        if self.parents is None or self.shares is None or not _lies_between(values):
             return values[self.sources]
         shares = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
-        return (values[self.parents] * shares).sum(axis=1).astype(values.dtype)
+        mean = (values[self.parents] * shares).sum(axis=1)
+        return (mean if values.dtype.kind == "f" else mean.round()).astype(values.dtype)
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -92,6 +97,12 @@ class OperationResult(Summarised):
         described = operations()[self.operation].arrays
         own = {array.name: getattr(self, array.name) for array in described}
         return {name: values for name, values in own.items() if values is not None}
+
+    @property
+    def face_arrays(self) -> dict[str, NDArray[Any]]:
+        """The same of each face."""
+        described = operations()[self.operation].face_arrays
+        return {array.name: getattr(self, array.name) for array in described}
 
     @property
     def summary(self) -> dict[str, str]:
@@ -178,7 +189,8 @@ class Asymmetry(OperationResult):
 @dataclass(frozen=True, eq=False, repr=False)
 class Correspondences(OperationResult):
     """Which point mirrors which. ``statistics``: "paired_share", and why the others are unmatched,
-    as those of an asymmetry."""
+    as those of an asymmetry. ``save`` also takes ``.mirror``, MakeHuman's table: the numbers of a
+    point and its mirror point and l, r or m, where l is the side of positive signed distances."""
 
     operation = "correspondences"
 
@@ -220,6 +232,54 @@ class Symmetrized(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Remeshed(OperationResult):
+    """One side with even triangles, and its image. ``statistics``: "edge_length", the mean of the
+    result, in input units and, with "_of_diagonal" behind the name, as a share of the diagonal."""
+
+    operation = "remesh"
+
+    partner: NDArray[np.int64]
+    """(n,) the point that is its image, itself on the mirror."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Half(OperationResult):
+    """The shape on one side of the mirror. ``statistics``: "cap_faces", how many close it, and
+    "open_curves", how many of the curves where it is cut do not close and are left open."""
+
+    operation = "cut"
+
+    on_mirror: NDArray[np.bool_]
+    """(n,) whether the point lies on the mirror."""
+    cap: NDArray[np.bool_]
+    """(m,) whether the face lies within the mirror and closes the half."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Transferred(OperationResult):
+    """Values of the points, carried to the other side. ``statistics``: "failed_points", how many have
+    no counterpart, and why, as those of an asymmetry."""
+
+    operation = "transfer"
+
+    failed: NDArray[np.bool_]
+    """(n,) whether the point has no counterpart to take values from: it keeps its own."""
+    values: Any = None
+    """What was given: an array (n, ...), or a dictionary of them; None where nothing was."""
+
+    def displaced(self, vectors: NDArray[Any]) -> NDArray[np.float64]:
+        """Displacements (n, 3) of the points, as shape keys have them, carried likewise: what comes
+        from the other side is that of the displaced point's image, input units."""
+        if self.parents is None or self.shares is None:
+            raise InvalidInput("this result carries no values")
+        points = self.given.points
+        images = self.mirror.reflect(points + vectors) - self.mirror.reflect(points)
+        images = np.nan_to_num(images)  # of points that give nobody anything
+        own = self.shares[:, :1] * vectors
+        return own + (images[self.parents[:, 1:]] * self.shares[:, 1:, None]).sum(axis=1)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Straightened(OperationResult):
     """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
     the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
@@ -252,8 +312,24 @@ class Completed(OperationResult):
 
 RESULTS: dict[str, type[OperationResult]] = {
     kind.operation: kind
-    for kind in (Asymmetry, Correspondences, Alignment, Completed, Symmetrized, Straightened)
+    for kind in (
+        Asymmetry,
+        Correspondences,
+        Alignment,
+        Completed,
+        Symmetrized,
+        Straightened,
+        Remeshed,
+        Half,
+        Transferred,
+    )
 }
+
+
+def _lies_between(values: NDArray[Any]) -> bool:
+    """Whether there are values between two."""
+    is_colour = values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4)
+    return is_colour or values.dtype.kind == "f"
 
 
 def _patch(points: NDArray[np.float64], given: int, faces: NDArray[np.int64]) -> Shape:

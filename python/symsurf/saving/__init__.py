@@ -11,19 +11,19 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
-from ..results import AnalysisResult, OperationResult, Result
+from ..results import AnalysisResult, Correspondences, OperationResult, Result
 from ..results.outputs import save
 from .json_format import analysis_bytes, json_bytes, operation_bytes
 from .ply_format import ply_bytes, shape_ply_bytes
-from .table_format import csv_bytes, npy_bytes
+from .table_format import csv_bytes, mirror_bytes, npy_bytes
 from .text_format import text_bytes
 from .vtp_format import shape_vtp_bytes, vtp_bytes
 
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
 SHAPE_FORMATS = {".ply": shape_ply_bytes, ".vtp": shape_vtp_bytes}
 _WITH_ARRAYS: dict[str, Callable[[OperationResult | AnalysisResult], bytes]] = {
-    ".ply": lambda result: shape_ply_bytes(result.shape, result.arrays),
-    ".vtp": lambda result: shape_vtp_bytes(result.shape, result.arrays),
+    ".ply": lambda result: shape_ply_bytes(result.shape, result.arrays, _face_arrays(result)),
+    ".vtp": lambda result: shape_vtp_bytes(result.shape, result.arrays, _face_arrays(result)),
     ".csv": lambda result: csv_bytes(result.arrays),
     ".npy": lambda result: npy_bytes(result.arrays),
 }
@@ -31,10 +31,15 @@ OPERATION_FORMATS: dict[str, Callable[[OperationResult], bytes]] = {
     **_WITH_ARRAYS,
     ".json": operation_bytes,
 }
+CORRESPONDENCES_FORMATS = {**OPERATION_FORMATS, ".mirror": mirror_bytes}
 ANALYSIS_FORMATS: dict[str, Callable[[AnalysisResult], bytes]] = {
     **_WITH_ARRAYS,
     ".json": analysis_bytes,
 }
+
+
+def _face_arrays(result: OperationResult | AnalysisResult) -> dict[str, Any]:
+    return result.face_arrays if isinstance(result, OperationResult) else {}
 
 
 def _save(
@@ -56,6 +61,7 @@ def _save(
 
 save.register(Result, partial(_save, FORMATS))
 save.register(OperationResult, partial(_save, OPERATION_FORMATS))
+save.register(Correspondences, partial(_save, CORRESPONDENCES_FORMATS))
 save.register(AnalysisResult, partial(_save, ANALYSIS_FORMATS))
 
 

@@ -35,7 +35,7 @@ def output_suffix(
             raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
         return f".{format_name}"
     described = _core.operations()[operation]
-    has_shape = described.moves_points or described.adds_points
+    has_shape = described.moves_points or described.adds_points or described.carries_values
     suffix = file.suffix if input_format is None else f".{input_format}"
     is_kept = suffix.lower() in REWRITERS and has_shape
     return suffix if is_kept or suffix.lower() == ".ply" else ".ply"
@@ -58,10 +58,16 @@ def save_shape(
         suffix: of the format that the source was read in, such as ".ply" or ".ply.gz".
         content: of the source, where that is no file.
     """
-    if suffix not in REWRITERS or suffix != path.suffix.lower():
+    is_same = suffix in REWRITERS and suffix == path.suffix.lower()
+    if _core.operations()[result.operation].carries_values and not is_same:
+        raise InvalidInput(
+            f"what the points of a {suffix} file have cannot be carried over in {path.suffix}; allowed "
+            f"are {', '.join(REWRITERS)}, each written in its own format"
+        )
+    if not is_same:
         result.save(path)
         return []
-    sources = result.sources
+    carries = _core.operations()[result.operation].carries_values
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
     faces = result.shape.faces
@@ -69,16 +75,21 @@ def save_shape(
         points=result.shape.points,
         faces=np.empty((0, 3), np.int64) if faces is None else faces,
         old_faces=0 if shape.faces is None or result.is_other else len(shape.faces),
-        sources=sources,
+        sources=np.arange(len(shape.points)) if carries else result.sources,
         moved=result.is_other
         or not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
+        face_arrays=result.face_arrays,
         is_other=result.is_other,
+        carried=None if result.parents is None else result.carried,
     )
     given = source.read_bytes() if content is None else content
-    rewritten = _kept(given, suffix, new) or _anew(shape, suffix, new)
+    rewritten = _kept(given, suffix, new)
+    if rewritten is None and carries:
+        raise InvalidInput(f"{source} is written in a way that values cannot be carried over in")
+    rewritten = rewritten or _anew(shape, suffix, new)
     write_whole(path, rewritten.content)
     return rewritten.lost
 
@@ -105,8 +116,10 @@ def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
     if new.is_other:
         shape = Shape(new.points, new.faces if len(new.faces) else None)
         rows = np.arange(len(new.points))
-        new = replace(new, old_faces=len(new.faces), sources=rows, moved=False, is_other=False)
-    rewritten = REWRITERS[suffix](plain_content(shape, suffix), new)
+        new = replace(
+            new, old_faces=len(new.faces), sources=rows, moved=False, is_other=False, carried=None
+        )
+    rewritten = REWRITERS[suffix](plain_content(shape, suffix, new.face_arrays), new)
     return rewritten._replace(
         lost=["nothing of the file is kept but points and faces", *rewritten.lost]
     )

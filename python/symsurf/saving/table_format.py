@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..results import Correspondences
+
 
 def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
     """A structured array, a row a point and a field an array."""
@@ -34,6 +36,16 @@ def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
     ]
     file.writelines(",".join(map(repr, row)) + "\n" for row in zip(*lists, strict=True))
     return file.getvalue().encode()
+
+
+def mirror_bytes(result: Correspondences) -> bytes:
+    """MakeHuman's table: a line a point that has one, its number, that of its mirror point, and l, r
+    or m: on the side where signed distances are positive, on the other, or its own mirror point."""
+    points = np.flatnonzero(result.index >= 0)
+    distances = result.mirror.signed_distance(result.shape.points[points])
+    sides = np.where(result.index[points] == points, "m", np.where(distances > 0, "l", "r"))
+    rows = zip(points.tolist(), result.index[points].tolist(), sides.tolist(), strict=True)
+    return "".join(f"{point} {partner} {side}\n" for point, partner, side in rows).encode()
 
 
 def columns_of(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:

@@ -37,17 +37,31 @@ def vtp_bytes(result: Result) -> bytes:
     )
 
 
-def shape_vtp_bytes(shape: Shape, arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """A shape with arrays of its points; a bare cloud as vertices."""
+def shape_vtp_bytes(
+    shape: Shape,
+    arrays: Mapping[str, NDArray[Any]],
+    face_arrays: Mapping[str, NDArray[Any]] | None = None,
+) -> bytes:
+    """A shape with arrays of its points and faces; a bare cloud as vertices."""
     none = np.empty((0, 3), np.int64)
     is_cloud = shape.faces is None or not len(shape.faces)
     vertices = np.arange(len(shape.points)).reshape(-1, 1) if is_cloud else none[:, :1]
-    numbers = {
+    faces = none if shape.faces is None else shape.faces
+    return poly_data(
+        shape.points,
+        vertices,
+        faces,
+        _numbers(arrays),
+        _space(shape),
+        {} if is_cloud else _numbers(face_arrays or {}),
+    )
+
+
+def _numbers(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    return {
         name: values.astype(np.int64) if values.dtype.kind == "b" else values
         for name, values in arrays.items()
     }
-    faces = none if shape.faces is None else shape.faces
-    return poly_data(shape.points, vertices, faces, numbers, _space(shape))
 
 
 def poly_data(
@@ -56,6 +70,7 @@ def poly_data(
     triangles: NDArray[np.int64],
     arrays: Mapping[str, NDArray[Any]],
     fields: Sequence[str] = (),
+    cell_arrays: Mapping[str, NDArray[Any]] | None = None,
 ) -> bytes:
     """The file; the first array is the active scalars."""
     active = f' Scalars="{escape(next(iter(arrays)))}"' if arrays else ""
@@ -73,6 +88,9 @@ def poly_data(
         f"<PointData{active}>",
         *(_array(name, values) for name, values in arrays.items()),
         "</PointData>",
+        "<CellData>",
+        *(_array(name, values) for name, values in (cell_arrays or {}).items()),
+        "</CellData>",
         f"<Points>{_array('Points', points)}</Points>",
         f"<Verts>{_cells(vertices)}</Verts>",
         f"<Polys>{_cells(triangles)}</Polys>",

@@ -11,6 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
     VTK_DOUBLE,
     VTK_FLOAT,
+    VTK_UNSIGNED_CHAR,
     vtkDataArray,
     vtkIdList,
     vtkPoints,
@@ -167,19 +168,26 @@ def copy_rows(
 def blend_rows(
     to: vtkDataSetAttributes,
     source: vtkDataSetAttributes,
-    parents: NDArray[np.int64],
-    shares: NDArray[np.float64],
+    result: dict[str, Any],
 ) -> None:
-    """Makes the data that between rows of another, real numbers by their shares; others are those of
-    the first."""
-    copy_rows(to, source, parents[:, 0])
+    """Makes the data that between rows of another, real numbers and colours by their shares; others
+    are those of the source."""
+    parents, shares = result["point_parents"], result["point_shares"]
+    copy_rows(to, source, result["point_sources"])
     for i in range(source.GetNumberOfArrays()):
         array = source.GetArray(i)
-        if array is None or array.GetDataType() not in (VTK_FLOAT, VTK_DOUBLE):
+        if array is None or not _lies_between(array):
             continue
         values = vtk_to_numpy(array)
         counts = shares.reshape(*shares.shape, *[1] * (values.ndim - 1))
-        vtk_to_numpy(to.GetArray(i))[:] = (values[parents] * counts).sum(axis=1)
+        mean = (values[parents] * counts).sum(axis=1)
+        vtk_to_numpy(to.GetArray(i))[:] = mean if values.dtype.kind == "f" else mean.round()
+
+
+def _lies_between(array: vtkDataArray) -> bool:
+    """Whether there are values between two."""
+    is_colour = array.GetDataType() == VTK_UNSIGNED_CHAR and array.GetNumberOfComponents() in (3, 4)
+    return is_colour or array.GetDataType() in (VTK_FLOAT, VTK_DOUBLE)
 
 
 def _ids(rows: NDArray[np.int64]) -> vtkIdList:

@@ -144,18 +144,18 @@ def _set_operated(
     verts, vert_sources = _added_verts(shape, faces, result)
     polys, poly_sources = _added_polys(faces, result)
     output.ShallowCopy(shape)
-    if len(result["point_parents"]):
+    if operation.carries_values:
+        data = shape.GetPointData()
+        blend_rows(output.GetPointData(), data, result)
+        output.GetPointData().SetNormals(data.GetNormals())
+        output.GetPointData().SetTCoords(data.GetTCoords())
+    elif _is_other(result):
         output.DeleteCells()
         for set_cells in (output.SetLines, output.SetStrips):
             set_cells(vtkCellArray())
         output.SetVerts(verts)
         output.SetPolys(polys)
-        blend_rows(
-            output.GetPointData(),
-            shape.GetPointData(),
-            result["point_parents"],
-            result["point_shares"],
-        )
+        blend_rows(output.GetPointData(), shape.GetPointData(), result)
         rows = np.concatenate([vert_sources, poly_sources])
         copy_rows(output.GetCellData(), shape.GetCellData(), rows)
     elif len(result["point_sources"]):
@@ -171,7 +171,7 @@ def _set_operated(
     if operation.moves_points or operation.adds_points:
         output.SetPoints(vtk_points(result["points"]))
         drop_normals(output)
-    _add_arrays(output, faces, operation, result["arrays"])
+    _add_arrays(output, faces, operation, result)
     add_values(output.GetFieldData(), result["statistics"])
 
     added = vtkPolyData()
@@ -188,8 +188,7 @@ def _set_operated(
 
 def _added_polys(faces: Faces, result: dict[str, Any]) -> tuple[vtkCellArray, NDArray[np.int64]]:
     """The triangles behind those of the shape, and the shape's cells that they have their data of."""
-    is_other = len(result["point_parents"]) > 0
-    old = 0 if faces.corners is None or is_other else len(faces.corners)
+    old = 0 if faces.corners is None or _is_other(result) else len(faces.corners)
     corners = result["faces"][old:]
     return _cells(corners), faces.cells[result["face_sources"][old:]]
 
@@ -205,9 +204,15 @@ def _added_verts(
     verts = shape.GetVerts()
     sizes = np.diff(vtk_to_numpy(verts.GetOffsetsArray()))
     vert_of[vtk_to_numpy(verts.GetConnectivityArray())] = np.repeat(np.arange(cells), sizes)
-    first = 0 if len(result["point_parents"]) else old
+    first = 0 if _is_other(result) else old
     added = np.arange(first, len(result["points"]))
     return _cells(added[:, None]), vert_of[result["point_sources"][first:]]
+
+
+def _is_other(result: dict[str, Any]) -> bool:
+    """Whether points and faces are other ones than those of the shape altogether."""
+    is_carried = _core.operations()[result["operation"]].carries_values
+    return len(result["point_parents"]) > 0 and not is_carried
 
 
 def _cells(rows: NDArray[np.int64]) -> vtkCellArray:
@@ -222,15 +227,19 @@ def _joined(first: vtkCellArray, second: vtkCellArray) -> vtkCellArray:
 
 
 def _add_arrays(
-    output: vtkPolyData, faces: Faces, operation: Operation, arrays: dict[str, NDArray[Any]]
+    output: vtkPolyData, faces: Faces, operation: Operation, result: dict[str, Any]
 ) -> None:
     data = output.GetPointData()
-    for name, values in arrays.items():
+    for name, values in result["arrays"].items():
         if values.dtype == np.bool_:
             values = values.astype(np.int8)
         if name == "face":  # a triangle is a part of a cell
             values = np.where(values >= 0, faces.cells[values], -1)
         data.AddArray(numpyTovtkDataArray(values, array_name(operation, name)))
+    for name, values in result["face_arrays"].items():
+        if len(values):
+            row = numpyTovtkDataArray(values.astype(np.int8), array_name(operation, name))
+            output.GetCellData().AddArray(row)
     if operation.shown:
         data.SetActiveScalars(array_name(operation, operation.shown))
 
@@ -253,6 +262,11 @@ def _docstring(operation: Operation) -> str:
     if operation.arrays:
         lines += ["Point data:", ""]
     for array in operation.arrays:
+        text = f"- {array_name(operation, array.name)}: {array.doc}"
+        lines.append(textwrap.fill(text, 96, subsequent_indent="  "))
+    if operation.face_arrays:
+        lines += ["Cell data:", ""]
+    for array in operation.face_arrays:
         text = f"- {array_name(operation, array.name)}: {array.doc}"
         lines.append(textwrap.fill(text, 96, subsequent_indent="  "))
     return "\n".join(lines)

@@ -11,6 +11,7 @@ import numpy as np
 from clouds import Random, cloud, faces, one_of
 
 import symsurf
+from symsurf.mirror_operations.operate import operate
 
 ALLOWED = (symsurf.InvalidInput, symsurf.InvalidParameter, symsurf.Cancelled)
 KINDS = ("detect",) * 5 + ("operate",) * 3 + ("analyse",)
@@ -65,7 +66,7 @@ class Case:
         if random.integers(4):
             found = drawn_mirror(random) if random.integers(3) == 0 else self._detect()
         shape = (self.points, self.faces) if self.faces is not None else self.points
-        return getattr(symsurf, name)(shape, found, threads=1, **given)
+        return operate(name, shape, found, threads=1, **given)
 
     def _say(self, name: str, given: dict[str, Any]) -> None:
         self.words += f", {name} {given}"

@@ -3,7 +3,11 @@ beside points, faces and normals stays as it is, and what cannot stay is named."
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ...shapes import Shape
 from ..ply_format import shape_ply_bytes
@@ -28,15 +32,21 @@ REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
 }
 
 
-def plain_content(shape: Shape, suffix: str) -> bytes:
-    """Points and faces in a format, as those that rewrite it know it."""
+def plain_content(
+    shape: Shape, suffix: str, face_arrays: Mapping[str, NDArray[Any]] | None = None
+) -> bytes:
+    """Points and faces in a format, as those that rewrite it know it, with what the faces have in
+    PLY and, as the groups of those that are so, in OBJ."""
     points = [" ".join(map(repr, point)) for point in shape.points.tolist()]
     faces = [] if shape.faces is None else shape.faces.tolist()
     if suffix == ".ply":
-        return shape_ply_bytes(shape, {})
+        return shape_ply_bytes(shape, {}, face_arrays)
     if suffix == ".obj":
         lines = [f"v {point}" for point in points]
         lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
+        for name, values in (face_arrays or {}).items():  # they come last
+            if values.any():
+                lines.insert(len(points) + int(np.argmax(values)), f"g {name}")
     elif suffix == ".off":
         corners = ["3 " + " ".join(map(str, face)) for face in faces]
         lines = ["OFF", f"{len(points)} {len(faces)} 0", *points, *corners]

@@ -30,7 +30,15 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
     if commented is not None:  # more columns would need more names there
         new = replace(new, arrays={})
     coordinates, normals = _places(names, len(table[0]), table)
-    made = [list(table[source]) for source in new.sources.tolist()]
+    stay = {*coordinates, *normals}
+    given = list(zip(*table, strict=True))
+    words = [
+        [column[source] for source in new.sources.tolist()]
+        if number in stay
+        else new.of_words(b"" if names is None else names[number], list(column))
+        for number, column in enumerate(given)
+    ]
+    made = [list(row) for row in zip(*words, strict=True)]
     for row, values in zip(made, row_texts(new.points)):
         for column, value in zip(coordinates, values):
             row[column] = value

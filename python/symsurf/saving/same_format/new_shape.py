@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -41,8 +42,12 @@ class NewShape:
     """RAS or LPS, what the axes now mean; None: what they meant before."""
     arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
     """One row a point."""
+    face_arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
+    """One row a face, where these are none of the file's."""
     is_other: bool = False
     """Whether points and faces are none of the file's: ``old_faces`` is 0 then."""
+    carried: Callable[[NDArray[Any]], NDArray[Any]] | None = None
+    """What the points then have of values (k, ...) of the file's, where these are carried over."""
 
     @property
     def added_faces(self) -> NDArray[np.int64]:
@@ -63,6 +68,23 @@ class NewShape:
 
     def turned(self, normals: NDArray[Any]) -> NDArray[np.float64]:
         return normals if self.turn is None else normals @ self.turn.T
+
+    def of_file(self, name: bytes, values: NDArray[Any]) -> NDArray[Any]:
+        """What the points then have of a column of the file's."""
+        if self.carried is None or (not self.is_other and name.lower() in _OF_POSITIONS):
+            return values[self.sources]
+        if values.dtype.kind in "iu" and name.lower() in _COLOURS:
+            return self.carried(values.astype(float)).round().astype(values.dtype)
+        return self.carried(values)
+
+    def of_words(self, name: bytes, column: list[bytes]) -> list[bytes]:
+        """The same of a column of texts: integers and words those of a point's source."""
+        if self.carried is None:
+            return [column[source] for source in self.sources.tolist()]
+        for kind in (np.int64, np.float64):
+            with suppress(ValueError):
+                return texts(self.of_file(name, np.array(column).astype(kind)))
+        return list(self.of_file(name, np.array(column, object)))
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The arrays, of vectors each component by itself, as "vector_x"."""
@@ -91,10 +113,15 @@ class NewShape:
         return b"SPACE=" + self.space
 
     def lost_arrays(self, format_name: str) -> list[str]:
-        if not self.arrays:
-            return []
-        return [f"{format_name} holds no {', '.join(self.arrays)}; PLY and VTP do"]
+        names = [*self.arrays, *self.face_arrays]
+        return [f"{format_name} holds no {', '.join(names)}; PLY and VTP do"] if names else []
 
+
+# Columns that say where a point is and how its surface lies: they stay with it.
+_OF_POSITIONS = {*b"x y z nx ny nz s t u v texture_u texture_v".split()}
+_COLOURS = {
+    prefix + name for prefix in (b"", b"diffuse_") for name in (b"red", b"green", b"blue", b"alpha")
+}
 
 LOST_NORMALS = "the normals are left out, which are not those of the new shape"
 

@@ -40,6 +40,8 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
         elif is_face and not new.keeps_normals:
             line = _CORNER.sub(lambda corner: corner[1].rstrip(b"/"), line)
         made.append(line)
+    if new.carried is not None and not new.is_other:
+        _carry_colours(made, rests, new)
     if space := new.missing_space(line for line in lines if line.startswith(b"#")):
         made.insert(0, b"# " + space)
     if new.adds_points or len(new.added_faces):
@@ -52,6 +54,15 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
         made.append(b"")
     notices = [LOST_NORMALS] if lost else []
     return Rewritten(b"\n".join(made), notices + new.lost_arrays("OBJ"))
+
+
+def _carry_colours(lines: list[bytes], rests: list[bytes], new: NewShape) -> None:
+    """Gives the vertices what they then have behind their coordinates."""
+    columns = list(zip(*(rest.split() for rest in rests), strict=True))
+    words = [new.of_words(b"colour", list(column)) for column in columns]
+    vertices = (i for i, line in enumerate(lines) if line.split(None, 1)[:1] == [b"v"])
+    for i, *rest in zip(vertices, *words, strict=True):
+        lines[i] = _vertex(lines[i].split()[1:4], b" ".join(rest))
 
 
 def _vertex(coordinates: list[bytes], rest: bytes) -> bytes:

@@ -24,6 +24,7 @@ _TYPES = {
     **dict.fromkeys(("float", "float32"), "f4"),
     **dict.fromkeys(("double", "float64"), "f8"),
 }
+_KINDS = {"f": "f8", "i": "i4", "b": "u1"}
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
 _END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
 _CHANGED = "the file was changed after it was read"
@@ -46,7 +47,7 @@ def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     lines = content[: end.start()].splitlines()
     elements = _elements(lines)
     if not _is_plain(elements, new):
-        plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays)
+        plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays, new.face_arrays)
         return Rewritten(plain, ["nothing of the file is kept but points and faces"])
     encoding = next(line.split()[1] for line in lines if line.split()[:1] == [b"format"])
     if encoding == b"ascii":
@@ -126,6 +127,10 @@ def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list
     ]
     count = b"element vertex %d" % len(new.points)
     if len(new.added_faces):
+        after += [
+            b"property " + _NAMES[values.dtype.kind] + b" " + name.encode()
+            for name, values in new.face_arrays.items()
+        ]
         old = 0 if new.is_other else elements[1].count
         after = [
             b"element face %d" % (old + len(new.added_faces))
@@ -151,7 +156,8 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
         position = end + 1
     kept = _kept(vertices, new)
     names = [words[1] for _, words in kept]
-    made = [[rows[source][i] for i, _ in kept] for source in new.sources.tolist()]
+    columns = [new.of_words(words[1], [row[i] for row in rows]) for i, words in kept]
+    made = [list(row) for row in zip(*columns, strict=True)]
     if new.changes_points:
         _replace(made, names, (b"x", b"y", b"z"), new.points)
     if new.turn is not None and b"nx" in names:
@@ -166,7 +172,14 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
         text += body[position:]
     if len(new.added_faces):
         text = text.rstrip() + b"\n"
-        text += b"".join(b"3 %d %d %d\n" % tuple(face) for face in new.added_faces.tolist())
+        rest = [
+            b"".join(b" " + word for word in row)
+            for row in zip(*map(texts, new.face_arrays.values()))
+        ]
+        text += b"".join(
+            b"3 %d %d %d%s\n" % (*face, rest[f] if rest else b"")
+            for f, face in enumerate(new.added_faces.tolist())
+        )
     return text
 
 
@@ -188,7 +201,7 @@ def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: st
     kept = _kept(vertices, new)
     columns: dict[bytes, NDArray[Any]] = {}
     for i, (_, name) in kept:
-        columns[name] = table[f"{i}"][new.sources]
+        columns[name] = new.of_file(name, table[f"{i}"])
     if new.changes_points:
         for name, values in zip((b"x", b"y", b"z"), new.points.T):
             columns[name] = values.astype(order + "f8")
@@ -197,9 +210,8 @@ def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: st
         normals = np.column_stack([columns[name] for name in names]).astype(float)
         for name, values in zip(names, new.turned(normals).T):
             columns[name] = values.astype(columns[name].dtype)
-    kinds = {"f": "f8", "i": "i4", "b": "u1"}
     for key, values in new.columns().items():
-        columns[key.encode()] = values.astype(order + kinds[values.dtype.kind])
+        columns[key.encode()] = values.astype(order + _KINDS[values.dtype.kind])
     made = np.empty(len(new.points), [(str(i), v.dtype) for i, v in enumerate(columns.values())])
     for i, values in enumerate(columns.values()):
         made[str(i)] = values
@@ -215,6 +227,9 @@ def _binary_faces(elements: list[_Element], new: NewShape, order: str) -> bytes:
         ("count", order + _TYPES[length.decode()]),
         ("corners", order + _TYPES[corner.decode()], (3,)),
     ]
+    row += [(name, order + _KINDS[values.dtype.kind]) for name, values in new.face_arrays.items()]
     made = np.empty(len(new.added_faces), row)
     made["count"], made["corners"] = 3, new.added_faces
+    for name, values in new.face_arrays.items():
+        made[name] = values
     return made.tobytes()

@@ -1,4 +1,4 @@
-#include "operations/mirrored_half.h"
+#include "operations/half.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/math.h"
 #include "cloud/footprint.h"
 
 namespace symsurf {
@@ -32,10 +33,9 @@ class Cut {
                          "; all need one");
     for (Index i = 0; i < points.size(); ++i)
       if (is_kept(i)) kept_[i] = add(points[i], {i, i, i}, Vector3::UnitX(), distances_[i] > near_);
-    if (std::none_of(inside_.begin(), inside_.end(), [](bool inside) { return inside; }))
+    if (std::all_of(on_mirror_.begin(), on_mirror_.end(), [](bool on) { return on; }))
       throw InvalidInput("none of the " + std::to_string(points.size()) + " points lies on the " +
-                         (positive ? "positive" : "negative") +
-                         " side of the mirror; there is nothing to mirror");
+                         (positive ? "positive" : "negative") + " side of the mirror");
   }
 
   // Triangles of what is left of a face.
@@ -62,47 +62,9 @@ class Cut {
     face_sources_.push_back(source);
   }
 
-  MirroredHalf with_image(const Context& context) const {
-    require_two_faces_an_edge();
-    const auto own = static_cast<Index>(rows_.size());
-    std::vector<Index> partners(own);
-    Index count = own;
-    for (Index i = 0; i < own; ++i) partners[i] = inside_[i] ? count++ : i;
-    MirroredHalf whole;
-    whole.points.resize(count, 3);
-    whole.parents.resize(count, 3);
-    whole.shares.resize(count, 3);
-    whole.partners = partners;
-    whole.partners.resize(count);
-    Index without_image = 0;
-    for (Index i = 0; i < own; ++i) {
-      if (i % 4096 == 0) context.check();
-      for (const Index row : {i, partners[i]}) {
-        whole.parents.row(row) << parents_[i][0], parents_[i][1], parents_[i][2];
-        whole.shares.row(row) = shares_[i].transpose();
-      }
-      whole.points.row(i) = rows_[i].transpose();
-      if (!inside_[i]) continue;
-      const Vector3 image = mirror_.reflect(rows_[i]);
-      without_image += !image.allFinite();
-      whole.points.row(partners[i]) = image.transpose();
-      whole.partners[partners[i]] = i;
-    }
-    if (without_image > 0)
-      throw InvalidInput(std::to_string(without_image) + " of the " + std::to_string(own) +
-                         " points on the " + (positive_ ? "positive" : "negative") +
-                         " side have no image over this " + std::string(mirror_.kind()) +
-                         "; all need one");
-    const auto faces = static_cast<Index>(faces_.size());
-    whole.faces.resize(2 * faces, 3);
-    for (Index f = 0; f < faces; ++f) {
-      const auto& [a, b, c] = faces_[f];
-      whole.faces.row(f) << a, b, c;
-      whole.faces.row(faces + f) << partners[a], partners[c], partners[b];
-    }
-    whole.face_sources = face_sources_;
-    whole.face_sources.insert(whole.face_sources.end(), face_sources_.begin(), face_sources_.end());
-    return whole;
+  Half half() {
+    return {rows_of(rows_),   rows_of(faces_),          rows_of(parents_),
+            rows_of(shares_), std::move(face_sources_), std::move(on_mirror_)};
   }
 
  private:
@@ -116,7 +78,7 @@ class Cut {
     rows_.push_back(inside ? x : mirror_.foot(x));
     parents_.push_back(parents);
     shares_.push_back(shares);
-    inside_.push_back(inside);
+    on_mirror_.push_back(!inside);
     return static_cast<Index>(rows_.size()) - 1;
   }
 
@@ -154,20 +116,6 @@ class Cut {
     return found->second;
   }
 
-  void require_two_faces_an_edge() const {
-    std::map<std::pair<Index, Index>, int> edges;
-    for (const Corners& face : faces_)
-      for (int k = 0; k < 3; ++k) {
-        const Index a = face[k], b = face[(k + 1) % 3];
-        if (inside_[a] || inside_[b]) continue;
-        if (++edges[std::minmax(a, b)] < 2) continue;
-        const Vector3 middle = (at(a) + at(b)) / 2;
-        throw InvalidInput("two faces of this side meet in an edge on the mirror at " +
-                           to_string(Value(middle)) +
-                           ", which would have four with their images; one may");
-      }
-  }
-
   PointsView points_;
   const Mirror& mirror_;
   bool positive_;
@@ -177,7 +125,7 @@ class Cut {
   std::vector<Vector3> rows_;
   std::vector<Corners> parents_;
   std::vector<Vector3> shares_;
-  std::vector<bool> inside_;  // not on the mirror
+  std::vector<bool> on_mirror_;
   std::vector<Corners> faces_;
   std::vector<Index> face_sources_;
   std::map<std::pair<Index, Index>, Index> crossings_;
@@ -185,14 +133,84 @@ class Cut {
 
 }  // namespace
 
-MirroredHalf mirrored_half(PointsView points, TrianglesView faces, const Mirror& mirror,
-                           bool positive, const Context& context) {
-  Cut cut(points, mirror, positive, context.stage(0, 0.5));
+Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool positive,
+             const Context& context) {
+  Cut cut(points, mirror, positive, context);
   for (Index f = 0; f < faces.size(); ++f) {
     if (f % 4096 == 0) context.check();
     cut.add(faces[f], f);
   }
-  return cut.with_image(context.stage(0.5, 1));
+  return cut.half();
+}
+
+std::vector<std::pair<Index, Index>> cut_edges(const Half& half) {
+  std::map<std::pair<Index, Index>, std::pair<int, std::pair<Index, Index>>> edges;
+  for (const auto& face : half.faces.rowwise())
+    for (int k = 0; k < 3; ++k) {
+      const Index a = face[k], b = face[(k + 1) % 3];
+      if (!half.on_mirror[a] || !half.on_mirror[b]) continue;
+      auto& [count, edge] = edges[std::minmax(a, b)];
+      edge = {a, b};
+      if (++count < 2) continue;
+      const Vector3 middle = (half.points.row(a) + half.points.row(b)).transpose() / 2;
+      throw InvalidInput("two faces of this side meet in an edge on the mirror at " +
+                         to_string(Value(middle)) +
+                         ", which would have four with their images; one may");
+    }
+  std::vector<std::pair<Index, Index>> found;
+  for (const auto& [key, value] : edges) found.push_back(value.second);
+  return found;
+}
+
+MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context) {
+  cut_edges(half);  // throws where an edge on the mirror has two faces
+  MirroredHalf whole{std::move(half), {}};
+  const Index own = whole.points.rows(), faces = whole.faces.rows();
+  std::vector<Index> partners(own);
+  Index count = own;
+  for (Index i = 0; i < own; ++i) partners[i] = whole.on_mirror[i] ? i : count++;
+  whole.points.conservativeResize(count, 3);
+  whole.parents.conservativeResize(count, 3);
+  whole.shares.conservativeResize(count, 3);
+  whole.on_mirror.resize(count, false);
+  whole.partners = partners;
+  whole.partners.resize(count);
+  const Points images = mirror.reflect(whole.points.topRows(own).eval(), context);
+  Index without_image = 0;
+  for (Index i = 0; i < own; ++i) {
+    if (partners[i] == i) continue;
+    without_image += !images.row(i).allFinite();
+    whole.points.row(partners[i]) = images.row(i);
+    whole.parents.row(partners[i]) = whole.parents.row(i);
+    whole.shares.row(partners[i]) = whole.shares.row(i);
+    whole.partners[partners[i]] = i;
+  }
+  if (without_image > 0)
+    throw InvalidInput(std::to_string(without_image) + " of the " + std::to_string(own) +
+                       " points of the side have no image over this " + std::string(mirror.kind()) +
+                       "; all need one");
+  whole.faces.conservativeResize(2 * faces, 3);
+  for (Index f = 0; f < faces; ++f) {
+    const auto face = whole.faces.row(f);
+    whole.faces.row(faces + f) << partners[face[0]], partners[face[2]], partners[face[1]];
+    whole.face_sources.push_back(whole.face_sources[f]);
+  }
+  return whole;
+}
+
+Eigen::VectorXd partner_array(const MirroredHalf& whole) {
+  Eigen::VectorXd partners(static_cast<Index>(whole.partners.size()));
+  for (Index i = 0; i < partners.size(); ++i) partners[i] = static_cast<double>(whole.partners[i]);
+  return partners;
+}
+
+void set_shape(Half half, OperationResult& result) {
+  for (Index i = 0; i < half.points.rows(); ++i) result.point_sources.push_back(half.parents(i, 0));
+  result.points = std::move(half.points);
+  result.faces = std::move(half.faces);
+  result.face_sources = std::move(half.face_sources);
+  result.point_parents = half.parents;
+  result.point_shares = half.shares;
 }
 
 }  // namespace symsurf

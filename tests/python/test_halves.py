@@ -1,0 +1,191 @@
+"""Half a model, and an exactly symmetric mesh of even triangles: closed, on the mirror, true."""
+
+import numpy as np
+import pytest
+import pyvista
+from command_line import run_here
+
+import symsurf
+
+PLANE = symsurf.Plane((1, 0.2, 0.1), 0.03)
+
+
+def shape_of(mesh):
+    mesh = mesh.triangulate()
+    return symsurf.Shape(np.array(mesh.points, dtype=float), mesh.regular_faces)
+
+
+def ball(nsub=4):
+    return shape_of(pyvista.Icosphere(radius=1, nsub=nsub))
+
+
+def box():
+    return shape_of(pyvista.Cube(x_length=2, y_length=1.4, z_length=1).triangulate().subdivide(3))
+
+
+def torus():
+    mesh = pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.35).clean().triangulate()
+    return shape_of(mesh)
+
+
+def of(made):
+    return made.shape.to_pyvista()
+
+
+def curved(kind):
+    """A mirror through the middle of the ball."""
+    if kind == "sphere":
+        return symsurf.Sphere((3, 0, 0), 3)
+    if kind == "cylinder":
+        return symsurf.Cylinder((2.5, 0, 0), (0, 0, 1), 2.5)
+    if kind == "quadric":
+        matrix = np.diag([0, 0.2, 0.1])
+        return symsurf.Quadric(matrix, (1, 0, 0), 0)
+    return PLANE
+
+
+@pytest.mark.parametrize("make", [ball, box, torus])
+@pytest.mark.parametrize("side", ["positive", "negative"])
+def test_a_closed_surface_is_cut_into_closed_halves(make, side):
+    shape = make()
+    made = symsurf.cut(shape, PLANE, side=side)
+    whole, half = shape.to_pyvista(), of(made)
+    other = of(symsurf.cut(shape, PLANE, side="negative" if side == "positive" else "positive"))
+    assert half.is_manifold
+    assert half.volume + other.volume == pytest.approx(whole.volume, rel=1e-9)
+    sign = 1 if side == "positive" else -1
+    assert (sign * PLANE.signed_distance(made.shape.points) >= -1e-12).all()
+    corners = made.shape.points[made.shape.faces[made.cap]]
+    np.testing.assert_allclose(PLANE.signed_distance(corners.reshape(-1, 3)), 0, atol=1e-12)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outwards = -sign * np.asarray(PLANE.normal)
+    assert (normals @ outwards > -1e-12).all()
+    np.testing.assert_array_equal(made.on_mirror[made.shape.faces[made.cap]], True)
+
+
+def test_curves_within_others_bound_holes():
+    made = symsurf.cut(torus(), symsurf.Plane((0, 0, 1), 0))
+    faces = made.shape.to_pyvista().extract_cells(np.flatnonzero(made.cap))
+    ring = np.pi * (1.35**2 - 0.65**2)
+    assert faces.area == pytest.approx(ring, rel=5e-3)
+    assert made.statistics["open_curves"] == 0
+    assert of(made).is_manifold
+    two = symsurf.cut(torus(), symsurf.Plane((1, 0, 0), 0))
+    discs = two.shape.to_pyvista().extract_cells(np.flatnonzero(two.cap))
+    assert discs.area == pytest.approx(2 * np.pi * 0.35**2, rel=3e-2)
+    assert of(two).is_manifold
+
+
+@pytest.mark.parametrize("kind", ["sphere", "cylinder", "quadric"])
+def test_a_cap_lies_on_a_curved_mirror(kind):
+    mirror = curved(kind)
+    halves = [symsurf.cut(ball(), mirror, side=side) for side in ("positive", "negative")]
+    for made in halves:
+        assert of(made).is_manifold
+        corners = np.unique(made.shape.faces[made.cap])
+        np.testing.assert_allclose(mirror.signed_distance(made.shape.points[corners]), 0, atol=1e-9)
+    whole = ball().to_pyvista().volume
+    assert sum(of(made).volume for made in halves) == pytest.approx(whole, rel=1e-3)
+
+
+def test_an_open_shape_keeps_its_rim_and_says_so():
+    mesh = ball()
+    open_ball = symsurf.Shape(
+        mesh.points, mesh.faces[mesh.points[mesh.faces].mean(axis=1)[:, 2] < 0.5]
+    )
+    made = symsurf.cut(open_ball, symsurf.Plane((1, 0, 0), 0))
+    assert made.statistics["open_curves"] == 1 and made.statistics["cap_faces"] == 0
+    bare = symsurf.cut(mesh, PLANE, capped=False)
+    assert not bare.cap.any() and "open_curves" not in bare.statistics
+    rim = of(bare).extract_feature_edges(
+        boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
+    )
+    np.testing.assert_allclose(PLANE.signed_distance(rim.points), 0, atol=1e-6)
+    cloud = symsurf.cut(mesh.points, PLANE)
+    assert (PLANE.signed_distance(cloud.shape.points) >= -1e-12).all()
+    assert len(cloud.shape.points) == (PLANE.signed_distance(mesh.points) >= -1e-12).sum()
+
+
+@pytest.mark.parametrize("kind", ["plane", "sphere", "cylinder", "quadric"])
+def test_remeshed_triangles_are_even_true_and_exactly_symmetric(kind):
+    mirror, shape = curved(kind), ball()
+    made = symsurf.remesh(shape, mirror, edge_length=0.02)
+    points, faces = made.shape.points, made.shape.faces
+    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
+    np.testing.assert_array_equal(made.partner[made.partner], np.arange(len(points)))
+    np.testing.assert_allclose(mirror.reflect(points), points[made.partner], atol=1e-10)
+    assert of(made).is_manifold
+    edges = np.linalg.norm(points[faces] - points[np.roll(faces, 1, axis=1)], axis=2)
+    target = 0.02 * diagonal
+    even = (edges > 0.5 * target) & (edges < 1.5 * target)
+    assert even.mean() > 0.98
+    kept = mirror.signed_distance(points) >= 0
+
+    assert np.abs(points_distance(points[kept], shape)).max() < 1e-3 * diagonal
+
+
+def points_distance(points, shape):
+    made = pyvista.PolyData(points).compute_implicit_distance(shape.to_pyvista())
+    return made["implicit_distance"]
+
+
+def test_sharp_edges_and_corners_stay():
+    made = symsurf.remesh(box(), symsurf.Plane((1, 0, 0), 0), edge_length=0.05)
+    mesh = of(made)
+    assert mesh.is_manifold
+    assert mesh.volume == pytest.approx(2 * 1.4 * 1, rel=1e-9)
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-0.7, 0.7) for z in (-0.5, 0.5)])
+    nearest = np.linalg.norm(made.shape.points[:, None] - corners, axis=2).min(axis=0)
+    np.testing.assert_allclose(nearest, 0, atol=1e-12)
+
+
+def test_soups_are_welded_first():
+    shape = ball(3)
+    soup = symsurf.Shape(
+        shape.points[shape.faces.ravel()], np.arange(shape.faces.size).reshape(-1, 3)
+    )
+    assert of(symsurf.remesh(soup, PLANE)).is_manifold
+
+
+def test_attributes_go_along(tmp_path):
+    shape = ball(3)
+    mesh = shape.to_pyvista()
+    mesh.point_data["height"] = shape.points[:, 2]
+    mesh.cell_data["patch"] = np.arange(mesh.n_cells)
+    mesh.symmetry.detect("plane")
+    for name in ("remesh", "cut"):
+        made = getattr(mesh.symmetry, name)()
+        assert set(made.cell_data["patch"]) <= set(range(mesh.n_cells))
+        own = made.point_data["height"]
+        assert own.min() < -0.9 and own.max() > 0.9
+    assert made.cell_data["cap"].sum() > 0
+    shape.to_pyvista().save(tmp_path / "ball.ply")
+    done = run_here("cut ball.ply --output out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert b"property uchar cap" in (tmp_path / "out/ball.ply").read_bytes()
+    assert symsurf.read(tmp_path / "out/ball.ply").to_pyvista().is_manifold
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in shape.points.tolist()]
+    lines += ["f " + " ".join(str(c + 1) for c in face) for face in shape.faces]
+    (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")
+    assert run_here("cut ball.obj --output out", tmp_path).returncode == 0
+    text = (tmp_path / "out/ball.obj").read_text()
+    group = text[text.index("\ng cap\n") :].count("\nf ")
+    assert group == symsurf.cut(shape, symsurf.detect(shape)).cap.sum()
+
+
+@pytest.mark.parametrize("name", ["cut", "remesh"])
+def test_a_mirror_beside_the_shape_is_an_error(name):
+    with pytest.raises(symsurf.InvalidInput, match="none of the .* lies on the positive side"):
+        getattr(symsurf, name)(ball(2), symsurf.Plane((1, 0, 0), -2))
+
+
+def test_what_cannot_be_remeshed_is_an_error():
+    shape = ball(2)
+    with pytest.raises(symsurf.InvalidInput, match="remesh needs a mesh"):
+        symsurf.remesh(shape.points, PLANE)
+    fin = symsurf.Shape(
+        np.vstack([shape.points, [(2, 2, 2)]]),
+        np.vstack([shape.faces, [(*shape.faces[0][:2], len(shape.points))]]),
+    )
+    with pytest.raises(symsurf.InvalidInput, match="third at an edge"):
+        symsurf.remesh(fin, symsurf.Plane((0, 0, 1), 3))
