@@ -14,7 +14,9 @@ PLANE = symsurf.Plane((1, 0, 0), 0)
 def ball():
     """Whose vertices the plane maps onto each other."""
     mesh = pyvista.Icosphere(radius=1, nsub=3)
-    return symsurf.Shape(np.array(mesh.points, dtype=float) * (1, 0.8, 1.2), mesh.regular_faces)
+    x, y, z = np.array(mesh.points, dtype=float).T
+    points = np.column_stack([x, 0.8 * y + 0.3 * z**2, 1.2 * z + 0.25 * y**2])
+    return symsurf.Shape(points, mesh.regular_faces)
 
 
 def partner_of(points):

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <queue>
 #include <string>
+#include <utility>
 
 #include "base/math.h"
 #include "mesh/closest_point_on_mesh.h"
@@ -147,29 +149,50 @@ class Remesher {
 
   bool is_kept(Edge e) const { return remeshing_.keeps_boundary && mesh_.is_boundary(e); }
 
+  bool is_beside_longer(Edge e) const {
+    const double own = length(e);
+    for (int side = 0; side < 2; ++side) {
+      const Halfedge h = mesh_.halfedge_handle(e, side);
+      if (mesh_.is_boundary(h)) continue;
+      for (const Halfedge other : {mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)})
+        if (length(mesh_.edge_handle(other)) > own) return true;
+    }
+    return false;
+  }
+
   Vector3 onto_surface(const Vector3& x) const {
     return remeshing_.onto ? remeshing_.onto(x) : (*surface_)(x).point;
   }
 
+  // The longest first (Rivara 1984): others would make needles without end. A longer one beside is
+  // then one that is kept, or stands beside such a one.
   void split_long_edges(const Context& context) {
     const double limit = longest * remeshing_.edge_length;
-    for (std::size_t i = 0; i < mesh_.n_edges(); ++i) {
-      if (i % 4096 == 0) context.check();
-      const Edge e(static_cast<int>(i));
-      if (mesh_.status(e).deleted() || is_kept(e)) continue;
-      while (length(e) > limit) {
-        const Halfedge h = mesh_.halfedge_handle(e, 0);
-        const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
-        const Curve curve = curve_[i];
-        const Vector3 middle = (at(a) + at(b)) / 2;
-        const Vertex v = mesh_.add_vertex({middle.x(), middle.y(), middle.z()});
-        mesh_.split(e, v);
-        freedom_.push_back(curve == none ? free : on_curve);
-        curve_.resize(mesh_.n_edges(), none);
-        curve_[i] = none;
-        for (const Vertex end : {a, b}) curve_[edge_between(v, end).idx()] = curve;
-        // One of the halves keeps the edge's number; the other comes later.
-      }
+    std::priority_queue<std::pair<double, int>> edges;
+    const auto offer = [&](Edge e) {
+      const double own = length(e);
+      if (own > limit && !is_kept(e)) edges.emplace(own, e.idx());
+    };
+    for (const auto e : mesh_.edges()) offer(e);
+    for (std::size_t step = 0; !edges.empty(); ++step) {
+      if (step % 4096 == 0) context.check();
+      const auto [own, number] = edges.top();
+      edges.pop();
+      const Edge e(number);
+      if (length(e) != own || is_beside_longer(e)) continue;
+      const Halfedge h = mesh_.halfedge_handle(e, 0);
+      const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+      const Curve curve = curve_[number];
+      const Vector3 half_way = (at(a) + at(b)) / 2;
+      const Vector3 on = curve == none ? onto_surface(half_way) : (*curves_)(half_way).point;
+      const Vector3 middle = on.allFinite() ? on : half_way;
+      const Vertex v = mesh_.add_vertex({middle.x(), middle.y(), middle.z()});
+      mesh_.split(e, v);
+      freedom_.push_back(curve == none ? free : on_curve);
+      curve_.resize(mesh_.n_edges(), none);
+      curve_[number] = none;
+      for (const Vertex end : {a, b}) curve_[edge_between(v, end).idx()] = curve;
+      for (const auto made : mesh_.ve_range(v)) offer(made);
     }
   }
 

@@ -110,7 +110,8 @@ def _draw_panel(
     object_, rows = finite_object(shape)
     _draw_object(plotter, result, object_, rows, clim)
     vertices, triangles = _mirror_mesh(result, mirror, object_)
-    draw_mirror(plotter, vertices, triangles)
+    if not (isinstance(result, Half) and result.cap.any()):  # it would lie within the cap
+        draw_mirror(plotter, vertices, triangles)
     add_title(plotter, title)
     points = np.asarray(object_.points)
     drawn = np.vstack([points, vertices])
