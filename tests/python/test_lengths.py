@@ -44,7 +44,7 @@ def test_every_length_may_be_in_input_units(function, parameter, points):
         assert made.parameters[parameter] == pytest.approx(0.0625, rel=1e-12)
     with pytest.raises(symsurf.InvalidParameter, match=rf"{parameter} is .*of the diagonal"):
         call(shape, **{parameter: length})
-    too_long = 1.5 * diagonal(shape)
+    too_long = 1.5 * diagonal(25.4 * points)
     with pytest.raises(symsurf.InvalidParameter, match=f"{parameter} is .* input units; allowed"):
         call(shape, absolute=True, **{parameter: too_long})
 

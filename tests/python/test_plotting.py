@@ -215,7 +215,8 @@ def test_pictures_of_operations(name, is_mesh, tmp_path):
     made.plot(tmp_path / "picture.png", camera=(1, -1, 0.5))
     picture = pixels(tmp_path / "picture.png")
     assert 0.1 < (picture != BACKGROUND).any(axis=1).mean() < 0.9
-    assert bluish(picture) > 0.01
+    if name != "cut" or not is_mesh:  # the cap lies within the mirror
+        assert bluish(picture) > 0.01
     edges = picture.reshape(900, 1200, 3)
     assert (edges[:, [0, -1]] == BACKGROUND).all()
 
