@@ -8,13 +8,11 @@
 #include "base/math.h"
 #include "mesh/isotropic_remeshing.h"
 #include "mesh/polygon_triangulation.h"
+#include "mesh/triangle_mesh.h"
 
 namespace symsurf {
 
 namespace {
-
-// Of a cap, as many times those of the half, and some.
-constexpr double most_faces = 1, fewest_faces = 1000;
 
 // The curves of the cut, against the winding of the faces there. Those that do not close are
 // counted and left out.
@@ -62,16 +60,11 @@ Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
   cap.faces.resize(0, 3);
   std::vector<Polygon> curves = closed_curves(half, cap.open);
   std::vector<Index> rim;  // of the cap's points the half's
-  double length = 0;
-  for (Polygon& curve : curves) {
-    Index last = curve.back();
+  for (Polygon& curve : curves)
     for (Index& i : curve) {
-      length += (half.points.row(i) - half.points.row(last)).norm();
-      last = i;
       rim.push_back(i);
       i = static_cast<Index>(rim.size()) - 1;
     }
-  }
   if (rim.empty()) return cap;
   const Points corners = half.points(rim, Eigen::indexing::all);
   Points2 flat = laid_flat(corners, mirror, context.stage(0, 0.2));
@@ -85,10 +78,8 @@ Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
   const Triangles filled = polygon_triangulation(flat, curves);
 
   Remeshing remeshing;
-  // Where the rim is much finer than the shape the cap is not.
-  const double faces = most_faces * static_cast<double>(half.faces.rows()) + fewest_faces;
   remeshing.edge_length =
-      std::max(length / static_cast<double>(rim.size()), edge_length_of(std::abs(area) / 2, faces));
+      edge_length_of(surface_area(half.points, half.faces), static_cast<double>(half.faces.rows()));
   remeshing.keeps_boundary = true;
   remeshing.onto = [&](const Vector3& x) { return mirror.foot(x); };
   const Remeshed made = isotropic_remeshing(corners, filled, remeshing, context.stage(0.2, 1));

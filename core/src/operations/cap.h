@@ -11,7 +11,7 @@ struct Cap {
   Index open = 0;   ///< curves of the cut that do not close: the shape ends at them
 };
 
-/// Triangles about as long as the edges of the cut. Closed curves within others bound holes.
+/// Triangles about as large as the faces of the half. Closed curves within others bound holes.
 Cap cap_of(const Half& half, const Mirror& mirror, const Context& context);
 
 }  // namespace symsurf
