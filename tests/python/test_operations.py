@@ -4,6 +4,7 @@ import ast
 import dataclasses
 import inspect
 import json
+import re
 from importlib import resources
 
 import numpy as np
@@ -183,8 +184,30 @@ def test_what_it_says_of_itself(name, ball):
     for each in ("operation", name, "plane", *result.summary, *result.summary.values()):
         assert each.split("\n")[0] in text
     assert table.count("<tr>") == len(result.summary)
-    for figure in result.statistics:
-        assert figure.removesuffix("_of_diagonal").replace("_", " ") in text
+    for figure, value in result.statistics.items():
+        words = figure.removesuffix("_of_diagonal").replace("_", " ")
+        assert words in text or (figure.startswith("unmatched_") and value == 0)
+
+
+def test_only_what_is_unmatched_is_told(ball, tmp_path):
+    """In Python and by the command line."""
+    shape, _ = ball
+    shape.to_pyvista().save(tmp_path / "ball.ply")
+    whole = symsurf.asymmetry(shape, PLANE)
+    assert whole.statistics["unmatched_share"] == 0 and "unmatched" not in str(whole)
+    part = symsurf.asymmetry(shape, PLANE, max_distance=1e-6)
+    share = part.statistics["unmatched_too_far"]
+    assert 0 < share == part.statistics["unmatched_share"]
+    told = {name: text for name, text in part.summary.items() if "unmatched" in name}
+    expected = f"{int(1000 * share) / 10:g} %"
+    assert told == {"unmatched share": expected, "unmatched too far": expected}
+    for options, names in (
+        ("", []),
+        ("--max-distance 1e-6", ["unmatched_share", "unmatched_too_far"]),
+    ):
+        done = run_here(f"asymmetry ball.ply --method plane {options}", tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert re.findall(r"unmatched\w+", done.stdout) == names
 
 
 def test_lengths_are_told_with_their_share(ball):
