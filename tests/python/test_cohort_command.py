@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 
 import numpy as np
 import pytest
@@ -155,19 +156,52 @@ def test_command_line_of_meshes(tmp_path):
         check_table(tmp_path / "a.csv", expected)
 
 
-def test_report_of_a_cohort(rng, tmp_path):
+def cells(page):
+    """The rows of all tables, without their tags."""
+    rows = re.findall("<tr>(.*?)</tr>", page)
+    return [re.findall("<td[^>]*>(.*?)</td>", row) for row in rows]
+
+
+def test_report_of_landmarks(rng, tmp_path):
+    """A row a landmark: mean and deviation of the asymmetry, an individual's, and its percentile."""
+    pytest.importorskip("trame_vtk")
+    landmarks = sample(rng, da=0.05, fa=0.05, me=0.02)
+    files = write_landmarks(tmp_path, landmarks, NAMES)
+    found = symsurf.cohort(landmarks, PAIRS, permutations=9)
+    lengths = np.linalg.norm(found.asymmetric, axis=2)
+    most = int((lengths**2).sum(axis=1).argmax())
+    other = (most + 1) % 8
+    for options, shown in (("", most), (f"--compare skull_{2 * other}", other)):
+        line = f"cohort {files} --replicates 2 --permutations 9 --report page.html {options}"
+        done = run_here(line, tmp_path)
+        assert done.returncode == 0, done.stderr
+        page = (tmp_path / "page.html").read_text()
+        assert f"skull_{2 * shown} against the others" in page and "<iframe" not in page
+        rows = {row[0]: row[1:] for row in cells(page) if row}
+        assert "individuals x sides: fluctuating asymmetry" in rows
+        first = rows["skull_0"]  # of the table of individuals
+        assert float(first[0]) == pytest.approx(found.size[0].mean(), rel=1e-3)
+        for k, name in enumerate(np.array(NAMES)):
+            own = lengths[:, k]
+            mean = np.linalg.norm(found.asymmetric[:, k].mean(axis=0))
+            apart = found.asymmetric[:, k] - found.asymmetric[:, k].mean(axis=0)
+            expected = [mean, np.sqrt((apart**2).sum() / 7), 0, (own < own[shown]).sum() / 0.07]
+            expected[:2] = np.array(expected[:2]) * found.size.mean()
+            expected[2] = own[shown] * found.size[shown].mean()
+            assert [float(cell) for cell in rows[name]] == pytest.approx(expected, rel=1e-3)
+
+
+def test_report_of_meshes(tmp_path):
+    """In 3D: mean, deviation, and an individual."""
     pytest.importorskip("trame_vtk")
     shapes, faces, _ = bodies()
     for i, shape in enumerate(shapes):
         write_mesh(tmp_path / f"m{i}.off", shape, faces)
-    meshes = " ".join(f"m{i}.off" for i in range(5))
-    files = write_landmarks(tmp_path, sample(rng, fa=0.05, me=0.02), NAMES)
-    for given, has_scene in ((meshes, True), (f"{files} --replicates 2", False)):
-        done = run_here(f"cohort {given} --permutations 9 --report page.html", tmp_path)
-        assert done.returncode == 0, done.stderr
-        page = (tmp_path / "page.html").read_text()
-        assert "Procrustes ANOVA" in page and "fluctuating asymmetry" in page
-        assert ("<iframe" in page) == has_scene
+    files = " ".join(f"m{i}.off" for i in range(5))
+    done = run_here(f"cohort {files} --permutations 9 --report page.html", tmp_path)
+    assert done.returncode == 0, done.stderr
+    page = (tmp_path / "page.html").read_text()
+    assert page.count("<iframe") == 3 and "m4 against the others" in page
 
 
 REFUSED = [
@@ -189,6 +223,10 @@ REFUSED = [
     ("skull_0.csv skull_1.csv --pairs wrong.csv", "wrong.csv: line 1: 'l_z' is no landmark"),
     ("skull_0.csv skull_1.csv --pairs wide.csv", "wide.csv: line 2: there are 3 cells"),
     ("skull_0.csv skull_1.csv --pairs twice.csv", "twice.csv: line 2: one of the two stands twice"),
+    (
+        "skull_0.csv skull_1.csv --compare nobody",
+        "compare is 'nobody', the name of 0 individuals; allowed is that of one: skull_0, skull_1",
+    ),
     ("skull_0.csv skull_1.csv --table anova.txt", "allowed is the suffix .csv"),
     ("skull_0.csv skull_1.csv --table skull_0.csv", "is an input or another output"),
     ("skull_0.csv skull_1.csv --individuals a.csv --table a.csv", "is an input or another output"),

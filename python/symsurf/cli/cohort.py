@@ -5,7 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from .._core import InvalidParameter
 from ..base.plain import plain
@@ -59,7 +62,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--report",
         type=Path,
         metavar="FILE",
-        help="write a page, HTML, with the ANOVA, the individuals and, of meshes, the mean asymmetry",
+        help="write a page, HTML, with the ANOVA, mean and deviation of the asymmetry at each landmark or, "
+        "of meshes, in 3D, and the individuals",
+    )
+    parser.add_argument(
+        "--compare",
+        metavar="NAME",
+        help="the individual that the report compares with the others, by its name in the table of "
+        "individuals; default: the most asymmetric",
     )
     parser.add_argument(
         "--permutations", default="999", metavar="N", help="for p; default %(default)s"
@@ -76,23 +86,38 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(replicates, int):
         raise InvalidParameter(f"replicates is {replicates!r}; allowed are whole numbers from 1 on")
     specimens, pairs, source = _paired(arguments)
+    labels = specimens.labels[::replicates]
+    compared = None if arguments.compare is None else _index_of(arguments.compare, labels)
     found = cohort(
         in_replicates(specimens.points, replicates),
         pairs,
         permutations=whole(arguments.permutations),
         seed=whole(arguments.seed),
     )
-    individuals = individual_rows(found, specimens.labels[::replicates])
+    individuals = individual_rows(found, labels)
+    if compared is None:
+        compared = int(np.linalg.norm(found.asymmetric, axis=(1, 2)).argmax())
     contents = {
         "table": lambda: table_bytes(anova_rows(found)),
         "individuals": lambda: table_bytes(individuals),
-        "report": lambda: cohort_page(arguments.report.stem, found, individuals, specimens.faces),
+        "report": lambda: cohort_page(
+            arguments.report.stem, found, individuals, compared, specimens.names, specimens.faces
+        ),
     }
     made = {path: contents[name]() for name, path in outputs.items()}
     for path, content in made.items():
         write_whole(path, content)
     print(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
     return 0
+
+
+def _index_of(name: str, labels: Sequence[str]) -> int:
+    if labels.count(name) != 1:
+        raise InvalidParameter(
+            f"compare is {name!r}, the name of {labels.count(name)} individuals; allowed is that of "
+            f"one: {listed(labels)}"
+        )
+    return labels.index(name)
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
