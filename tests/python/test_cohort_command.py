@@ -245,7 +245,7 @@ def test_command_line_refuses(line, reason, rng, tmp_path):
     (tmp_path / "wrong.csv").write_text("l_z,r_z\n")
     (tmp_path / "wide.csv").write_text("l_a,r_a\nl_a,r_a,n1\n")
     (tmp_path / "twice.csv").write_text("l_a,r_a\nl_a,r_b\n")
-    for i, faces in enumerate([[[0, 1, 2]], [[0, 2, 1]]]):
+    for i, faces in enumerate(np.array([[[0, 1, 2]], [[0, 2, 1]]])):
         write_mesh(tmp_path / f"m{i}.off", rng.normal(size=(3, 3)), faces)
     before = sorted(tmp_path.iterdir())
     options = "" if "--table" in line else " --table table.csv"

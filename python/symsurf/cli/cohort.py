@@ -86,10 +86,11 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(replicates, int):
         raise InvalidParameter(f"replicates is {replicates!r}; allowed are whole numbers from 1 on")
     specimens, pairs, source = _paired(arguments)
+    configurations = in_replicates(specimens.points, replicates)
     labels = specimens.labels[::replicates]
     compared = None if arguments.compare is None else _index_of(arguments.compare, labels)
     found = cohort(
-        in_replicates(specimens.points, replicates),
+        configurations,
         pairs,
         permutations=whole(arguments.permutations),
         seed=whole(arguments.seed),

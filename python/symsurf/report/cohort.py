@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.lengths import diagonal_of
 from ..morphometrics import Cohort, plane_of_landmarks
 from ..plotting.drawing import (
     COLOURS,
@@ -30,6 +31,7 @@ _SOURCES = {
     "individual_side": "individuals x sides: fluctuating asymmetry",
     "error": "replicates: error of measurement",
 }
+_COLOURED = 90  # percentile: what is drawn light, nine of ten faces have
 _HIGH = 95  # percentile: the usual end of a reference range of one tail
 _MOST_ROWS = 100  # of a table of landmarks; more are drawn, of clouds without faces
 _UNIT = "Lengths are in the unit of the files, at the mean centroid size: half of what the sides differ by."
@@ -128,16 +130,17 @@ def _scenes(cohort: Cohort, compared: int, faces: NDArray[np.int64] | None) -> l
     mirror = plane_of_landmarks(cohort.mean, cohort.pairs, cohort.midline)
     mean = Shape(size * cohort.mean, faces)
     own = Shape(size * (cohort.symmetric[compared] + cohort.asymmetric[compared]), faces)
-    maps = [(mean, values, "asymmetry", None) for values in _lengths(cohort)]
-    maps.append((own, cohort.percentile(compared), "percentile", 100))
+    share = diagonal_of(mean.points) / 100
+    maps = [
+        (mean, values, "asymmetry", (0, share * range_of(values / share)))
+        for values in _lengths(cohort)
+    ]
+    maps.append((own, cohort.percentile(compared), "percentile", (_COLOURED, 100)))
     scenes = []
-    for shape, values, title, end in maps:
+    for shape, values, title, clim in maps:
         plotter = new_plotter(off_screen=True)
         prepare(plotter)
-        object_ = shape.to_pyvista()
-        share = object_.length / 100
-        end = end or share * range_of(values / share)
-        draw_scalars(plotter, object_, values, title, (0, end), colour_map(COLOURS))
+        draw_scalars(plotter, shape.to_pyvista(), values, title, clim, colour_map(COLOURS))
         place_camera(plotter, None, mirror, shape.points, shape.points, "")
         scenes.append(viewer_page(plotter))
         plotter.close()
