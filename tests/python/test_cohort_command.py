@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from cohort_samples import COUNT, PAIRS, ROWS, moved, sample
 from command_line import run_here
-from symmetric_shapes import mirrored_surface
+from symmetric_shapes import mirrored_surface, random_rotation
 
 import symsurf
+from symsurf.morphometrics.triangulation import mirrored_vertices
 
 
 def write_landmarks(folder, landmarks, names):
@@ -119,18 +120,27 @@ def test_command_line_finds_pairs_by_the_mirror(rng, tmp_path):
     check_table(tmp_path / "a.csv", symsurf.cohort(made, pairs, permutations=9).table)
 
 
-def bodies(count=5):
-    """Meshes of one topology, of which one side is bent more and more."""
+def ball(turn=None):
+    """A lumpy one, mirrored over x = 0; turned, its triangulation is not."""
     pyvista = pytest.importorskip("pyvista")
-    ball = pyvista.Icosphere(radius=1, nsub=3)
-    x = np.asarray(ball.points, dtype=float)
+    sphere = pyvista.Icosphere(radius=1, nsub=3)
+    x = np.asarray(sphere.points, dtype=float) @ (np.eye(3) if turn is None else turn)
     x = x * (1 + 0.2 * np.sin(2 * x[:, [1]] + 1) + 0.1 * x[:, [2]] ** 3) * (1, 1.3, 0.8)
+    return x, sphere.regular_faces
+
+
+def bent_more_and_more(x, count=5):
+    """(count, k, 3), of which one side is bent."""
     right = np.maximum(x[:, :1], 0)
     shapes = [
         x * (1 + 0.02 * i * np.array([0, 1, 0.5])) + 0.01 * i * right * (0, 1, 0)
         for i in range(count)
     ]
-    return np.array(shapes), ball.regular_faces, x
+    return np.array(shapes)
+
+
+def partners(x):
+    return np.array([np.linalg.norm(x - row * (-1, 1, 1), axis=1).argmin() for row in x])
 
 
 def write_mesh(path, points, faces):
@@ -141,11 +151,11 @@ def write_mesh(path, points, faces):
 
 
 def test_command_line_of_meshes(tmp_path):
-    shapes, faces, x = bodies()
+    x, faces = ball()
+    shapes = bent_more_and_more(x)
     for i, shape in enumerate(shapes):
         write_mesh(tmp_path / f"m{i}.off", shape, faces)
-    partner = [np.linalg.norm(x - row * (-1, 1, 1), axis=1).argmin() for row in x]
-    pairs = [(a, b) for a, b in enumerate(partner) if a < b]
+    pairs = [(a, b) for a, b in enumerate(partners(x)) if a < b]
     (tmp_path / "pairs.csv").write_text("\n".join(f"{a},{b}" for a, b in pairs))
     files = " ".join(f"m{i}.off" for i in range(5))
     expected = symsurf.cohort(shapes, pairs, permutations=9).table
@@ -154,6 +164,41 @@ def test_command_line_of_meshes(tmp_path):
         assert done.returncode == 0, done.stderr
         assert f"{len(pairs)}, {len(x) - 2 * len(pairs)} on the midline" in done.stdout
         check_table(tmp_path / "a.csv", expected)
+
+
+def test_meshes_whose_triangulation_is_not_symmetric(rng, tmp_path):
+    """Compared are the points of the surface that mirror each other, as of known ones."""
+    x, faces = ball(random_rotation(rng))
+    for i, shape in enumerate(bent_more_and_more(x)):
+        write_mesh(tmp_path / f"m{i}.off", shape, faces)
+    files = " ".join(f"m{i}.off" for i in range(5))
+    done = run_here(f"cohort {files} --permutations 0 --json", tmp_path)
+    assert done.returncode == 0, done.stderr
+    record = json.loads(done.stdout)
+    right = x[x[:, 0] > 0]
+    assert record["pairs"] == pytest.approx(len(right), rel=0.1)
+    known = bent_more_and_more(np.concatenate([right, right * (-1, 1, 1)]))
+    pairs = np.arange(2 * len(right)).reshape(2, -1).T
+    for name, row in symsurf.cohort(known, pairs, permutations=0).table.items():
+        assert record["table"][name]["ss"] == pytest.approx(row["ss"], rel=0.1)
+
+
+def test_mirrored_vertices(rng):
+    """Found from a guess of which every third is wrong; none where one edge is another."""
+    x, faces = ball()
+    partner = partners(x)
+    assert (partner[partner] == np.arange(len(x))).all()
+    guess = np.where(rng.random(len(x)) < 1 / 3, rng.permutation(partner), partner)
+    np.testing.assert_array_equal(mirrored_vertices(faces, guess), partner)
+    a, b, c = faces[0]
+    (other,) = (i for i, face in enumerate(faces) if i and {a, b} <= set(face))
+    (d,) = set(faces[other]) - {a, b}
+    flipped = faces.copy()
+    flipped[0], flipped[other] = (a, d, c), (d, b, c)
+    assert mirrored_vertices(flipped, partner) is None
+    apart = np.concatenate([faces, faces + len(x)])  # two that hang not together
+    both = np.concatenate([partner + len(x), partner])
+    np.testing.assert_array_equal(mirrored_vertices(apart, both), both)
 
 
 def cells(page):
@@ -194,8 +239,8 @@ def test_report_of_landmarks(rng, tmp_path):
 def test_report_of_meshes(tmp_path):
     """In 3D: mean, deviation, and an individual."""
     pytest.importorskip("trame_vtk")
-    shapes, faces, _ = bodies()
-    for i, shape in enumerate(shapes):
+    x, faces = ball()
+    for i, shape in enumerate(bent_more_and_more(x)):
         write_mesh(tmp_path / f"m{i}.off", shape, faces)
     files = " ".join(f"m{i}.off" for i in range(5))
     done = run_here(f"cohort {files} --permutations 9 --report page.html", tmp_path)

@@ -307,9 +307,9 @@ def test_a_command_for_each(name, ball, tmp_path):
     np.testing.assert_array_equal(made.points, in_python.shape.points)
     assert set(record["statistics"]) == set(in_python.statistics)
     told = run_here(f"{name} ball.ply", tmp_path)
-    for name, value in record["statistics"].items():
-        is_told = name.removesuffix("_of_diagonal") in told.stdout
-        assert is_told or (name.startswith("unmatched_") and value == 0)
+    for figure, value in record["statistics"].items():
+        is_told = figure.removesuffix("_of_diagonal") in told.stdout
+        assert is_told or (figure.startswith("unmatched_") and value == 0)
 
 
 def test_commands_name_what_is_wrong(ball, tmp_path):

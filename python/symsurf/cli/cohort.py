@@ -17,7 +17,7 @@ from ..morphometrics.checks import listed
 from ..morphometrics.specimens import (
     Specimens,
     in_replicates,
-    pairs_in,
+    paired,
     read_pairs,
     read_specimens,
     without_odd,
@@ -139,7 +139,7 @@ def _paired(arguments: argparse.Namespace) -> tuple[Specimens, LandmarkPairs, st
     specimens = read_specimens(arguments.files)
     if arguments.pairs is not None:
         return specimens, read_pairs(arguments.pairs, specimens), str(arguments.pairs)
-    pairs, source = pairs_in(specimens)
+    specimens, pairs, source = paired(specimens)
     rest, own = without_odd(specimens, pairs)
     if len(pairs.odd):
         odd = listed(pairs.odd_names or pairs.odd)

@@ -21,6 +21,7 @@ from ..shapes import Landmarks, Shape
 from .checks import listed
 from .pairing import LandmarkPairs, landmark_pairs, side_of
 from .procrustes import superimposed
+from .triangulation import mirrored_vertices
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,24 +135,48 @@ def in_replicates(points: NDArray[np.float64], replicates: int) -> NDArray[np.fl
     return points.reshape(-1, replicates, *points.shape[1:])
 
 
-def pairs_in(specimens: Specimens) -> tuple[LandmarkPairs, str]:
-    """The pairs of specimens, and what told them: their names; else the mirror of their mean, which
-    is found, with the homologous vertices of a mesh. Raises InvalidInput without a mirror."""
+def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
+    """The specimens, their pairs, and what told them: names; else the mirror of the mean, which is
+    found, with the homologous points of a mesh. Where its triangulation is not symmetric, these
+    points and the vertices of one side become the landmarks. Raises InvalidInput without a mirror."""
     if any(map(side_of, specimens.names)):
-        return landmark_pairs(specimens.points[0], None, specimens.names), "names"
+        return specimens, landmark_pairs(specimens.points[0], None, specimens.names), "names"
     mean = superimposed(specimens.points).mean(axis=0)
     if mean.shape[1] == 2:
         raise InvalidInput("flat landmarks whose names tell no pairs; allowed is with pairs given")
     mirror, warning = found_mirror(detect(mean, faces=specimens.faces))
     source = f"the mirror found{', of which ' + warning if warning else ''}"
     if specimens.faces is None:
-        return landmark_pairs(mean, mirror, specimens.names or None), source
-    found = operate(
-        "correspondences", Shape(mean, specimens.faces), mirror, pairing="homologous",
-        one_to_one=True,
-    )  # fmt: skip
+        return specimens, landmark_pairs(mean, mirror, specimens.names or None), source
+    shape = Shape(mean, specimens.faces)
+    found = operate("correspondences", shape, mirror, pairing="homologous")
     assert isinstance(found, Correspondences)
-    return _of_vertices(found.index), source
+    vertices = mirrored_vertices(specimens.faces, found.index)
+    if vertices is not None:
+        return specimens, _of_vertices(vertices), f"{source} and the triangulation"
+    return *_of_one_side(specimens, found, mirror.signed_distance(mean) > 0), source
+
+
+def _of_one_side(
+    specimens: Specimens, found: Correspondences, is_side: NDArray[np.bool_]
+) -> tuple[Specimens, LandmarkPairs]:
+    """The vertices of a side, and behind them their homologous points on the other one."""
+    assert specimens.faces is not None and found.face is not None and found.weights is not None
+    side = np.flatnonzero(is_side & (found.face >= 0))
+    count = len(side)
+    corners = specimens.points[:, specimens.faces[found.face[side]]]
+    others = np.einsum("pc,npcx->npx", found.weights[side], corners)
+    index_of = np.full(len(is_side), -1)
+    index_of[side] = np.arange(count)
+    faces = index_of[specimens.faces]
+    faces = faces[(faces >= 0).all(axis=1)]
+    pairs = np.arange(2 * count).reshape(2, -1).T
+    none = np.empty(0, np.int64)
+    return Specimens(
+        specimens.labels,
+        np.concatenate([specimens.points[:, side], others], axis=1),
+        faces=np.concatenate([faces, faces[:, ::-1] + count]),
+    ), LandmarkPairs(pairs, none, none)
 
 
 def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:
@@ -205,11 +230,6 @@ def without_odd(specimens: Specimens, found: LandmarkPairs) -> tuple[Specimens, 
     kept = np.sort(np.concatenate([found.pairs.ravel(), found.midline]))
     if not len(found.odd):
         return specimens, found
-    if specimens.faces is not None:
-        raise InvalidInput(
-            f"{len(found.odd)} of {specimens.points.shape[1]} vertices have no counterpart; allowed is "
-            "with a table of pairs"
-        )
     index_of = np.full(specimens.points.shape[1], -1)
     index_of[kept] = np.arange(len(kept))
     names = tuple(specimens.names[i] for i in kept) if specimens.names else ()
