@@ -102,7 +102,13 @@ def run(arguments: argparse.Namespace) -> int:
         "table": lambda: table_bytes(anova_rows(found)),
         "individuals": lambda: table_bytes(individuals),
         "report": lambda: cohort_page(
-            arguments.report.stem, found, individuals, compared, specimens.names, specimens.faces
+            arguments.report.stem,
+            found,
+            individuals,
+            compared,
+            source,
+            specimens.names,
+            specimens.faces,
         ),
     }
     made = {path: contents[name]() for name, path in outputs.items()}

@@ -154,6 +154,7 @@ def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
     vertices = mirrored_vertices(specimens.faces, found.index)
     if vertices is not None:
         return specimens, _of_vertices(vertices), f"{source} and the triangulation"
+    source += "; the triangulation is not symmetric: directional asymmetry has the error of registration in it"
     return *_of_one_side(specimens, found, mirror.signed_distance(mean) > 0), source
 
 

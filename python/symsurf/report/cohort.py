@@ -42,6 +42,7 @@ def cohort_page(
     cohort: Cohort,
     individuals: Sequence[Mapping[str, Any]],
     compared: int,
+    source: str,
     names: Sequence[str] = (),
     faces: NDArray[np.int64] | None = None,
 ) -> bytes:
@@ -50,6 +51,7 @@ def cohort_page(
     Args:
         individuals: a row each, with its name in "individual"; of them "asymmetry" is drawn.
         compared: the one that is compared with the others, by its row.
+        source: what told the pairs.
         names: of the landmarks.
         faces: (m, 3) of meshes.
     """
@@ -59,7 +61,8 @@ def cohort_page(
     name = individuals[compared]["individual"]
     parts = [
         paragraph(
-            f"{len(individuals)} individuals, {cohort.size.shape[1]} replicates, {count} landmarks."
+            f"{len(individuals)} individuals, {cohort.size.shape[1]} replicates, {count} landmarks, "
+            f"{len(cohort.midline)} of them on the midline, by {source}."
         ),
         heading("Procrustes ANOVA"),
         table(_anova_rows(cohort), ("", "SS", "df", "MS", "F", "p")),
