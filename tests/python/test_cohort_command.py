@@ -59,6 +59,19 @@ def test_command_line(rng, tmp_path):
     np.testing.assert_allclose([float(row["asymmetry"]) for row in rows], lengths)
 
 
+def test_replicates_that_are_none_are_told(rng, tmp_path):
+    """Nothing of those one behind the other, all of those that are apart."""
+    write_landmarks(tmp_path, sample(rng, n=4, fa=0.05, me=0.01), NAMES)
+    for order, told in (
+        ([0, 1, 2, 3, 4, 5, 6, 7], ""),
+        ([0, 2, 4, 6, 1, 3, 5, 7], "8 of 8 specimens"),
+    ):
+        files = " ".join(f"skull_{i}.csv" for i in order)
+        done = run_here(f"cohort {files} --replicates 2 --permutations 0", tmp_path)
+        assert done.returncode == 0 and told in done.stderr and bool(told) == bool(done.stderr)
+        assert ("as skull_0 to skull_1" in done.stderr) == bool(told)
+
+
 @pytest.mark.parametrize("names", [NAMES, PLAIN])
 def test_command_line_with_pairs(names, rng, tmp_path):
     landmarks = sample(rng, fa=0.05, me=0.02)
@@ -270,6 +283,11 @@ REFUSED = [
     ("skull_0.csv skull_1.csv --permutations many", "permutations is 'many'"),
     ("skull_0.csv none.csv", "none.csv: there is no such file"),
     (
+        "skull_0.csv skull_1.csv copy.csv",
+        "copy.csv: its points are those of skull_0.csv, to the last",
+    ),
+    ("clash_0.csv clash_1.csv", "clash_0: 'l_a' and 'L_A' both say left of the same landmark"),
+    (
         "skull_0.csv lacks.csv",
         "lacks.csv: its landmarks are not those of skull_0.csv: it lacks l_a",
     ),
@@ -300,6 +318,11 @@ def test_command_line_refuses(line, reason, rng, tmp_path):
     (tmp_path / "lacks.csv").write_text(text.replace(f"{row}\n", ""))
     (tmp_path / "alike.csv").write_text(text.replace("l_b", "l_a"))
     (tmp_path / "missing.csv").write_text(text.replace(row, "l_a,,,"))
+    header, *rows = text.splitlines()
+    (tmp_path / "copy.csv").write_text("\n".join([header, *reversed(rows)]))
+    for i in (0, 1):
+        own = (tmp_path / f"skull_{i}.csv").read_text()
+        (tmp_path / f"clash_{i}.csv").write_text(own.replace("r_a", "L_A"))
     (tmp_path / "wrong.csv").write_text("l_z,r_z\n")
     (tmp_path / "wide.csv").write_text("l_a,r_a\nl_a,r_a,n1\n")
     (tmp_path / "twice.csv").write_text("l_a,r_a\nl_a,r_b\n")

@@ -16,6 +16,7 @@ from ..morphometrics import Cohort, LandmarkPairs, cohort
 from ..morphometrics.checks import listed
 from ..morphometrics.specimens import (
     Specimens,
+    closer_to_others,
     in_replicates,
     paired,
     read_pairs,
@@ -87,6 +88,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise InvalidParameter(f"replicates is {replicates!r}; allowed are whole numbers from 1 on")
     specimens, pairs, source = _paired(arguments)
     configurations = in_replicates(specimens.points, replicates)
+    if replicates > 1:
+        _warn_of_strangers(specimens, replicates)
     labels = specimens.labels[::replicates]
     compared = None if arguments.compare is None else _index_of(arguments.compare, labels)
     found = cohort(
@@ -116,6 +119,18 @@ def run(arguments: argparse.Namespace) -> int:
         write_whole(path, content)
     print(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
     return 0
+
+
+def _warn_of_strangers(specimens: Specimens, replicates: int) -> None:
+    others = closer_to_others(specimens, replicates)
+    if others:
+        one, other = others[0]
+        print(
+            f"symsurf: {len(others)} of {len(specimens.labels)} specimens are closer to one of another "
+            f"individual than to their own replicates, as {one} to {other}: replicates are {replicates} "
+            "files one behind the other",
+            file=sys.stderr,
+        )
 
 
 def _index_of(name: str, labels: Sequence[str]) -> int:

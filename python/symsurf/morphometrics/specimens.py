@@ -42,14 +42,27 @@ def read_specimens(files: Sequence[Path]) -> Specimens:
     """Those of files of landmarks, in the order of the first's names, or of meshes of one topology.
 
     Raises InvalidInput, naming the file: whatever ``read_landmarks`` and ``read`` raise; landmarks
-    that one lacks or that others lack; other faces.
+    that one lacks or that others lack; other faces; two that are the same to the last digit.
     """
     given = [each for file in files for each in _read(file)]
     first = given[0]
     points = [_in_order(each, first) for each in given]
+    _require_distinct(given, points)
     names = first.shape.names if isinstance(first.shape, Landmarks) else ()
     faces = first.shape.faces if isinstance(first.shape, Shape) else None
     return Specimens([each.label for each in given], np.array(points), names, faces)
+
+
+def _require_distinct(given: Sequence[_Read], points: Sequence[NDArray[np.float64]]) -> None:
+    known: dict[bytes, str] = {}
+    for each, own in zip(given, points, strict=True):
+        content = own.tobytes()
+        if content in known:
+            raise InvalidInput(
+                f"{each.where}: its points are those of {known[content]}, to the last digit; allowed is "
+                "each specimen once, and measurements of their own as replicates"
+            )
+        known[content] = each.where
 
 
 class _Read(NamedTuple):
@@ -135,12 +148,28 @@ def in_replicates(points: NDArray[np.float64], replicates: int) -> NDArray[np.fl
     return points.reshape(-1, replicates, *points.shape[1:])
 
 
+def closer_to_others(specimens: Specimens, replicates: int) -> list[tuple[str, str]]:
+    """Of the specimens whose shape is closest to one of another individual, not to a replicate of
+    their own, the names of both."""
+    shapes = superimposed(specimens.points).reshape(len(specimens.points), -1)
+    products = shapes @ shapes.T
+    gaps = np.diag(products)[:, None] + np.diag(products) - 2 * products
+    np.fill_diagonal(gaps, np.inf)
+    closest = gaps.argmin(axis=1)
+    individual = np.arange(len(shapes)) // replicates
+    others = np.flatnonzero(individual[closest] != individual)
+    return [(specimens.labels[i], specimens.labels[closest[i]]) for i in others]
+
+
 def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
     """The specimens, their pairs, and what told them: names; else the mirror of the mean, which is
     found, with the homologous points of a mesh. Where its triangulation is not symmetric, these
     points and the vertices of one side become the landmarks. Raises InvalidInput without a mirror."""
     if any(map(side_of, specimens.names)):
-        return specimens, landmark_pairs(specimens.points[0], None, specimens.names), "names"
+        try:
+            return specimens, landmark_pairs(specimens.points[0], None, specimens.names), "names"
+        except InvalidInput as error:
+            raise InvalidInput(f"{specimens.labels[0]}: {error}") from error
     mean = superimposed(specimens.points).mean(axis=0)
     if mean.shape[1] == 2:
         raise InvalidInput("flat landmarks whose names tell no pairs; allowed is with pairs given")
