@@ -252,13 +252,13 @@ def test_report_of_landmarks(rng, tmp_path):
         assert "individuals x sides: fluctuating asymmetry" in rows
         first = rows["skull_0"]  # of the table of individuals
         assert float(first[0]) == pytest.approx(found.size[0].mean(), rel=1e-3)
-        for k, name in enumerate(np.array(NAMES)):
-            own = lengths[:, k]
-            mean = np.linalg.norm(found.asymmetric[:, k].mean(axis=0))
-            apart = found.asymmetric[:, k] - found.asymmetric[:, k].mean(axis=0)
-            expected = [mean, np.sqrt((apart**2).sum() / 7), 0, (own < own[shown]).sum() / 0.07]
-            expected[:2] = np.array(expected[:2]) * found.size.mean()
-            expected[2] = own[shown] * found.size[shown].mean()
+        size = found.size.mean()
+        for k, name in enumerate(NAMES):
+            own, vectors = lengths[:, k], found.asymmetric[:, k]
+            mean = np.linalg.norm(vectors.mean(axis=0))
+            deviation = np.sqrt(((vectors - vectors.mean(axis=0)) ** 2).sum() / 7)
+            percentile = 100 * (own < own[shown]).sum() / 7
+            expected = [size * mean, size * deviation, size * own[shown], percentile]
             assert [float(cell) for cell in rows[name]] == pytest.approx(expected, rel=1e-3)
 
 

@@ -43,7 +43,8 @@ def _grown(
     third: dict[tuple[int, int], int], images: dict[int, int], start: tuple[int, int]
 ) -> dict[int, int]:
     """The map from an edge on, over all faces that hang together; empty where it does not hold."""
-    edges, seen = [start, start[::-1]], set()
+    edges = [start, start[::-1]]
+    seen: set[tuple[int, int]] = set()
     while edges:
         a, b = edges.pop()
         if (a, b) in seen:

@@ -99,7 +99,7 @@ def _maps(scenes: Sequence[str], cohort: Cohort, compared: int, name: str) -> li
 
 
 def _table(cohort: Cohort, compared: int, name: str, names: Sequence[str]) -> list[str]:
-    own = cohort.size[compared].mean() * cohort.magnitude[compared]
+    own = cohort.size.mean() * cohort.magnitude[compared]
     values = (*_lengths(cohort), own, cohort.percentile(compared))
     rows = [
         [label, *(_shown(float(value)) for value in row)]
