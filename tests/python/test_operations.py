@@ -4,6 +4,7 @@ import ast
 import dataclasses
 import inspect
 import json
+import re
 from importlib import resources
 
 import numpy as np
@@ -192,8 +193,29 @@ def test_what_it_says_of_itself(name, ball):
     for each in ("operation", name, "plane", *result.summary, *result.summary.values()):
         assert each.split("\n")[0] in text
     assert table.count("<tr>") == len(result.summary)
-    for figure in result.statistics:
-        assert figure.removesuffix("_of_diagonal").replace("_", " ") in text
+    for figure, value in result.statistics.items():
+        words = figure.removesuffix("_of_diagonal").replace("_", " ")
+        assert words in text or (figure.startswith("unmatched_") and value == 0)
+
+
+def test_only_what_is_unmatched_is_told(ball, tmp_path):
+    """In Python and by the command line."""
+    shape, _ = ball
+    whole = symsurf.asymmetry(shape, PLANE)
+    assert whole.statistics["unmatched_share"] == 0 and "unmatched" not in str(whole)
+    part = symsurf.asymmetry(shape, PLANE, max_distance=1e-6)
+    share = part.statistics["unmatched_too_far"]
+    assert 0 < share == part.statistics["unmatched_share"]
+    told = {name: text for name, text in part.summary.items() if "unmatched" in name}
+    expected = f"{int(1000 * share) / 10:g} %"
+    assert told == {"unmatched share": expected, "unmatched too far": expected}
+    np.savetxt(tmp_path / "blob.xyz", lopsided_blob(2000))
+    line = "asymmetry blob.xyz --method plane"
+    record = json.loads(run_here(f"{line} --json", tmp_path).stdout)
+    shares = {name: share for name, share in record["statistics"].items() if "unmatched" in name}
+    assert shares["unmatched_without_image"] == 0 < shares["unmatched_too_far"]
+    printed = re.findall(r"unmatched\w+", run_here(line, tmp_path).stdout)
+    assert set(printed) == {name for name, share in shares.items() if share > 0}
 
 
 def test_lengths_are_told_with_their_share(ball):
@@ -295,7 +317,9 @@ def test_a_command_for_each(name, ball, tmp_path):
     np.testing.assert_array_equal(made.points, in_python.shape.points)
     assert set(record["statistics"]) == set(in_python.statistics)
     told = run_here(f"{name} ball.ply", tmp_path)
-    assert all(name.removesuffix("_of_diagonal") in told.stdout for name in record["statistics"])
+    for figure, value in record["statistics"].items():
+        is_told = figure.removesuffix("_of_diagonal") in told.stdout
+        assert is_told or (figure.startswith("unmatched_") and value == 0)
 
 
 def test_commands_name_what_is_wrong(ball, tmp_path):

@@ -83,6 +83,7 @@ def test_page_of_a_mesh(ball, browse, tmp_path):
         row = f'<td>{name}</td><td class="number">{value:.6g}</td>'
         assert f'{row}<td class="number">{100 * share:.4g}</td>' in text
     assert ">mm</th>" in text and "<svg" in text and "max distance" in text
+    assert "unmatched" not in text  # none is
     picture = browse(page)
     frame = picture[150:750]
     # The mirror's blue rim; the dent, red; the bulge it leaves on the other side, blue or red.

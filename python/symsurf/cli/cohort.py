@@ -5,7 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from .._core import InvalidParameter
 from ..base.plain import plain
@@ -13,8 +16,9 @@ from ..morphometrics import Cohort, LandmarkPairs, cohort
 from ..morphometrics.checks import listed
 from ..morphometrics.specimens import (
     Specimens,
+    closer_to_others,
     in_replicates,
-    pairs_in,
+    paired,
     read_pairs,
     read_specimens,
     without_odd,
@@ -59,7 +63,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--report",
         type=Path,
         metavar="FILE",
-        help="write a page, HTML, with the ANOVA, the individuals and, of meshes, the mean asymmetry",
+        help="write a page, HTML, with the ANOVA, mean and deviation of the asymmetry at each landmark or, "
+        "of meshes, in 3D, and the individuals",
+    )
+    parser.add_argument(
+        "--compare",
+        metavar="NAME",
+        help="the individual that the report compares with the others, by its name in the table of "
+        "individuals; default: the most asymmetric",
     )
     parser.add_argument(
         "--permutations", default="999", metavar="N", help="for p; default %(default)s"
@@ -76,23 +87,59 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(replicates, int):
         raise InvalidParameter(f"replicates is {replicates!r}; allowed are whole numbers from 1 on")
     specimens, pairs, source = _paired(arguments)
+    configurations = in_replicates(specimens.points, replicates)
+    if replicates > 1:
+        _warn_of_strangers(specimens, replicates)
+    labels = specimens.labels[::replicates]
+    compared = None if arguments.compare is None else _index_of(arguments.compare, labels)
     found = cohort(
-        in_replicates(specimens.points, replicates),
+        configurations,
         pairs,
         permutations=whole(arguments.permutations),
         seed=whole(arguments.seed),
     )
-    individuals = individual_rows(found, specimens.labels[::replicates])
+    individuals = individual_rows(found, labels)
+    if compared is None:
+        compared = int(np.linalg.norm(found.asymmetric, axis=(1, 2)).argmax())
     contents = {
         "table": lambda: table_bytes(anova_rows(found)),
         "individuals": lambda: table_bytes(individuals),
-        "report": lambda: cohort_page(arguments.report.stem, found, individuals, specimens.faces),
+        "report": lambda: cohort_page(
+            arguments.report.stem,
+            found,
+            individuals,
+            compared,
+            source,
+            specimens.names,
+            specimens.faces,
+        ),
     }
     made = {path: contents[name]() for name, path in outputs.items()}
     for path, content in made.items():
         write_whole(path, content)
     print(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
     return 0
+
+
+def _warn_of_strangers(specimens: Specimens, replicates: int) -> None:
+    others = closer_to_others(specimens, replicates)
+    if others:
+        one, other = others[0]
+        print(
+            f"symsurf: {len(others)} of {len(specimens.labels)} specimens are closer to one of another "
+            f"individual than to their own replicates, as {one} to {other}: replicates are {replicates} "
+            "files one behind the other",
+            file=sys.stderr,
+        )
+
+
+def _index_of(name: str, labels: Sequence[str]) -> int:
+    if labels.count(name) != 1:
+        raise InvalidParameter(
+            f"compare is {name!r}, the name of {labels.count(name)} individuals; allowed is that of "
+            f"one: {listed(labels)}"
+        )
+    return labels.index(name)
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
@@ -113,7 +160,7 @@ def _paired(arguments: argparse.Namespace) -> tuple[Specimens, LandmarkPairs, st
     specimens = read_specimens(arguments.files)
     if arguments.pairs is not None:
         return specimens, read_pairs(arguments.pairs, specimens), str(arguments.pairs)
-    pairs, source = pairs_in(specimens)
+    specimens, pairs, source = paired(specimens)
     rest, own = without_odd(specimens, pairs)
     if len(pairs.odd):
         odd = listed(pairs.odd_names or pairs.odd)

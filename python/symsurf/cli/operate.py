@@ -8,6 +8,7 @@ from pathlib import Path
 
 from .._core import Operation
 from ..batching.file_task import Record
+from ..results.summary import figures
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
 from .batch_options import (
@@ -85,11 +86,7 @@ def _text(record: Record) -> str:
         f"  verdict             {record['verdict']}: {record['reason']}",
         f"  mirror              {kind}, score {record['score']:.3f}",
     ]
-    statistics = record["statistics"]
-    for name, value in statistics.items():
-        share = statistics.get(f"{name}_of_diagonal")
-        if name.endswith("_of_diagonal"):
-            continue
+    for name, value, share in figures(record["statistics"]):
         if share is not None:
             lines.append(f"  {name:<19} {value:<12.6g} {100 * share:.4g} % of the diagonal")
         elif isinstance(value, list) and isinstance(value[0], list):

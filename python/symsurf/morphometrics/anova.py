@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 TERMS = ("individual", "side", "individual_side")
 ERROR = "error"
+_ROUNDING = 1e-28  # of a sum of squares, an observation: the square of 1e-14 at unit centroid size
 _TIE = 1e-9  # of F: the same permutation of the data, summed in another order
 Sides = NDArray[np.float64]
 """(2, n, r, q): q shape variables of each side of n individuals with r replicates."""
@@ -48,7 +49,8 @@ def anova(
     _, n, r, _ = sides.shape
     df = {"individual": n - 1, "side": 1, "individual_side": n - 1, ERROR: 2 * n * (r - 1)}
     compact = _compact(sides)
-    sums = _sums_of_squares(compact)
+    least = _ROUNDING * 2 * n * r
+    sums = {name: ss if ss > least else 0.0 for name, ss in _sums_of_squares(compact).items()}
     f = _ratios(sums, df)
     p = _p_values(compact, f, df, permutations, np.random.default_rng(seed))
     return {
@@ -120,6 +122,7 @@ def _p_values(
     for name in TERMS:  # of the model with the terms before it
         residuals[name] = left
         left = left - parts[name]
+    f = {name: ratio for name, ratio in f.items() if not np.isnan(ratio)}
     as_large = dict.fromkeys(f, 1)
     for _ in range(permutations):
         order = generator.permutation(sides[..., 0].size)

@@ -53,6 +53,12 @@ class Cohort(Summarised):
         return self.asymmetric - self.directional
 
     @property
+    def deviation(self) -> NDArray[np.float64]:
+        """(k,) the standard deviation of ``asymmetric`` about ``directional``."""
+        squares = (self.fluctuating**2).sum(axis=(0, 2))
+        return np.sqrt(squares / (len(self.asymmetric) - 1))
+
+    @property
     def magnitude(self) -> NDArray[np.float64]:
         """(individuals, k) lengths of ``asymmetric``."""
         return np.linalg.norm(self.asymmetric, axis=2)

@@ -21,6 +21,7 @@ from ..shapes import Landmarks, Shape
 from .checks import listed
 from .pairing import LandmarkPairs, landmark_pairs, side_of
 from .procrustes import superimposed
+from .triangulation import mirrored_vertices
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +42,27 @@ def read_specimens(files: Sequence[Path]) -> Specimens:
     """Those of files of landmarks, in the order of the first's names, or of meshes of one topology.
 
     Raises InvalidInput, naming the file: whatever ``read_landmarks`` and ``read`` raise; landmarks
-    that one lacks or that others lack; other faces.
+    that one lacks or that others lack; other faces; two that are the same to the last digit.
     """
     given = [each for file in files for each in _read(file)]
     first = given[0]
     points = [_in_order(each, first) for each in given]
+    _require_distinct(given, points)
     names = first.shape.names if isinstance(first.shape, Landmarks) else ()
     faces = first.shape.faces if isinstance(first.shape, Shape) else None
     return Specimens([each.label for each in given], np.array(points), names, faces)
+
+
+def _require_distinct(given: Sequence[_Read], points: Sequence[NDArray[np.float64]]) -> None:
+    known: dict[bytes, str] = {}
+    for each, own in zip(given, points, strict=True):
+        content = own.tobytes()
+        if content in known:
+            raise InvalidInput(
+                f"{each.where}: its points are those of {known[content]}, to the last digit; allowed is "
+                "each specimen once, and measurements of their own as replicates"
+            )
+        known[content] = each.where
 
 
 class _Read(NamedTuple):
@@ -134,24 +148,65 @@ def in_replicates(points: NDArray[np.float64], replicates: int) -> NDArray[np.fl
     return points.reshape(-1, replicates, *points.shape[1:])
 
 
-def pairs_in(specimens: Specimens) -> tuple[LandmarkPairs, str]:
-    """The pairs of specimens, and what told them: their names; else the mirror of their mean, which
-    is found, with the homologous vertices of a mesh. Raises InvalidInput without a mirror."""
+def closer_to_others(specimens: Specimens, replicates: int) -> list[tuple[str, str]]:
+    """Of the specimens whose shape is closest to one of another individual, not to a replicate of
+    their own, the names of both."""
+    shapes = superimposed(specimens.points).reshape(len(specimens.points), -1)
+    products = shapes @ shapes.T
+    gaps = np.diag(products)[:, None] + np.diag(products) - 2 * products
+    np.fill_diagonal(gaps, np.inf)
+    closest = gaps.argmin(axis=1)
+    individual = np.arange(len(shapes)) // replicates
+    others = np.flatnonzero(individual[closest] != individual)
+    return [(specimens.labels[i], specimens.labels[closest[i]]) for i in others]
+
+
+def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
+    """The specimens, their pairs, and what told them: names; else the mirror of the mean, which is
+    found, with the homologous points of a mesh. Where its triangulation is not symmetric, these
+    points and the vertices of one side become the landmarks. Raises InvalidInput without a mirror."""
     if any(map(side_of, specimens.names)):
-        return landmark_pairs(specimens.points[0], None, specimens.names), "names"
+        try:
+            return specimens, landmark_pairs(specimens.points[0], None, specimens.names), "names"
+        except InvalidInput as error:
+            raise InvalidInput(f"{specimens.labels[0]}: {error}") from error
     mean = superimposed(specimens.points).mean(axis=0)
     if mean.shape[1] == 2:
         raise InvalidInput("flat landmarks whose names tell no pairs; allowed is with pairs given")
     mirror, warning = found_mirror(detect(mean, faces=specimens.faces))
     source = f"the mirror found{', of which ' + warning if warning else ''}"
     if specimens.faces is None:
-        return landmark_pairs(mean, mirror, specimens.names or None), source
-    found = operate(
-        "correspondences", Shape(mean, specimens.faces), mirror, pairing="homologous",
-        one_to_one=True,
-    )  # fmt: skip
+        return specimens, landmark_pairs(mean, mirror, specimens.names or None), source
+    shape = Shape(mean, specimens.faces)
+    found = operate("correspondences", shape, mirror, pairing="homologous")
     assert isinstance(found, Correspondences)
-    return _of_vertices(found.index), source
+    vertices = mirrored_vertices(specimens.faces, found.index)
+    if vertices is not None:
+        return specimens, _of_vertices(vertices), f"{source} and the triangulation"
+    source += "; the triangulation is not symmetric: directional asymmetry has the error of registration in it"
+    return *_of_one_side(specimens, found, mirror.signed_distance(mean) > 0), source
+
+
+def _of_one_side(
+    specimens: Specimens, found: Correspondences, is_side: NDArray[np.bool_]
+) -> tuple[Specimens, LandmarkPairs]:
+    """The vertices of a side, and behind them their homologous points on the other one."""
+    assert specimens.faces is not None and found.face is not None and found.weights is not None
+    side = np.flatnonzero(is_side & (found.face >= 0))
+    count = len(side)
+    corners = specimens.points[:, specimens.faces[found.face[side]]]
+    others = np.einsum("pc,npcx->npx", found.weights[side], corners)
+    index_of = np.full(len(is_side), -1)
+    index_of[side] = np.arange(count)
+    faces = index_of[specimens.faces]
+    faces = faces[(faces >= 0).all(axis=1)]
+    pairs = np.arange(2 * count).reshape(2, -1).T
+    none = np.empty(0, np.int64)
+    return Specimens(
+        specimens.labels,
+        np.concatenate([specimens.points[:, side], others], axis=1),
+        faces=np.concatenate([faces, faces[:, ::-1] + count]),
+    ), LandmarkPairs(pairs, none, none)
 
 
 def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:
@@ -205,11 +260,6 @@ def without_odd(specimens: Specimens, found: LandmarkPairs) -> tuple[Specimens, 
     kept = np.sort(np.concatenate([found.pairs.ravel(), found.midline]))
     if not len(found.odd):
         return specimens, found
-    if specimens.faces is not None:
-        raise InvalidInput(
-            f"{len(found.odd)} of {specimens.points.shape[1]} vertices have no counterpart; allowed is "
-            "with a table of pairs"
-        )
     index_of = np.full(specimens.points.shape[1], -1)
     index_of[kept] = np.arange(len(kept))
     names = tuple(specimens.names[i] for i in kept) if specimens.names else ()

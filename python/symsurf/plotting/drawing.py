@@ -136,7 +136,7 @@ def draw_scalars(
         scalar_bar_args={
             "title": title,
             "color": INK,
-            "fmt": "%.2g",
+            "fmt": "%.2g" if clim[1] < 99.5 else "%.0f",  # 100, not 1e+02
             "n_labels": 2,
             "width": 0.4,
             "height": 0.06,

@@ -11,6 +11,7 @@ import numpy as np
 from ..plotting.drawing import new_plotter
 from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
+from ..results.summary import figures
 from .charts import histogram
 from .html import columns, framed, heading, page, paragraph, table
 from .scene import scripts_of, viewer_page
@@ -76,14 +77,10 @@ def _mirror_rows(record: Record) -> list[tuple[str, str]]:
 
 
 def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
-    statistics: dict[str, Any] = record["statistics"]
-    rows = []
-    for name, value in statistics.items():
-        if not name.endswith("_of_diagonal"):
-            share = statistics.get(f"{name}_of_diagonal")
-            percent = "" if share is None else f"{100 * share:.4g}"
-            rows.append((name.replace("_", " "), _text(value), percent))
-    return rows
+    return [
+        (name.replace("_", " "), _text(value), "" if share is None else f"{100 * share:.4g}")
+        for name, value, share in figures(record["statistics"])
+    ]
 
 
 def _parameter_rows(record: Record) -> list[tuple[str, str]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, Mirror, Plane, operations
 from ..shapes import Shape
 from .outputs import plot, save
-from .summary import Summarised, value_text
+from .summary import Summarised, figures, value_text
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -107,13 +107,10 @@ class OperationResult(Summarised):
     @property
     def summary(self) -> dict[str, str]:
         """What it says in a few words, by name: operation, mirror and statistics, lengths with their
-        share of the diagonal."""
+        share of the diagonal, unmatched shares where there are some."""
         words = {"operation": self.operation, "mirror": self.mirror.kind}
-        for name, value in self.statistics.items():
-            if not name.endswith("_of_diagonal"):
-                words[name.replace("_", " ")] = value_text(
-                    name, value, self.statistics.get(f"{name}_of_diagonal")
-                )
+        for name, value, share in figures(self.statistics):
+            words[name.replace("_", " ")] = value_text(name, value, share)
         return words
 
     def __repr__(self) -> str:

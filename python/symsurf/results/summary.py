@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
 import numpy as np
+
+_OF_DIAGONAL = "_of_diagonal"
+_UNMATCHED = "unmatched_"
 
 
 class Summarised:
@@ -33,11 +37,19 @@ def percent(share: float) -> str:
     return f"{int(1000 * share) / 10:g} %"
 
 
+def figures(statistics: Mapping[str, Any]) -> Iterator[tuple[str, Any, float | None]]:
+    """What is printed of statistics: name, value, and of a length its share of the diagonal. Reasons for
+    which no point is unmatched are left out."""
+    for name, value in statistics.items():
+        if not name.endswith(_OF_DIAGONAL) and (not name.startswith(_UNMATCHED) or value):
+            yield name, value, statistics.get(name + _OF_DIAGONAL)
+
+
 def value_text(name: str, value: Any, of_diagonal: float | None = None) -> str:
     """A reported figure in words; of a length with its share of the diagonal."""
     if of_diagonal is not None:
         return f"{value:.4g} ({100 * of_diagonal:.3g} % of the diagonal)"
-    if name.endswith("_share"):
+    if name.endswith("_share") or name.startswith(_UNMATCHED):
         return percent(value)
     if isinstance(value, np.ndarray):
         rows = ["  ".join(f"{number:.6g}" for number in row) for row in np.atleast_2d(value)]
