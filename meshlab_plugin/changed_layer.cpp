@@ -34,21 +34,33 @@ void add_vertices(CMeshO& mesh, const std::vector<Index>& sources, std::size_t f
   }
 }
 
-// What lies between the corners of the source that a point lies between, where it has them.
+using TexCoords = std::vector<CFaceO::TexCoordType>;
+
+// Of each vertex those of one of its corners.
+TexCoords texture_of_vertices(const CMeshO& mesh) {
+  TexCoords found(mesh.vert.size());
+  for (auto face = mesh.face.rbegin(); face != mesh.face.rend(); ++face)
+    for (int corner = 0; corner < 3; ++corner)
+      found[vcg::tri::Index(mesh, face->cV(corner))] = face->cWT(corner);
+  return found;
+}
+
+// What lies between the corners that a point lies between: those of the source, or of other faces.
 CFaceO::TexCoordType texture_between(const CMeshO& mesh, const CFaceO& source,
-                                     const OperationResult& result, Index point) {
+                                     const TexCoords& of_vertices, const OperationResult& result,
+                                     Index point) {
   CFaceO::TexCoordType found;
   const bool is_other = result.is_other_shape();
   vcg::Point2f sum(0, 0);
   for (Index k = 0; k < (is_other ? result.point_parents.cols() : 1); ++k) {
     const Index parent = is_other ? result.point_parents(point, k) : result.point_sources[point];
     const double share = is_other ? result.point_shares(point, k) : 1;
+    CFaceO::TexCoordType own = of_vertices[static_cast<std::size_t>(parent)];
     for (int corner = 0; corner < 3; ++corner)
-      if (static_cast<Index>(vcg::tri::Index(mesh, source.cV(corner))) == parent) {
-        found.n() = source.cWT(corner).n();
-        sum += source.cWT(corner).P() * static_cast<float>(share);
-        break;
-      }
+      if (static_cast<Index>(vcg::tri::Index(mesh, source.cV(corner))) == parent)
+        own = source.cWT(corner);
+    if (k == 0) found.n() = own.n();
+    sum += own.P() * static_cast<float>(share);
   }
   found.P() = sum;
   return found;
@@ -60,6 +72,7 @@ void add_faces(CMeshO& mesh, const OperationResult& result, std::size_t from,
                std::size_t first_vertex) {
   const std::size_t first = mesh.face.size(), count = result.face_sources.size();
   const bool has_wedges = vcg::tri::HasPerWedgeTexCoord(mesh);
+  const TexCoords of_vertices = has_wedges ? texture_of_vertices(mesh) : TexCoords();
   if (count > from) Allocator::AddFaces(mesh, count - from);
   for (std::size_t i = first; i < mesh.face.size(); ++i) {
     const std::size_t row = i - first + from;
@@ -70,7 +83,7 @@ void add_faces(CMeshO& mesh, const OperationResult& result, std::size_t from,
     for (int corner = 0; corner < 3; ++corner) {
       const Index point = result.faces(made, corner);
       face.V(corner) = &mesh.vert[static_cast<std::size_t>(point) + first_vertex];
-      if (has_wedges) face.WT(corner) = texture_between(mesh, source, result, point);
+      if (has_wedges) face.WT(corner) = texture_between(mesh, source, of_vertices, result, point);
     }
     face.ClearAllF();  // edges inside a polygon, which the added faces are not part of
     copy_attributes(mesh.face_attr, i, result.face_sources[row]);

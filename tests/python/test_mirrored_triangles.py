@@ -99,9 +99,47 @@ def test_ply_files_keep_the_properties_of_their_vertices(mesh, tmp_path, binary)
     assert "nothing of the file is kept" not in done.stderr
 
 
+def test_obj_files_keep_textures_materials_and_groups(mesh, tmp_path):
+    """Faces of two materials that meet in a seam, along which texture coordinates jump."""
+    points, faces = np.array(mesh.points, dtype=float), mesh.regular_faces
+    is_upper = points[faces].mean(axis=1)[:, 2] > 0
+    texture = np.vstack([texture_at(points), texture_at(points) + 10])
+    lines = ["# an egg", "mtllib egg.mtl", *(f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist())]
+    lines += [f"vt {u!r} {v!r}" for u, v in texture.tolist()]
+    for upper, material in ((False, "white"), (True, "yolk")):
+        lines += [f"usemtl {material}", f"g {material}"]
+        shift = len(points) * upper
+        for face in faces[is_upper == upper] + 1:
+            lines.append("f " + " ".join(f"{corner}/{corner + shift}" for corner in face))
+    (tmp_path / "egg.obj").write_text("\n".join(lines) + "\n")
+    done = run_here("symmetrize egg.obj --output out --triangles mirrored --method plane", tmp_path)
+    assert done.returncode == 0 and "nothing of the file" not in done.stderr, done.stderr
+    text = (tmp_path / "out/egg.obj").read_text()
+    assert text.startswith("# an egg\nmtllib egg.mtl\nv ")
+    made = symsurf.read(tmp_path / "out/egg.obj")
+    given = [line.split() for line in text.splitlines()]
+    coordinates = np.array([words[1:] for words in given if words[:1] == ["vt"]], float)
+    corners, of_material, material = [], [], ""
+    for words in given:
+        material = words[1] if words[:1] == ["usemtl"] else material
+        if words[:1] == ["f"]:
+            corners.append([int(word.split("/")[1]) - 1 for word in words[1:]])
+            of_material.append(material)
+    assert len(corners) == len(made.faces)
+    mirror = symsurf.detect(tmp_path / "egg.obj", "plane").mirror
+    partner = symsurf.symmetrize(symsurf.read(tmp_path / "egg.obj"), mirror, triangles="mirrored")
+    own = made.points.copy()
+    is_image = np.arange(len(own)) > partner.partner  # the images come last
+    own[is_image] = mirror.reflect(own[is_image])
+    shift = 10 * (np.array(of_material) == "yolk")[:, None, None]
+    # The average of both sides has moved, what its points lie between has not.
+    np.testing.assert_allclose(coordinates[corners], texture_at(own)[made.faces] + shift, atol=1e-3)
+
+
 def test_other_files_say_what_they_lose(mesh, tmp_path):
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in mesh.points.tolist()]
     lines += ["f " + " ".join(str(c + 1) for c in face) for face in mesh.regular_faces]
+    lines[0] += " \\\n"  # a statement over two lines
     (tmp_path / "egg.obj").write_text("\n".join(["o egg", *lines]) + "\n")
     done = run_here("symmetrize egg.obj --output out --triangles mirrored", tmp_path)
     assert done.returncode == 0, done.stderr

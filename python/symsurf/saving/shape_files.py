@@ -14,7 +14,7 @@ from ..reading import read
 from ..results import OperationResult
 from ..shapes import Shape
 from . import SHAPE_FORMATS, write_whole
-from .same_format import REWRITERS, NewShape, Rewritten, plain_content
+from .same_format import OTHER_REWRITERS, REWRITERS, NewShape, Rewritten, plain_content
 
 _SINGLE = 1e-6  # of the largest coordinate: what binary STL rounds to
 
@@ -83,6 +83,10 @@ def save_shape(
         arrays=result.arrays,
         face_arrays=result.face_arrays,
         is_other=result.is_other,
+        given_faces=shape.faces,
+        face_sources=result.face_sources,
+        parents=result.parents,
+        shares=result.shares,
         carried=None if result.parents is None else result.carried,
     )
     given = source.read_bytes() if content is None else content
@@ -97,10 +101,11 @@ def save_shape(
 def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
     """The file with the new shape in it; None where that is written in another way than those that
     are kept, so that what was made would not be read as that shape."""
-    if new.is_other and suffix != ".ply":
+    rewriters = OTHER_REWRITERS if new.is_other else REWRITERS
+    if suffix not in rewriters:
         return None
     try:
-        rewritten = REWRITERS[suffix](content, new)
+        rewritten = rewriters[suffix](content, new)
         made = read(BytesIO(rewritten.content), suffix[1:])
     except (InvalidInput, ValueError, LookupError):
         return None

@@ -14,11 +14,12 @@ from ..ply_format import shape_ply_bytes
 from .columns import rewritten_columns
 from .new_shape import NewShape, Rewritten
 from .obj import rewritten_obj
+from .obj_faces import other_obj
 from .off import rewritten_off
 from .ply import rewritten_ply
 from .stl import rewritten_stl
 
-__all__ = ["REWRITERS", "NewShape", "Rewritten", "plain_content"]
+__all__ = ["OTHER_REWRITERS", "REWRITERS", "NewShape", "Rewritten", "plain_content"]
 
 REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".ply": rewritten_ply,
@@ -30,6 +31,13 @@ REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".txt": rewritten_columns,
     ".fcsv": rewritten_columns,
 }
+
+
+OTHER_REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
+    ".ply": rewritten_ply,
+    ".obj": other_obj,
+}
+"""Of those, the ones that take points and faces none of which are the file's."""
 
 
 def plain_content(

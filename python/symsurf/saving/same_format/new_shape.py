@@ -46,6 +46,14 @@ class NewShape:
     """One row a face, where these are none of the file's."""
     is_other: bool = False
     """Whether points and faces are none of the file's: ``old_faces`` is 0 then."""
+    given_faces: NDArray[np.int64] | None = None
+    """The file's as triangles, where the new ones are others."""
+    face_sources: NDArray[np.int64] | None = None
+    """(m,) which of those each is a part or an image of."""
+    parents: NDArray[np.int64] | None = None
+    """(n, k) the file's points that each lies between, where it is another."""
+    shares: NDArray[np.float64] | None = None
+    """(n, k) what each of these counts."""
     carried: Callable[[NDArray[Any]], NDArray[Any]] | None = None
     """What the points then have of values (k, ...) of the file's, where these are carried over."""
 
