@@ -17,8 +17,8 @@ constexpr double paired = 0.2;  // an image and a point
 constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
-// Spheres of a start that are refined: true ones are among the first; of a lattice 16 are. Of points
-// in crowds, between which any chords fit a sphere, thousands would be.
+// Spheres of a start that are refined: true ones are among the first; of a lattice 16 are. Of
+// points in crowds, between which any chords fit a sphere, thousands would be.
 constexpr int most_refined = 100;
 constexpr double exact = 1e-3;
 constexpr double near = 1.1;
