@@ -254,5 +254,14 @@ TEST(SymmetryEmbedding, FollowsSymmetriesThatAreNotExact) {
   }
 }
 
+TEST(SymmetryEmbedding, IsFiniteForAnyPower) {
+  AnalysisOptions options;
+  options.parameters["power"] = 30.0;
+  const AnalysisResult found = analyse("symmetry_embedding", RandomCloud(0).box(1500), options);
+  EXPECT_TRUE(found.arrays.at("embedding").allFinite());
+  options.parameters["power"] = 100.0;  // of 1500, which is infinite
+  EXPECT_THROW(analyse("symmetry_embedding", RandomCloud(0).box(1500), options), InvalidParameter);
+}
+
 }  // namespace
 }  // namespace symsurf

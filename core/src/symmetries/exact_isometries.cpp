@@ -27,8 +27,8 @@ class Search {
         radii_(points_.colwise().norm()),
         diameter_(2 * radii_.maxCoeff()) {}
 
-  std::vector<Matrix3> run(std::size_t most, const Context& context) const {
-    std::vector<Matrix3> found{Matrix3::Identity()};
+  std::vector<Matrix3> run(std::size_t most, const Context& context) {
+    std::vector<Matrix3> found{Matrix3::Identity()}, fitted = found;
     const auto [a, b] = base_points();
     if (a < 0 || b < 0) return found;
     const std::vector<Index> as_a = as_far_as(a), as_b = as_far_as(b);
@@ -44,7 +44,10 @@ class Search {
         const Matrix3 onto = basis_of(points_.col(as_a[i]), points_.col(j));
         for (const double side : {1.0, -1.0}) {
           Matrix3 map = onto * Vector3(1, 1, side).asDiagonal() * base.transpose();
-          if (fit(map, guessed) && fit(map, exactly) && !is_known(found, map)) found.push_back(map);
+          // In crowds of points any pair stands for the same map.
+          if (is_known(fitted, map) || !fit(map, guessed)) continue;
+          fitted.push_back(map);
+          if (fit(map, exactly) && !is_known(found, map)) found.push_back(map);
         }
         if (found.size() >= most) return found;
       }
@@ -91,12 +94,19 @@ class Search {
   }
 
   // The isometry nearest to where a map sends the points, if all come near to points of the set.
-  bool fit(Matrix3& map, double reach) const {
+  bool fit(Matrix3& map, double reach) {
     const double limit = reach * reach * diameter_ * diameter_;
+    const auto partner_of = [&](Index i) {
+      return tree_.nearest(centre_ + map * points_.col(i), limit).index;
+    };
+    if (partner_of(hardest_) < 0) return false;
     Matrix3 products = Matrix3::Zero();
     for (Index i = 0; i < points_.cols(); ++i) {
-      const Index partner = tree_.nearest(centre_ + map * points_.col(i), limit).index;
-      if (partner < 0) return false;
+      const Index partner = partner_of(i);
+      if (partner < 0) {
+        hardest_ = i;
+        return false;
+      }
       products += points_.col(partner) * points_.col(i).transpose();
     }
     map = nearest_orthogonal(products, map.determinant());
@@ -113,6 +123,7 @@ class Search {
   Eigen::Matrix<double, 3, Eigen::Dynamic> points_;  // from it
   Eigen::VectorXd radii_;
   double diameter_;
+  Index hardest_ = 0;  // that the last map took nowhere: others may miss there, too
 };
 
 }  // namespace

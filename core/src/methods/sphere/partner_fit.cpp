@@ -17,6 +17,9 @@ constexpr double paired = 0.2;  // an image and a point
 constexpr double by_chance = 0.12, least_excess = 0.25;
 constexpr Index sampled = 24, near_image = 12;
 constexpr Index glance = 40, look = 800;
+// Spheres of a start that are refined: true ones are among the first; of a lattice 16 are. Of
+// points in crowds, between which any chords fit a sphere, thousands would be.
+constexpr int most_refined = 100;
 constexpr double exact = 1e-3;
 constexpr double near = 1.1;
 constexpr double flatter = 0.2;  // a sphere may become, or bend more; curvature times diagonal
@@ -35,6 +38,7 @@ SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
   const double k = start.shape.curvature;
   const double least_curved = std::min({k / 2, 2 * k, k - flatter});
   const double most_curved = std::max({k / 2, 2 * k, k + flatter});
+  int refined_count = 0;
   const auto consider = [&](const Chord& a, const Chord& b) {
     const Vector3 apart = a.middle - b.middle, turned = a.along - b.along;
     const double curvature = apart.dot(turned) / apart.squaredNorm();
@@ -44,6 +48,7 @@ SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
     const UnitSphere sphere{a.middle, a.along, curvature};
     const double least = std::max(least_excess, best.partnered);
     if (beyond_chance(paired_share(sphere, glance)) < least) return;
+    ++refined_count;
     const UnitSphere fitted = refined(sphere, look);
     const double excess = beyond_chance(paired_share(fitted, look));
     if (excess < least) return;
@@ -54,7 +59,7 @@ SphereCandidate PartnerFit::operator()(const SphereCandidate& start) const {
     for (std::size_t k = 0; k < i; ++k) {
       for (const Chord& a : all[i])
         for (const Chord& b : all[k]) consider(a, b);
-      if (best.partnered > 0) return best;
+      if (best.partnered > 0 || refined_count >= most_refined) return best;
     }
   return best;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/eigenvectors.h"
+#include "base/math.h"
 #include "base/parallel.h"
 
 namespace symsurf {
@@ -73,13 +74,21 @@ Eigen::VectorXd dissimilarities(PointsView points, const Nodes& nodes, Index to,
     // The same deviation the other way; of exact maps the inverses are among them.
     if (!symmetries.exact) images.emplace_back(symmetry.deviation, symmetry.map.inverse() * x);
   }
+  std::stable_sort(images.begin(), images.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   Eigen::VectorXd least(nodes.size());
   parallel_for(context, nodes.size(), 4096, [&](Index begin, Index end) {
     for (Index a = begin; a < end; ++a) {
       const Vector3 y = points[nodes.point[a]];
-      least[a] = INFINITY;
-      for (const auto& [deviation, image] : images)
-        least[a] = std::min(least[a], deviation + (image - y).norm() / symmetries.diameter);
+      least[a] = infinity;
+      for (const auto& [deviation, image] : images) {
+        // Roots are taken of what is less only: few of the many pairs are.
+        const double reach = (least[a] - deviation) * symmetries.diameter,
+                     squared = (image - y).squaredNorm();
+        if (reach <= 0) break;
+        if (squared < reach * reach)
+          least[a] = deviation + std::sqrt(squared) / symmetries.diameter;
+      }
     }
   });
   return least;

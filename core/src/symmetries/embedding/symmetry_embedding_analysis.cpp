@@ -114,8 +114,9 @@ AnalysisImplementation symmetry_embedding_analysis() {
       Parameter::real("localization", 0.02, 1e-4, 1, "",
                       "Deviation at which points hardly correspond: sigma of the correspondence "
                       "exp(-(S / sigma)^2)."),
+      // An eigenvalue is at most the number of points, up to 2^30: the 30th power is finite.
       Parameter::real(
-          "power", 1, 0, 100, "",
+          "power", 1, 0, 30, "",
           "t of the embedding, eigenvalue^t times eigenvector: the higher, the more the "
           "largest orbits count."),
       Parameter::real("tolerance", 0.03, 0, 1, "",

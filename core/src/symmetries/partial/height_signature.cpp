@@ -65,11 +65,29 @@ HeightSignature HeightSignature::from_behind() const {
   return other;
 }
 
-std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, double radius) {
+DiscSamples::DiscSamples(const SurfacePoints& surface, double radius, const Context& context)
+    : radius_(radius), points_(thinned(surface, radius)), tree_(points_, context) {}
+
+Points DiscSamples::thinned(const SurfacePoints& surface, double radius) {
+  constexpr Index enough = 150, most_looked_at = 64;  // samples of a disc, discs
+  const std::vector<std::int32_t>& order = surface.tree.order();
+  const Index size = surface.size(), looked_at = std::min(size, most_looked_at);
+  Index held = 0;
+  for (Index k = 0; k < looked_at; ++k)
+    surface.tree.within(surface.point(order[k * size / looked_at]), radius,
+                        [&](Index, double) { ++held; });
+  const Index stride = std::max<Index>(1, held / (enough * std::max<Index>(1, looked_at)));
+  if (stride == 1) return surface.points;
+  Points chosen((size + stride - 1) / stride, 3);
+  for (Index k = 0; k < chosen.rows(); ++k) chosen.row(k) = surface.points.row(order[k * stride]);
+  return chosen;
+}
+
+std::optional<HeightSignature> DiscSamples::about(const Vector3& x) const {
   constexpr std::size_t enough = 20;
+  const double radius = radius_;
   std::vector<Neighbour> around;
-  const Vector3 x = surface.point(i);
-  surface.tree.within(x, radius, [&](Index j, double squared) { around.push_back({j, squared}); });
+  tree_.within(x, radius, [&](Index j, double squared) { around.push_back({j, squared}); });
   if (around.size() < enough) return {};
   std::sort(around.begin(), around.end());
   Vector3 mean = Vector3::Zero();
@@ -77,7 +95,7 @@ std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, 
   Matrix3 scatter = Matrix3::Zero();
   for (const Neighbour& n : around) {
     const double weight = 1 - n.squared_distance / (radius * radius);
-    const Vector3 d = (surface.point(n.index) - x) / radius;
+    const Vector3 d = (point(n.index) - x) / radius;
     mean += weight * d;
     scatter += weight * d * d.transpose();
     weights += weight;
@@ -94,7 +112,7 @@ std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, 
     Eigen::Matrix<double, terms, terms> products = Eigen::Matrix<double, terms, terms>::Zero();
     Row right = Row::Zero();
     for (const Neighbour& n : around) {
-      const Vector3 at = signature.frame.transpose() * (surface.point(n.index) - x) / radius;
+      const Vector3 at = signature.frame.transpose() * (point(n.index) - x) / radius;
       const Row row = zernike(at.x(), at.y());
       products.selfadjointView<Eigen::Lower>().rankUpdate(row);
       right += at.z() * row;

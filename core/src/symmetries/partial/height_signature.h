@@ -32,9 +32,25 @@ struct HeightSignature {
   HeightSignature from_behind() const;
 };
 
-/// Of the points about a point within a radius, seen from the side on which they are a bowl; none
-/// where they are few.
-std::optional<HeightSignature> described(const SurfacePoints& surface, Index i, double radius);
+/// Describes a surface about points by those of it within a radius. Where discs hold more than some
+/// hundred on average, as they do if they are large or if surfaces cross, of every so many.
+class DiscSamples {
+ public:
+  DiscSamples(const SurfacePoints& surface, double radius, const Context& context);
+
+  /// Seen from the side on which the disc is a bowl; none where it holds few points.
+  std::optional<HeightSignature> about(const Vector3& x) const;
+
+  Index size() const { return points_.rows(); }
+
+ private:
+  static Points thinned(const SurfacePoints& surface, double radius);
+  Vector3 point(Index i) const { return points_.row(i).transpose(); }
+
+  double radius_;
+  Points points_;
+  PointTree tree_;
+};
 
 /// A turn of one disc that lays it on another, reflected or not.
 struct DiscMatch {

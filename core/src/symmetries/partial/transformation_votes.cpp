@@ -26,10 +26,11 @@ struct Disc {
 std::vector<Disc> described_discs(const ThinnedSurface& surface, double radius,
                                   const Context& context) {
   const SurfacePoints& all = surface.points();
+  const DiscSamples samples(all, radius, context.stage(0, 0));
   std::vector<std::optional<HeightSignature>> signatures(all.size());
   constexpr Index grain = 64;
   parallel_for(context, all.size(), grain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) signatures[i] = described(all, i, radius);
+    for (Index i = begin; i < end; ++i) signatures[i] = samples.about(all.point(i));
   });
   std::vector<Disc> discs;
   std::vector<double> waviness;

@@ -20,7 +20,8 @@ struct LineMatch {
 };
 
 /// Grows matches along the graph of feature lines. A line is taken to another where their lengths,
-/// courses, ends and the faces beside them agree: both ends hold it, so that it cannot slide.
+/// courses, ends and the faces beside them agree: both ends hold it, so that it cannot slide. In a
+/// tangle of lines, which takes very many comparisons, matches stop growing.
 class LineMatching {
  public:
   /// `taken`: lines that take no part. `tolerance`: how far images may be off, input units.
@@ -33,7 +34,7 @@ class LineMatching {
   };
 
   /// What begins with a line that has two ends; nothing where that does not match.
-  std::optional<LineMatch> grown(Index line, Index image, Pose pose) const;
+  std::optional<LineMatch> grown(Index line, Index image, Pose pose);
 
   /// Whether a map takes a line to another.
   bool agrees(const Eigen::Isometry3d& map, const FeatureLine& line, const FeatureLine& image,
@@ -41,12 +42,13 @@ class LineMatching {
 
  private:
   std::vector<std::pair<Index, Index>> reached(const Eigen::Isometry3d& map, Index line,
-                                               Index image, bool reversed) const;
+                                               Index image, bool reversed);
   Eigen::Isometry3d fitted(const LineMatch& match) const;
 
   const FeatureLines& graph_;
   double tolerance_;
   const std::vector<char>& taken_;
+  std::size_t compared_ = 0;
 };
 
 /// Feature lines by local numbers: see ConnectedLines.

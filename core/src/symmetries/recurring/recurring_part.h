@@ -28,7 +28,7 @@ std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts
 /// The best part with this line; without instances where there is none. `alike`: the
 /// lines that it may be taken to, itself among them. No line is in two instances.
 RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
-                        const LineMatching& matching, const Context& context);
+                        LineMatching& matching, const Context& context);
 
 /// Parts of closed lines without corners, as the rims of holes are: circles of one size, and other
 /// curves by their principal axes.

@@ -91,7 +91,7 @@ constexpr std::size_t most_entries = std::size_t{1} << 24;
 // Matches of a seed with lines that are alike, the identity first, then those that turn less.
 std::vector<LocalMatch> matches_of(Index seed, const std::vector<Index>& alike,
                                    const ConnectedLines& around, const LineMatch& own,
-                                   const LineMatching& matching, const Context& context) {
+                                   LineMatching& matching, const Context& context) {
   struct Found {
     LocalMatch match;
     double plainness;
@@ -201,7 +201,7 @@ std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts
 }
 
 RecurringPart seed_part(Index seed, const std::vector<Index>& alike, const FeatureLines& graph,
-                        const LineMatching& matching, const Context& context) {
+                        LineMatching& matching, const Context& context) {
   const auto own = matching.grown(seed, seed, {false, false});
   if (!own || own->lines.size() < least_lines) return {};
   const ConnectedLines around(graph, *own);

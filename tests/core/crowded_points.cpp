@@ -1,0 +1,104 @@
+// Points that crowd and surfaces that cross: they take about as long as as many points elsewhere.
+#include <gtest/gtest.h>
+#include <symsurf/analyses.h>
+#include <symsurf/detect.h>
+
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include "cloud/surface_points.h"
+#include "random_cloud.h"
+#include "symmetries/exact_isometries.h"
+#include "symmetries/partial/height_signature.h"
+
+namespace symsurf {
+namespace {
+
+// Of one processor.
+template <typename Run>
+double seconds_of(const Run& run) {
+  const std::clock_t start = std::clock();
+  run();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// As many points about each of the middles, in turn.
+Points crowds_about(const Points& middles, Index count, double width, RandomCloud& random) {
+  Points points = width * random.box(count);
+  for (Index i = 0; i < count; ++i) points.row(i) += middles.row(i % middles.rows());
+  return points;
+}
+
+std::size_t isometries(const Points& points) {
+  return exact_isometries(points, PointTree(points), {}).size();
+}
+
+TEST(CrowdedPoints, HaveTheIsometriesOfTheirMiddles) {
+  RandomCloud random(0);
+  Points middles(3, 3);  // an isosceles triangle: C2v
+  middles << -1, 0, 0, 1, 0, 0, 0, 3, 0;
+  const Points crowds = crowds_about(middles, 600, 1e-9, random);
+  Points prism(600, 3);  // of 300 sides: D300h
+  for (Index i = 0; i < prism.rows(); ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i / 2) / 300;
+    prism.row(i) << std::cos(angle), std::sin(angle), static_cast<double>(i % 2);
+  }
+  const double usual = seconds_of([&] { EXPECT_EQ(isometries(prism), 1200u); });
+  const double taken = seconds_of([&] { EXPECT_EQ(isometries(crowds), 4u); });
+  EXPECT_LT(taken, usual);
+}
+
+// The mean number of samples in a disc about the points.
+double held_by(const DiscSamples& samples, const Points& points, double radius) {
+  const PointTree tree(points);
+  Index held = 0;
+  for (Index i = 0; i < points.rows(); ++i)
+    tree.within(points.row(i).transpose(), radius, [&](Index, double) { ++held; });
+  return static_cast<double>(held) / static_cast<double>(points.rows()) *
+         static_cast<double>(samples.size()) / static_cast<double>(points.rows());
+}
+
+TEST(CrowdedPoints, AreDescribedBySomeHundredOfThem) {
+  constexpr double radius = 0.5;
+  RandomCloud random(1);
+  const Points crossing = random.box(20'000);  // as surfaces that cross everywhere
+  const DiscSamples some(SurfacePoints(crossing, {}), radius, {});
+  EXPECT_LT(held_by(some, crossing, radius), 400);
+  EXPECT_GT(held_by(some, crossing, radius), 100);
+  Points sheet = random.box(1000);
+  sheet.col(2).setZero();
+  EXPECT_EQ(DiscSamples(SurfacePoints(sheet, {}), 0.2, {}).size(), sheet.rows());
+}
+
+TEST(CrowdedPoints, HaveAFewPartsComparedThatRecur) {
+  RandomCloud random(2);
+  Points corners(4, 3);
+  corners << -2, -1, 0, 2, -1, 0, -2, 1, 0, 2, 1, 0;
+  const Points spread = random.box(1500), crowds = crowds_about(corners, 1500, 1e-8, random);
+  Triangles faces(2200, 3);
+  for (Index f = 0; f < faces.rows(); ++f)
+    for (int c = 0; c < 3; ++c) faces(f, c) = static_cast<std::int32_t>(random.below(1500));
+  AnalysisOptions options;
+  options.faces = faces;
+  const auto seconds = [&](const Points& points) {
+    return seconds_of([&] { analyse("recurring_parts", points, options, Context(nullptr, 1)); });
+  };
+  EXPECT_LT(seconds(crowds), 25 * seconds(spread));
+}
+
+TEST(CrowdedPoints, HaveAFewSpheresRefined) {
+  RandomCloud random(0);
+  Points spread = random.box(800), corners(8, 3);
+  spread.col(0).setZero();
+  corners << 0, -0.6, 0.24, 0, -0.6, -0.24, 0, -0.31, 0.46, 0, -0.31, -0.46, 0, -0.08, 0.83, 0,
+      -0.08, -0.83, 0, 0.29, 0.4, 0, 0.29, -0.4;
+  const Points crowds = crowds_about(corners, 800, 1e-5, random);
+  const auto seconds = [&](const Points& points) {
+    return seconds_of([&] { detect(points, {.method = "sphere"}, Context(nullptr, 1)); });
+  };
+  EXPECT_LT(seconds(crowds), 10 * seconds(spread));
+}
+
+}  // namespace
+}  // namespace symsurf
