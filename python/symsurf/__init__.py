@@ -64,6 +64,7 @@ from .results import (
     Straightened,
     Symmetries,
     Symmetrized,
+    SymmetryAxis,
     SymmetryEmbedding,
     Transformation,
 )
@@ -111,6 +112,7 @@ __all__ = [
     "SurfaceMirror",
     "Symmetries",
     "Symmetrized",
+    "SymmetryAxis",
     "SymmetryEmbedding",
     "Transformation",
     "__version__",

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 // lower ones.
 constexpr std::array layers{"base",       "distributed", "spatial",   "mesh",       "cloud",
                             "mirrors",    "optics",      "score",     "preprocess", "methods",
-                            "operations", "detection",   "symmetries"};
+                            "detection",  "symmetries",  "operations"};
 // Used by no layer; may use all of them.
 constexpr std::array leaves{"synthetic"};
 

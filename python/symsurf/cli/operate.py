@@ -79,12 +79,12 @@ class OperationCommand:
 
 
 def _text(record: Record) -> str:
-    kind = record["mirror"]["kind"] if record["mirror"] is not None else "none"
-    lines = [
-        record["file"],
-        f"  verdict             {record['verdict']}: {record['reason']}",
-        f"  mirror              {kind}, score {record['score']:.3f}",
-    ]
+    lines = [record["file"]]
+    if record["mirror"] is not None:
+        lines += [
+            f"  verdict             {record['verdict']}: {record['reason']}",
+            f"  mirror              {record['mirror']['kind']}, score {record['score']:.3f}",
+        ]
     statistics = record["statistics"]
     for name, value in statistics.items():
         share = statistics.get(f"{name}_of_diagonal")

@@ -28,6 +28,7 @@ from .drawing import (
     OBJECT,
     add_title,
     colour_map,
+    draw_axis,
     draw_mirror,
     draw_scalars,
     finite_object,
@@ -98,7 +99,7 @@ def _draw_panel(
     plotter: pyvista.Plotter,
     result: OperationResult,
     shape: Shape,
-    mirror: Mirror,
+    mirror: Mirror | None,
     title: str,
     clim: float | None,
     camera: Any,
@@ -106,8 +107,11 @@ def _draw_panel(
     prepare(plotter)
     object_, rows = finite_object(shape)
     _draw_object(plotter, result, object_, rows, clim)
-    vertices, triangles = _mirror_mesh(result, mirror, object_)
-    draw_mirror(plotter, vertices, triangles)
+    if mirror is None:
+        vertices = _drawn_axis(plotter, result, object_)
+    else:
+        vertices, triangles = _mirror_mesh(result, mirror, object_)
+        draw_mirror(plotter, vertices, triangles)
     add_title(plotter, title)
     points = np.asarray(object_.points)
     drawn = np.vstack([points, vertices])
@@ -213,6 +217,17 @@ def _draw_axes(plotter: pyvista.Plotter, length: float) -> None:
     )
 
 
+def _drawn_axis(
+    plotter: pyvista.Plotter, result: OperationResult, object_: pyvista.PolyData
+) -> NDArray[np.float64]:
+    """Draws the axis of what is completed about one; its ends."""
+    axis = result.axis if isinstance(result, Completed) else None
+    if axis is None:
+        return np.empty((0, 3))
+    draw_axis(plotter, axis, object_)
+    return axis.ends
+
+
 def _mirror_mesh(
     result: OperationResult, mirror: Mirror, object_: pyvista.PolyData
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -227,7 +242,7 @@ def _mirror_mesh(
 
 def _title(result: OperationResult) -> str:
     figures = result.statistics
-    kind = result.mirror.kind
+    kind = result.mirror.kind if result.mirror is not None else "axis"
     if isinstance(result, Asymmetry):
         matched = percent(figures["matched_share"])
         if "rms_of_diagonal" not in figures:
@@ -239,7 +254,8 @@ def _title(result: OperationResult) -> str:
         return f"{name} over a {kind}: {percent(figures['paired_share'])} paired"
     if isinstance(result, Completed):
         added = len(result.shape.points) - len(result.given.points)
-        return f"completed over a {kind}: {added} points added"
+        over = f"over a {kind}" if result.mirror is not None else "about an axis"
+        return f"completed {over}: {added} points added"
     if isinstance(result, Straightened):
         return f"{'bent back' if result.parameters['back'] else 'straightened'} over a {kind}"
     return f"aligned by a {kind}"
