@@ -287,19 +287,20 @@ void complete_by(const SymmetryMap& map, const ParameterValues& values, const Co
                  OperationResult& result) {
   const Points given = result.points;
   const Triangles given_faces = result.faces;
-  const std::vector<Index> point_sources = result.point_sources,
-                           face_sources = result.face_sources;
+  const std::vector<Index> point_sources = result.point_sources, face_sources = result.face_sources;
   const OperationInput input{given, given_faces};
   const Counterparts counterparts(input, map, limits_of(values, input.points),
                                   context.stage(0, 0.6));
-  const std::vector<bool> missing =
-      missing_points(input, counterparts, limits_of(values, input.points).distance,
-                     context.stage(0.6, 0.7));
+  const std::vector<bool> missing = missing_points(
+      input, counterparts, limits_of(values, input.points).distance, context.stage(0.6, 0.7));
   const Index points = given.rows(), faces = given_faces.rows();
 
   Completion completion(input, counterparts, missing, map.is_reflection());
   if (values.choice("fill") == "holes") completion.keep_holes();
-  completion.append_to(result, values.real("blend") * diagonal_of(input.points),
+  // What is nearest to a turned point of a cloud may be the other side of a wall; sides that differ
+  // as those of a mirror do there are none.
+  const bool is_bent = map.is_reflection() || !input.faces.empty();
+  completion.append_to(result, is_bent ? values.real("blend") * diagonal_of(input.points) : 0,
                        context.stage(0.7, 0.9));
   const Index patch = result.faces.rows() - faces;
   Eigen::MatrixXd& origin = result.arrays["origin"];
@@ -350,7 +351,9 @@ void run_about_axis(const OperationInput& input, const ParameterValues& values,
     if (!angle) break;
     // What the shape turned back does not reach is what the turned shape adds.
     const Matrix3 back = Eigen::AngleAxisd(-*angle, axis.direction).toRotationMatrix();
+    const Index before = result.points.rows();
     complete_by(SymmetryMap(map_taking(back, axis.point, axis.point)), values, rest, result);
+    if (result.points.rows() == before) break;
   }
   for (const char* name : {"added_points", "added_faces", "seam_faces"})
     result.statistics.try_emplace(name, Index{0});

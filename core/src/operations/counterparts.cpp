@@ -78,8 +78,8 @@ std::vector<bool> wound_against_their_images(PointsView points, TrianglesView fa
   return against;
 }
 
-// How the map turns a normal at x, up to its sign: by what it does to two tangents, as a mirror need
-// not be an isometry.
+// How the map turns a normal at x, up to its sign: by what it does to two tangents, as a mirror
+// need not be an isometry.
 Vector3 mapped_normal(const SymmetryMap& map, const Vector3& x, const Vector3& image,
                       const Vector3& normal, double step) {
   const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -179,8 +179,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   normals_ = mesh.vertex_normals();
   // A mirror turns the winding round.
   const double winding = map_.is_reflection() ? -1 : 1;
-  const Points image_normals =
-      winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
+  const Points image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
   const bool is_closed = std::none_of(is_boundary.begin(), is_boundary.end(), std::identity());
   is_watertight_ = is_closed && mesh.refused().total() == 0;
   const double outwards = is_closed && volume_of(points, input.faces) < 0 ? -1 : 1;

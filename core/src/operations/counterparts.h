@@ -18,7 +18,8 @@ namespace symsurf {
 enum class Pairing { Closest, Homologous };
 
 /// Where the other side of a shape says that one of its points should be: a point of the mirrored
-/// surface, that is of the faces between the images of their corners. Of a rotation, the turned one.
+/// surface, that is of the faces between the images of their corners. Of a rotation, the turned
+/// one.
 struct Counterpart {
   Vector3 place = nowhere;       ///< that point; NaN where there is none
   Vector3 on_surface = nowhere;  ///< what it is the image of

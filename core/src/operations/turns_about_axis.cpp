@@ -20,9 +20,9 @@ namespace {
 
 constexpr Index highest_order = 128;
 constexpr Index surfels_wanted = 6000;
-constexpr Index bins_of_turn = 120;   // 3 degrees: at the rim of a pot about as wide as a surfel
-constexpr double cell = 0.03;         // diagonals, along the profile
-constexpr double next_to_nothing = 0.003;  // of what is there
+constexpr Index bins_of_turn = 120;  // 3 degrees: at the rim of a pot about as wide as a surfel
+constexpr double cell = 0.03;        // diagonals, along the profile
+constexpr double next_to_nothing = 0.003;           // of what is there
 constexpr double as_good = 0.98, nearly_all = 0.9;  // of the greatest gain; of what is missing
 constexpr Index overlap = 3;                        // bins
 // Of the median cell of a body of revolution: what is there along a smaller part of the turn, as a
@@ -86,12 +86,12 @@ class Coverage {
     std::vector<Index> counts;
     for (const auto& [place, there] : cells_) counts.push_back(count(there));
     const double least = least_of_median * static_cast<double>(median(std::move(counts)));
-    std::erase_if(cells_, [&](const auto& each) {
-      return static_cast<double>(count(each.second)) < least;
-    });
+    std::erase_if(
+        cells_, [&](const auto& each) { return static_cast<double>(count(each.second)) < least; });
   }
 
-  // Where a cell or one of those that touch it has surface: a profile along their edge is in either.
+  // Where a cell or one of those that touch it has surface: a profile along their edge is in
+  // either.
   Bins near(const Place& place) const {
     Bins any(bins_);
     for (int i = -1; i <= 1; ++i)
@@ -99,8 +99,7 @@ class Coverage {
         const auto found = cells_.find({place.first + i, place.second + j});
         if (found == cells_.end()) continue;
         for (Index b = 0; b < bins_; ++b)
-          if (found->second[b])
-            any[b] = any[(b + 1) % bins_] = any[(b + bins_ - 1) % bins_] = true;
+          if (found->second[b]) any[b] = any[(b + 1) % bins_] = any[(b + bins_ - 1) % bins_] = true;
       }
     return any;
   }

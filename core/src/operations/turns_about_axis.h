@@ -12,8 +12,8 @@ namespace symsurf {
 std::vector<Parameter> axis_parameters();
 
 /// The axis that they give, or the main one of the shape where they give none. Throws
-/// InvalidParameter where they make no axis, InvalidInput where it is far from the points or none is
-/// found.
+/// InvalidParameter where they make no axis, InvalidInput where it is far from the points or none
+/// is found.
 SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
                      const Context& context);
 

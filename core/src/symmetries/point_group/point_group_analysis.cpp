@@ -182,7 +182,7 @@ std::optional<SymmetryAxis> find_axis(PointsView points, TrianglesView faces,
   std::optional<SymmetryAxis> found;
   const auto search = [&](const Cloud& cloud, const Context& running) {
     const SymmetryTest test(cloud, options.minimum_score, running);
-    if (const auto part = find_revolution(test))
+    if (const auto part = find_revolution(cloud, test, running))
       found = SymmetryAxis{cloud.frame.from_frame(part->axis.pose.centre),
                            cloud.frame.axes * part->axis.z(), 0};
   };

@@ -21,8 +21,9 @@ namespace {
 
 // Of the fit of the turns alone: a group that fits so much worse has more elements than the cloud.
 constexpr double below_turns = 0.03;
-// Of a surface of revolution: as of continuous groups.
-constexpr double most_outliers_of_turned = 0.042;
+// Of a part of a surface of revolution, of as much of the turn: as of continuous groups, and more
+// the longer its rims are for what it has of surface.
+constexpr double whole_turn = 0.95, most_outliers_of_whole = 0.04;
 
 // Of a pose whose x is to point along a direction, which is laid across z.
 GroupPose with_x(GroupPose pose, const Vector3& x) {
@@ -87,21 +88,22 @@ class SymmetrySearch {
     double expected = 0;  // fit: that of the turns alone
   };
 
-  // A surface of revolution, where its axis was not found by whole turns.
+  // Part of a surface of revolution, whose axis whole turns did not find.
   std::optional<Symmetries> partly_turned() const {
-    const bool is_found = std::any_of(axes_.begin(), axes_.end(), [](const FoundDirection& axis) {
-      return axis.order == 0;
-    });
+    const bool is_found = std::any_of(axes_.begin(), axes_.end(),
+                                      [](const FoundDirection& axis) { return axis.order == 0; });
     if (is_found) return {};
-    const std::optional<Revolution> part = find_revolution(test_);
-    if (!part || part->axis.vote.outliers > most_outliers_of_turned) return {};
+    const std::optional<Revolution> part = find_revolution(cloud_, test_, context_.stage(0.8, 0.8));
+    if (!part || part->turn > whole_turn ||
+        part->axis.vote.outliers > most_outliers_of_whole / part->turn)
+      return {};
     // Of a gear turns map the body, those by a tooth all of it.
     for (const FoundDirection& axis : axes_)
       if (axis.order > 2 && axis.vote.fit > part->axis.vote.fit + below_turns) return {};
     OrbitVote vote = part->axis.vote;
     vote.missing = 1 - part->turn;
-    Symmetries found = described(axial_group(0, {.vertical = true}), part->axis.pose, vote,
-                                 cloud_.frame);
+    Symmetries found =
+        described(axial_group(0, {.vertical = true}), part->axis.pose, vote, cloud_.frame);
     if (!accepts_(found)) return {};
     return found;
   }
