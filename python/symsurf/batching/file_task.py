@@ -180,7 +180,8 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
 def _needs_mirror(task: FileTask) -> bool:
     """By that alone: ``absolute`` is none of the core's parameters."""
     return needs_mirror(
-        task.operation, {name: task.parameters[name] for name in ("symmetry",) if name in task.parameters}
+        task.operation,
+        {name: task.parameters[name] for name in ("symmetry",) if name in task.parameters},
     )
 
 

@@ -66,7 +66,11 @@ def _named_symmetry(
         result, parameters = given, parameters | {"symmetry": "mirror"}
     if not isinstance(result, Axis):
         return result, parameters
-    own = {"axis_point": result.point, "axis_direction": result.direction, "axis_order": result.order}
+    own = {
+        "axis_point": result.point,
+        "axis_direction": result.direction,
+        "axis_order": result.order,
+    }
     if twice := [name for name in own if name in parameters]:
         raise InvalidParameter(f"an axis is given and {twice[0]}, too; allowed is one of them")
     if not np.any(result.direction):

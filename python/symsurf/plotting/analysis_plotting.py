@@ -20,7 +20,6 @@ from .drawing import (
     draw_mirror,
     draw_scalars,
     finite_object,
-    import_pyvista,
     place_camera,
     prepare,
     show_or_write,
