@@ -154,7 +154,8 @@ def _draw_object(
         title = "moved by, % of the diagonal"
         draw_scalars(plotter, object_, values, title, (0, end), colour_map(COLOURS))
     elif isinstance(result, Completed):
-        _draw_origins(plotter, object_, result.origin[rows])
+        image = "turned" if result.mirror is None else "mirrored"
+        _draw_origins(plotter, object_, result.origin[rows], image)
     else:
         plotter.add_mesh(object_, color=OBJECT, **style_of(object_))
 
@@ -180,9 +181,9 @@ def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
 
 
 def _draw_origins(
-    plotter: pyvista.Plotter, object_: pyvista.PolyData, origin: NDArray[np.int64]
+    plotter: pyvista.Plotter, object_: pyvista.PolyData, origin: NDArray[np.int64], image: str
 ) -> None:
-    """Faces of the seam join original points with others."""
+    """Faces of the seam join original points with others. image: what those of 1 are called."""
     of_cells = origin
     if object_.n_cells != object_.n_verts:
         corners = origin[object_.regular_faces]
@@ -191,7 +192,8 @@ def _draw_origins(
         chosen = np.flatnonzero(of_cells == number)
         if len(chosen):
             part = object_.extract_cells(chosen).extract_surface(algorithm=None)
-            plotter.add_mesh(part, color=colour, label=name, **style_of(part))
+            label = image if name == "mirrored" else name
+            plotter.add_mesh(part, color=colour, label=label, **style_of(part))
     plotter.add_legend(bcolor=None, face="rectangle", size=(0.16, 0.12), loc="lower center")
 
 

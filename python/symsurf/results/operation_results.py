@@ -250,8 +250,8 @@ class Completed(OperationResult):
     """The shape with what one side lacks filled in from the other, or what a turn lacks from the rest
     of it.
 
-    ``statistics``: "added_points", "added_faces" and "seam_faces"; why other points are unmatched, as
-    those of an asymmetry; about an axis how many "turns" were made and "axis_point",
+    ``statistics``: "added_points", "added_faces" and "seam_faces"; over a mirror why points are
+    unmatched, as those of an asymmetry; about an axis how many "turns" were made and "axis_point",
     "axis_direction" and "axis_order", 0 of a continuous one.
     """
 
