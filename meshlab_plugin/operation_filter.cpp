@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 #include "changed_layer.h"
 #include "mirror_layer.h"
@@ -129,17 +130,21 @@ Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument
         read_mask(layer, cloud, own.boolean("only_selected"), own.boolean("weigh_by_quality"));
 
   const Context context(progress, static_cast<int>(own.integer("threads")));
-  const bool is_found_first = own.boolean("find_mirror") || &holder == &layer;
-  const OperationMirror mirror =
-      is_found_first
-          ? OperationMirror(cloud, own.boolean("require_found"), context.stage(0, finding))
-          : OperationMirror(layer, holder, values);
-  const OperationResult result = operate(operation_.name, input, *mirror, values,
-                                         context.stage(is_found_first ? finding : 0, 1));
+  const bool is_needed = needs_mirror(operation_.name, values);
+  const bool is_found_first = is_needed && (own.boolean("find_mirror") || &holder == &layer);
+  std::optional<OperationMirror> mirror;
+  if (is_found_first)
+    mirror.emplace(cloud, own.boolean("require_found"), context.stage(0, finding));
+  else if (is_needed)
+    mirror.emplace(layer, holder, values);
+  const OperationResult result = operate(operation_.name, input, mirror ? &**mirror : nullptr,
+                                         values, context.stage(is_found_first ? finding : 0, 1));
 
   Outcome outcome{returned_values(result.statistics), logged_values(result.statistics)};
-  outcome.log.insert(outcome.log.begin(), mirror.log().begin(), mirror.log().end());
-  outcome.values["mirror_layer"] = mirror.place(document, layer, result).id();
+  if (mirror) {
+    outcome.log.insert(outcome.log.begin(), mirror->log().begin(), mirror->log().end());
+    outcome.values["mirror_layer"] = mirror->place(document, layer, result).id();
+  }
   // Rows of the result are vertices then.
   vcg::tri::Allocator<CMeshO>::CompactEveryVector(layer.cm);
   if (changes_shape())

@@ -69,11 +69,13 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     const symsurf::OperationInput input{points.view(), faces.view(),
                                         mask_of(shape, call.mask_array)};
     const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
-    const double found_at = given ? 0 : 0.6;
-    const std::shared_ptr<symsurf::Mirror> mirror =
-        given ? mirror_of(given) : found_first(filter, input, context.stage(0, found_at));
+    const bool is_needed = symsurf::needs_mirror(call.operation, call.parameters);
+    const double found_at = given || !is_needed ? 0 : 0.6;
+    std::shared_ptr<symsurf::Mirror> mirror;
+    if (is_needed)
+      mirror = given ? mirror_of(given) : found_first(filter, input, context.stage(0, found_at));
     const symsurf::OperationResult result = symsurf::operate(
-        call.operation, input, *mirror, call.parameters, context.stage(found_at, 1));
+        call.operation, input, mirror.get(), call.parameters, context.stage(found_at, 1));
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);
     const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result);
     if (filter->GetNumberOfOutputPorts() > 1)

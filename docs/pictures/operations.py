@@ -31,6 +31,22 @@ def ant():
     return Shape(points - (points.min(axis=0) + points.max(axis=0)) / 2, mesh.faces)
 
 
+def broken_pot():
+    """A vessel with 40 % of its turn missing."""
+    height = np.linspace(0, 1, 90)
+    radius = 0.32 + 0.16 * np.sin(2.9 * height + 0.1) - 0.16 * height**6
+    radius += 0.1 * np.clip(height - 0.92, 0, 1)
+    angle = np.linspace(0, 2 * np.pi, 181)[:-1]
+    r, z = radius[:, None], height[:, None] + 0 * angle
+    points = np.stack([r * np.cos(angle), r * np.sin(angle), z], axis=2).reshape(-1, 3)
+    index = np.arange(len(points)).reshape(len(height), len(angle))
+    a, c = index[:-1], index[1:]
+    b, d = np.roll(a, -1, axis=1), np.roll(c, -1, axis=1)
+    faces = np.concatenate([np.stack(f, -1).reshape(-1, 3) for f in ((a, b, d), (a, d, c))])
+    turn = np.arctan2(points[:, 1], points[:, 0]) + 0.25 * np.sin(9 * points[:, 2])
+    return without(Shape(points, faces), np.abs(turn) > 0.6 * np.pi)
+
+
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
     image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
@@ -65,6 +81,8 @@ def main(folder):
         x, y, z = symmetric.points.T
         broken = without(symmetric, (x > 0.1) & (y < 0.3 + 0.2 * np.sin(5 * z)) & (z > -0.3))
         write(symsurf.complete(broken, plane), folder / "complete.png", front)
+        pot = symsurf.complete(broken_pot(), symmetry="axis")
+        write(pot, folder / "complete_pot.png", (-1, 0.9, 0.45))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ namespace symsurf::python {
 namespace {
 
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
-                        const FacesArgument& faces, const Mirror& mirror,
+                        const FacesArgument& faces, const Mirror* mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
                         const py::object& progress, const py::dict& parameters) {
   const Operation& described = operation(name);
@@ -94,8 +94,15 @@ void bind_operations(py::module_& module) {
   module.def("require_found_parameter", &require_found_parameter,
              py::return_value_policy::reference,
              "What decides whether a mirror with the verdict \"none\" is used.");
+  module.def(
+      "needs_mirror",
+      [](const std::string& name, const py::dict& parameters) {
+        return needs_mirror(name, values_from(parameters, operation(name).parameters));
+      },
+      py::arg("name"), py::arg("parameters"),
+      "Whether the operation takes a mirror with these parameters: not about an axis.");
   module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
-             py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
+             py::arg("mirror").none(true), py::arg("mask"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), "The fields of an operation's result.");
 }
 

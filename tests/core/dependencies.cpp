@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 // The folders of core/src from the lowest layer up: a file includes from its own layer and from
 // lower ones.
-constexpr std::array layers{"base",       "distributed", "spatial",   "mesh",       "cloud",
-                            "mirrors",    "optics",      "score",     "preprocess", "methods",
-                            "operations", "detection",   "symmetries"};
+constexpr std::array layers{"base",      "distributed", "spatial",   "mesh",       "cloud",
+                            "mirrors",   "optics",      "score",     "preprocess", "methods",
+                            "detection", "symmetries",  "operations"};
 // Used by no layer; may use all of them.
 constexpr std::array leaves{"synthetic"};
 

@@ -86,4 +86,14 @@ struct OperationResult {
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 
+/// Whether the operation takes a mirror, with these parameters: not about an axis. Throws
+/// InvalidParameter.
+bool needs_mirror(std::string_view name, const Values& parameters = {});
+
+/// The same as above for a mirror that may be null where needs_mirror() says no: it is not looked
+/// at then. Throws InvalidInput also where the axis lies more than ten diagonals away from the
+/// points, or is not given and the shape has none.
+OperationResult operate(std::string_view name, const OperationInput& input, const Mirror* mirror,
+                        const Values& parameters = {}, const Context& context = {});
+
 }  // namespace symsurf

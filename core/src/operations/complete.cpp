@@ -1,12 +1,16 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "operations/counterparts.h"
 #include "operations/operation_registry.h"
 #include "operations/seam.h"
+#include "operations/turns_about_axis.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -55,7 +59,7 @@ bool is_beyond(const OperationInput& input, const Counterparts& counterparts, In
   if (!counterparts.is_watertight()) return true;
   // Within a closed surface nothing is missing: there lies the image of where it was broken.
   const Vector3 normal = counterparts.normals().row(input.faces[c.face][0]).transpose();
-  return (counterparts.image(i) - c.on_surface).dot(normal) > 0;
+  return (counterparts.preimage(i) - c.on_surface).dot(normal) > 0;
 }
 
 // How far images lie off the surface that they are images of, input units: not much farther than
@@ -68,10 +72,10 @@ double farthest_above(const Counterparts& counterparts, Index count) {
   return std::max(usual_gaps * usual, widths * counterparts.spacing());
 }
 
-// Nothing can be added where the mirror has no image of the other side.
+// Nothing can be added where a mirror has no image of the other side.
 std::vector<bool> with_images(std::vector<bool> missing, const Counterparts& counterparts) {
   for (Index i = 0; i < static_cast<Index>(missing.size()); ++i)
-    missing[i] = missing[i] && counterparts.image(i).allFinite();
+    missing[i] = missing[i] && counterparts.preimage(i).allFinite();
   return missing;
 }
 
@@ -98,7 +102,7 @@ std::vector<bool> missing_points(const OperationInput& input, const Counterparts
   for (Index i = 0; i < count; ++i) {
     const Counterpart& c = counterparts[i];
     if (c.nearest < 0) continue;
-    const double distance = (counterparts.image(i) - input.points[c.nearest]).norm();
+    const double distance = (counterparts.preimage(i) - input.points[c.nearest]).norm();
     missing[i] = c.past_rim ? distance > gap : c.gap > max_distance;
   }
   const PointTree tree(input.points, context);
@@ -123,9 +127,10 @@ enum Origin { original, mirrored, at_seam };
 // The images of what is missing, their points behind those of the input.
 class Completion {
  public:
+  // `turned`: whether the images of faces are wound the other way.
   Completion(const OperationInput& input, const Counterparts& counterparts,
-             const std::vector<bool>& missing)
-      : input_(input), counterparts_(counterparts), missing_(missing) {
+             const std::vector<bool>& missing, bool turned)
+      : input_(input), counterparts_(counterparts), missing_(missing), turned_(turned) {
     if (input.faces.empty()) {
       for (Index i = 0; i < input.points.size(); ++i)
         if (missing[i]) sources_.push_back(i);
@@ -165,7 +170,7 @@ class Completion {
     std::erase_if(faces_, [&](Index f) { return is_open[root(input_.faces[f][0])]; });
   }
 
-  // Appends the points, bent to meet the shape over `reach`, and the faces, turned round.
+  // Appends the points, bent to meet the shape over `reach`, and the faces.
   void append_to(OperationResult& result, double reach, const Context& context) {
     const Index first = input_.points.size();
     if (!faces_.empty()) {
@@ -180,14 +185,15 @@ class Completion {
       added_.faces.resize(static_cast<Index>(faces_.size()), 3);
       for (Index k = 0; k < added_.faces.rows(); ++k) {
         const Index* corner = input_.faces[faces_[k]];
-        added_.faces.row(k) << number[corner[2]], number[corner[1]], number[corner[0]];
+        added_.faces.row(k) << number[corner[0]], number[corner[1]], number[corner[2]];
+        if (turned_) std::swap(added_.faces(k, 0), added_.faces(k, 2));
       }
     }
     added_.first = first;
     result.points.conservativeResize(first + static_cast<Index>(sources_.size()), 3);
     for (std::size_t k = 0; k < sources_.size(); ++k)
       result.points.row(first + static_cast<Index>(k)) =
-          counterparts_.image(sources_[k]).transpose();
+          counterparts_.preimage(sources_[k]).transpose();
     if (reach > 0 && !sources_.empty()) bend(result.points, reach, context);
     append_faces(result, added_.faces, faces_);
   }
@@ -237,8 +243,8 @@ class Completion {
     std::vector<Vector3> images, shifts;
     for (Index i = 0; i < input_.points.size(); ++i) {
       const Counterpart& c = counterparts_[i];
-      if (!c.matched || missing_[i] || !counterparts_.image(i).allFinite()) continue;
-      images.push_back(counterparts_.image(i));
+      if (!c.matched || missing_[i] || !counterparts_.preimage(i).allFinite()) continue;
+      images.push_back(counterparts_.preimage(i));
       shifts.push_back(c.on_surface - images.back());
     }
     if (images.empty()) return;
@@ -269,42 +275,92 @@ class Completion {
   const OperationInput& input_;
   const Counterparts& counterparts_;
   const std::vector<bool>& missing_;
+  bool turned_;
   std::vector<Index> faces_;    // of the input, whose images are added
   std::vector<Index> sources_;  // of the added points
   AddedPart added_;
 };
 
-void run_complete(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
-                  const Context& context, OperationResult& result) {
-  const Counterparts::Limits limits = limits_of(values, input.points);
-  const Counterparts counterparts(input, mirror, limits, context.stage(0, 0.6));
-  const std::vector<bool> missing =
-      missing_points(input, counterparts, limits.distance, context.stage(0.6, 0.7));
-  const Index points = input.points.size(), faces = input.faces.size();
-  result.point_sources.resize(points);
-  result.face_sources.resize(faces);
-  std::iota(result.point_sources.begin(), result.point_sources.end(), 0);
-  std::iota(result.face_sources.begin(), result.face_sources.end(), 0);
+// The shape with the preimages under a map of what they are missing from. `result` starts as the
+// shape, with the sources and the origin of each of its points.
+void complete_by(const SymmetryMap& map, const ParameterValues& values, const Context& context,
+                 OperationResult& result) {
+  const Points given = result.points;
+  const Triangles given_faces = result.faces;
+  const std::vector<Index> point_sources = result.point_sources, face_sources = result.face_sources;
+  const OperationInput input{given, given_faces};
+  const Counterparts counterparts(input, map, limits_of(values, input.points),
+                                  context.stage(0, 0.6));
+  const std::vector<bool> missing = missing_points(
+      input, counterparts, limits_of(values, input.points).distance, context.stage(0.6, 0.7));
+  const Index points = given.rows(), faces = given_faces.rows();
 
-  Completion completion(input, counterparts, missing);
+  Completion completion(input, counterparts, missing, map.is_reflection());
   if (values.choice("fill") == "holes") completion.keep_holes();
-  completion.append_to(result, values.real("blend") * diagonal_of(input.points),
+  // What is nearest to a turned point of a cloud may be the other side of a wall; sides that differ
+  // as those of a mirror do there are none.
+  const bool is_bent = map.is_reflection() || !input.faces.empty();
+  completion.append_to(result, is_bent ? values.real("blend") * diagonal_of(input.points) : 0,
                        context.stage(0.7, 0.9));
-  result.point_sources.insert(result.point_sources.end(), completion.sources().begin(),
-                              completion.sources().end());
   const Index patch = result.faces.rows() - faces;
-  Eigen::VectorXd origin = Eigen::VectorXd::Constant(result.points.rows(), mirrored);
-  origin.head(points).setConstant(original);
+  Eigen::MatrixXd& origin = result.arrays["origin"];
+  origin.conservativeResize(result.points.rows(), 1);
+  origin.bottomRows(result.points.rows() - points).setConstant(mirrored);
   if (values.boolean("close_seam") && faces > 0) {
     const std::vector<bool> joined = completion.close_seam(result, context.stage(0.9, 1));
     for (Index i = points; i < result.points.rows(); ++i)
-      if (joined[i]) origin[i] = at_seam;
+      if (joined[i]) origin(i, 0) = at_seam;
   }
-  result.arrays = {{"origin", origin}};
-  counterparts.report_unmatched(result.statistics);
-  result.statistics["added_points"] = result.points.rows() - points;
-  result.statistics["added_faces"] = patch;
-  result.statistics["seam_faces"] = result.faces.rows() - faces - patch;
+  for (const Index i : completion.sources()) result.point_sources.push_back(point_sources[i]);
+  for (std::size_t f = face_sources.size(); f < result.face_sources.size(); ++f)
+    result.face_sources[f] = face_sources[result.face_sources[f]];
+  if (map.is_reflection()) counterparts.report_unmatched(result.statistics);
+  const auto count = [&](const char* name, Index more) {
+    Value& sum = result.statistics.try_emplace(name, Index{0}).first->second;
+    sum = std::get<Index>(sum) + more;
+  };
+  count("added_points", result.points.rows() - points);
+  count("added_faces", patch);
+  count("seam_faces", result.faces.rows() - faces - patch);
+}
+
+void start(const OperationInput& input, OperationResult& result) {
+  result.point_sources.resize(input.points.size());
+  result.face_sources.resize(input.faces.size());
+  std::iota(result.point_sources.begin(), result.point_sources.end(), 0);
+  std::iota(result.face_sources.begin(), result.face_sources.end(), 0);
+  result.arrays["origin"] = Eigen::MatrixXd::Constant(input.points.size(), 1, original);
+}
+
+void run_complete(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
+                  const Context& context, OperationResult& result) {
+  start(input, result);
+  complete_by(mirror, values, context, result);
+}
+
+// Turn after turn, each of what is there by then.
+void run_about_axis(const OperationInput& input, const ParameterValues& values,
+                    const Context& context, OperationResult& result) {
+  constexpr Index most_turns = 16;
+  const SymmetryAxis axis = axis_of(input, values, context.stage(0, 0.4));
+  start(input, result);
+  Index turns = 0;
+  for (double left = 0.6; turns < most_turns; ++turns, left /= 2) {
+    const Context rest = context.stage(1 - left, 1 - left / 2);
+    const std::optional<double> angle = covering_turn(result.points, result.faces, axis, rest);
+    if (!angle) break;
+    // What the shape turned back does not reach is what the turned shape adds.
+    const Matrix3 back = Eigen::AngleAxisd(-*angle, axis.direction).toRotationMatrix();
+    const Index before = result.points.rows();
+    complete_by(SymmetryMap(map_taking(back, axis.point, axis.point)), values, rest, result);
+    if (result.points.rows() == before) break;
+  }
+  for (const char* name : {"added_points", "added_faces", "seam_faces"})
+    result.statistics.try_emplace(name, Index{0});
+  result.statistics["turns"] = turns;
+  result.statistics["axis_point"] = axis.point;
+  result.statistics["axis_direction"] = axis.direction;
+  result.statistics["axis_order"] = axis.order;
 }
 
 }  // namespace
@@ -314,9 +370,8 @@ OperationImplementation complete_operation() {
   operation.name = "complete";
   operation.title = "Mirror completion";
   operation.summary =
-      "Adds what is missing on one side: the images of the points and faces that the other side "
-      "has "
-      "there.";
+      "Adds what is missing: the images, over a mirror or turned about an axis, of the points and "
+      "faces that are there.";
   operation.parameters = {
       Parameter::choice("fill", "all", {"all", "holes"},
                         "What to add: all that is missing, or of a mesh only what the shape "
@@ -327,11 +382,13 @@ OperationImplementation complete_operation() {
                       "From the rim as far as this, what is added is bent to meet the shape; 0: it "
                       "is the exact image."),
       max_distance(), max_angle()};
+  for (const Parameter& parameter : axis_parameters()) operation.parameters.push_back(parameter);
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};
   operation.shown = "origin";
   operation.adds_points = true;
   operation.run = run_complete;
+  operation.run_about_axis = run_about_axis;
   return operation;
 }
 

@@ -78,38 +78,42 @@ std::vector<bool> wound_against_their_images(PointsView points, TrianglesView fa
   return against;
 }
 
-// How the mirror turns a normal at x: by what it does to two tangents, as it need not be an
-// isometry.
-Vector3 mirrored_normal(const Mirror& mirror, const Vector3& x, const Vector3& image,
-                        const Vector3& normal, double step) {
+// How the map turns a normal at x, up to its sign: by what it does to two tangents, as a mirror
+// need not be an isometry.
+Vector3 mapped_normal(const SymmetryMap& map, const Vector3& x, const Vector3& image,
+                      const Vector3& normal, double step) {
   const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Vector3 along_u = mirror.reflect(Vector3(x + step * u)) - image;
-  const Vector3 along_v = mirror.reflect(Vector3(x + step * v)) - image;
-  return -along_u.cross(along_v).stableNormalized();
+  const Vector3 along_u = map.image(x + step * u) - image;
+  const Vector3 along_v = map.image(x + step * v) - image;
+  return along_u.cross(along_v).stableNormalized();
 }
 
 }  // namespace
 
-Counterparts::Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
-                           const Context& context, Pairing pairing)
-    : limits_(limits),
+Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
+                           const Limits& limits, const Context& context, Pairing pairing)
+    : map_(map),
+      limits_(limits),
       pairing_(pairing),
       all_(input.points.size()),
-      images_(mirror.reflect(input.points, context.stage(0, 0.3))) {
-  require_images(images_, mirror.kind());
+      images_(map.images(input.points, context.stage(0, 0.3))) {
+  require_images(images_, map.kind());
+  if (!map.is_reflection()) preimages_ = map.inverse().images(input.points, context);
   const double registered = pairing == Pairing::Homologous ? 0.8 : 0.3;
   if (pairing == Pairing::Homologous)
     homologous_ = homologous_points(input.points, input.faces, images_, context.stage(0.3, 0.8));
   const Context rest = context.stage(registered, 1);
   if (input.faces.empty())
-    match_cloud(input, mirror, rest);
+    match_cloud(input, rest);
   else
     match_mesh(input, rest);
-  std::vector<Index> nearest;
-  for (const Counterpart& c : all_) nearest.push_back(c.nearest);
-  pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
-  for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
-  if (pairing == Pairing::Homologous) go_back(input, mirror, context.stage(1, 1));
+  if (map.is_reflection()) {
+    std::vector<Index> nearest;
+    for (const Counterpart& c : all_) nearest.push_back(c.nearest);
+    pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
+  }
+  if (pairing == Pairing::Homologous) go_back(input, context.stage(1, 1));
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
@@ -121,8 +125,7 @@ void Counterparts::settle(Index i, double cosine) {
 }
 
 // From the homologous point of a point to the homologous point of that.
-void Counterparts::go_back(const OperationInput& input, const Mirror& mirror,
-                           const Context& context) {
+void Counterparts::go_back(const OperationInput& input, const Context& context) {
   parallel_for(context, input.points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Counterpart& c = all_[i];
@@ -134,7 +137,7 @@ void Counterparts::go_back(const OperationInput& input, const Mirror& mirror,
         for (int k = 0; k < 3; ++k)
           displacement +=
               c.weights[k] * homologous_.displacements.row(input.faces[c.face][k]).transpose();
-      const Vector3 back = mirror.reflect(Vector3(c.on_surface + displacement));
+      const Vector3 back = map_.preimage(c.on_surface + displacement);
       c.return_gap = (back - input.points[i]).norm();
       if (!std::isfinite(c.return_gap)) c.return_gap = limits_.distance;
     }
@@ -175,7 +178,8 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const std::vector<bool> is_boundary = mesh.is_boundary();
   normals_ = mesh.vertex_normals();
   // A mirror turns the winding round.
-  const Points image_normals = -mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
+  const double winding = map_.is_reflection() ? -1 : 1;
+  const Points image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
   const bool is_closed = std::none_of(is_boundary.begin(), is_boundary.end(), std::identity());
   is_watertight_ = is_closed && mesh.refused().total() == 0;
   const double outwards = is_closed && volume_of(points, input.faces) < 0 ? -1 : 1;
@@ -254,8 +258,9 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
       const double cosine = settle_at(i, closest, false);
       if (all_[i].agreement < limits_.cosine) {
         // Where the sides of a thin part differ, the closest layer is the wrong one.
-        const ClosestPoint facing = mirrored.facing(x, -normals_.row(i).transpose(), limits_.cosine,
-                                                    limits_.distance * limits_.distance);
+        const ClosestPoint facing =
+            mirrored.facing(x, winding * normals_.row(i).transpose(), limits_.cosine,
+                            limits_.distance * limits_.distance);
         if (facing.face >= 0) settle_at(i, facing, false);
       }
       if (!all_[i].past_rim && all_[i].gap <= limits_.distance) look(all_[i].matched ? 1 : cosine);
@@ -270,8 +275,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
 }
 
-void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror,
-                               const Context& context) {
+void Counterparts::match_cloud(const OperationInput& input, const Context& context) {
   const PointsView points = input.points;
   const PointTree tree(points, context.stage(0, 0.1));
   normals_ = estimate_normals(points, tree, std::min(neighbours, points.size()), "pca",
@@ -291,10 +295,10 @@ void Counterparts::match_cloud(const OperationInput& input, const Mirror& mirror
       if (c.nearest < 0) continue;
       const Vector3 y = image(c.nearest), gap = x - y;
       const Vector3 normal =
-          mirrored_normal(mirror, points[c.nearest], y, normals_.row(c.nearest).transpose(), step);
+          mapped_normal(map_, points[c.nearest], y, normals_.row(c.nearest).transpose(), step);
       const Vector3 along = gap - gap.dot(normal) * normal;
       c.place = y + along;
-      c.on_surface = mirror.reflect(c.place);
+      c.on_surface = map_.preimage(c.place);
       if (!c.on_surface.allFinite()) {  // past the points that have images
         c = {};
         continue;

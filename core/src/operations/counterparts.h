@@ -9,6 +9,7 @@
 #include "cloud/footprint.h"
 #include "mesh/triangle_mesh.h"
 #include "operations/homologous/homologous_points.h"
+#include "operations/symmetry_map.h"
 
 namespace symsurf {
 
@@ -20,7 +21,8 @@ constexpr double mirror_tolerance = 1e-6;
 enum class Pairing { Closest, Homologous };
 
 /// Where the other side of a shape says that one of its points should be: a point of the mirrored
-/// surface, that is of the faces between the images of their corners.
+/// surface, that is of the faces between the images of their corners. Of a rotation, the turned
+/// one.
 struct Counterpart {
   Vector3 place = nowhere;       ///< that point; NaN where there is none
   Vector3 on_surface = nowhere;  ///< what it is the image of
@@ -50,7 +52,7 @@ class Counterparts {
   };
 
   /// Throws InvalidInput where the mirror has images for less than half of the points.
-  Counterparts(const OperationInput& input, const Mirror& mirror, const Limits& limits,
+  Counterparts(const OperationInput& input, const SymmetryMap& map, const Limits& limits,
                const Context& context, Pairing pairing = Pairing::Closest);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
@@ -65,6 +67,10 @@ class Counterparts {
 
   /// Of a point, NaN where it has none.
   Vector3 image(Index i) const { return images_.row(i).transpose(); }
+  /// What has the point for its image: over a mirror the same.
+  Vector3 preimage(Index i) const {
+    return map_.is_reflection() ? image(i) : Vector3(preimages_.row(i).transpose());
+  }
 
   /// Unit normals, one a point: of a closed mesh outwards, of an open one by its winding, of a
   /// cloud away from its centroid.
@@ -82,9 +88,9 @@ class Counterparts {
 
  private:
   void match_mesh(const OperationInput& input, const Context& context);
-  void match_cloud(const OperationInput& input, const Mirror& mirror, const Context& context);
+  void match_cloud(const OperationInput& input, const Context& context);
   void settle(Index i, double cosine);
-  void go_back(const OperationInput& input, const Mirror& mirror, const Context& context);
+  void go_back(const OperationInput& input, const Context& context);
 
   // From where the counterpart of a point is looked for.
   Vector3 query(PointsView points, Index i) const {
@@ -92,12 +98,13 @@ class Counterparts {
     return points[i] + homologous_.displacements.row(i).transpose();
   }
 
+  const SymmetryMap map_;
   const Limits limits_;
   const Pairing pairing_;
   HomologousPoints homologous_;  // where these are asked for
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;
-  Points images_, normals_;
+  Points images_, preimages_, normals_;  // preimages: of a rotation
   double spacing_ = 0;
   Index matched_ = 0;
   bool is_watertight_ = false;

@@ -65,10 +65,23 @@ bool OperationResult::is_other_shape() const {
   return point_parents.rows() > 0 && !symsurf::operation(operation).carries_values;
 }
 
+bool needs_mirror(std::string_view name, const Values& parameters) {
+  const OperationImplementation& operation = operation_implementation(name);
+  const ParameterValues values(operation.name, operation.parameters, parameters);
+  return !operation.run_about_axis || values.choice("symmetry") != "axis";
+}
+
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
+                        const Values& parameters, const Context& context) {
+  return operate(name, input, &mirror, parameters, context);
+}
+
+OperationResult operate(std::string_view name, const OperationInput& input, const Mirror* mirror,
                         const Values& parameters, const Context& context) {
   const OperationImplementation& operation = operation_implementation(name);
   const ParameterValues values(operation.name, operation.parameters, parameters);
+  const bool is_over_mirror = needs_mirror(name, parameters);
+  if (is_over_mirror && !mirror) throw InvalidInput(operation.name + " needs a mirror");
   require_points(input.points);
   require_coordinates(input.points);
   require_corners(input.faces, input.points.size());
@@ -76,14 +89,17 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
     throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
                        operation.name + " needs a mesh of triangles");
   require_mask(operation, input.mask, input.points.size());
-  require_near(input.points, mirror);
+  if (is_over_mirror) require_near(input.points, *mirror);
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();
   result.faces = Eigen::Map<const Triangles>(input.faces.data(), input.faces.size(), 3);
   result.parameters = values.all();
   context.report(0);
-  operation.run(input, mirror, values, context, result);
+  if (is_over_mirror)
+    operation.run(input, *mirror, values, context, result);
+  else
+    operation.run_about_axis(input, values, context, result);
   drop_nonfinite(result.statistics);
   context.report(1);
   return result;

@@ -9,6 +9,9 @@ struct OperationImplementation : Operation {
   /// Fills in points, arrays and statistics; the points are there already, as they were given.
   void (*run)(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
               const Context& context, OperationResult& result) = nullptr;
+  /// The same about an axis, where the parameter "symmetry" says so: no mirror is needed then.
+  void (*run_about_axis)(const OperationInput& input, const ParameterValues& values,
+                         const Context& context, OperationResult& result) = nullptr;
 };
 
 OperationImplementation asymmetry_operation();

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import InvalidInput, InvalidParameter, analyses
+from .._core import InvalidInput, InvalidParameter, Mirror, analyses, needs_mirror
 from ..base.plain import plain
 from ..detection import Progress, detect
 from ..detection.sampling import downsample
@@ -147,6 +147,10 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.operation in analyses():
         _analyse(task, shape, record, progress)
         return
+    if task.operation != DETECT and not _needs_mirror(task):
+        record |= {"verdict": None, "reason": None, "mirror": None, "score": None}
+        _operate(task, shape, None, record)
+        return
     parameters = task.parameters if task.operation == DETECT else {}
     found = detect(
         shape.points,
@@ -166,7 +170,19 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.operation == DETECT:
         _write(task, shape, found, record)
     else:
-        _operate(task, shape, found, record, notices)
+        mirror, warning = found_mirror(found, task.require_found)
+        if warning:
+            notices.append(warning)
+        record.pop("candidates")
+        _operate(task, shape, mirror, record)
+
+
+def _needs_mirror(task: FileTask) -> bool:
+    """By that alone: ``absolute`` is none of the core's parameters."""
+    return needs_mirror(
+        task.operation,
+        {name: task.parameters[name] for name in ("symmetry",) if name in task.parameters},
+    )
 
 
 def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | None) -> None:
@@ -186,15 +202,9 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
     _write(task, shape, found, record)
 
 
-def _operate(
-    task: FileTask, shape: Shape, found: Result, record: Record, notices: list[str]
-) -> None:
-    mirror, warning = found_mirror(found, task.require_found)
-    if warning:
-        notices.append(warning)
+def _operate(task: FileTask, shape: Shape, mirror: Mirror | None, record: Record) -> None:
     result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
-    record.pop("candidates")
     _write(task, shape, result, record)
 
 

@@ -80,12 +80,12 @@ class OperationCommand:
 
 
 def _text(record: Record) -> str:
-    kind = record["mirror"]["kind"] if record["mirror"] is not None else "none"
-    lines = [
-        record["file"],
-        f"  verdict             {record['verdict']}: {record['reason']}",
-        f"  mirror              {kind}, score {record['score']:.3f}",
-    ]
+    lines = [record["file"]]
+    if record["mirror"] is not None:
+        lines += [
+            f"  verdict             {record['verdict']}: {record['reason']}",
+            f"  mirror              {record['mirror']['kind']}, score {record['score']:.3f}",
+        ]
     for name, value, share in figures(record["statistics"]):
         if share is not None:
             lines.append(f"  {name:<19} {value:<12.6g} {100 * share:.4g} % of the diagonal")

@@ -31,6 +31,10 @@ _DOCUMENTED = {
     "threads, progress": "as for ``detect``.",
 }
 
+_OR_AXIS = (
+    " Or an ``Axis`` in its place. Either may be given as ``symmetry``, too, in place of a name."
+)
+
 _ERRORS = """
 Raises:
     InvalidInput: no mirror is found, or, with ``require_found``, one with the verdict "none"; it
@@ -39,11 +43,19 @@ Raises:
     InvalidParameter, Cancelled: as ``detect`` does."""
 
 
+def _takes_axis(operation: Operation) -> bool:
+    return any(parameter.name == "symmetry" for parameter in operation.parameters)
+
+
 def _signature(operation: Operation) -> inspect.Signature:
     shared = {name: word for name, word in _ARGUMENTS.items() if name not in ("name", "parameters")}
     if not operation.takes_mask:
         del shared["mask"]
     own = {parameter.name: keyword(parameter) for parameter in operation.parameters}
+    if _takes_axis(operation):
+        own["symmetry"] = own["symmetry"].replace(annotation="str | Mirror | Result | Axis")
+    else:
+        shared["result"] = shared["result"].replace(annotation="Result | Mirror | None")
     words = {name: shared.pop(name) for name in ("shape", "result")} | own | shared
     if operation.carries_values:
         values = inspect.Parameter(
@@ -56,6 +68,8 @@ def _signature(operation: Operation) -> inspect.Signature:
 
 def _documentation(operation: Operation) -> list[str]:
     texts = dict(_DOCUMENTED)
+    if _takes_axis(operation):
+        texts["result"] += _OR_AXIS
     if not operation.takes_mask:
         del texts["mask"]
     shared = [argument_text(f"{name}: {text}") for name, text in texts.items()]

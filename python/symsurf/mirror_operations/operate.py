@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import InvalidInput, Mirror
+from .._core import InvalidInput, InvalidParameter, Mirror
 from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress, detect
 from ..reading.inputs import Input, as_input, warn_of
-from ..results import OperationResult, Result, found_mirror, mirror_of
+from ..results import Axis, OperationResult, Result, found_mirror, mirror_of
 from ..results.operation_results import RESULTS
 
 
 def operate(
     name: str,
     shape: object,
-    result: Result | Mirror | None = None,
+    result: Result | Mirror | Axis | None = None,
     *,
     mask: ArrayLike | None = None,
     faces: ArrayLike | None = None,
@@ -29,16 +29,20 @@ def operate(
     require_found: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
-    **parameters: object,
+    **parameters: Any,
 ) -> OperationResult:
     """Runs one of ``operations()``; arguments and errors are those of the function of that name."""
     given = as_input(shape, faces)
-    mirror = _mirror_of(given, result, require_found, threads)
-    if mirror.footprint is None:  # that the way back from a straightened shape is laid out over
-        mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
+    described = _core.operations()[name].parameters
+    if any(each.name == "symmetry" for each in described):
+        result, parameters = _named_symmetry(result, parameters)
     if absolute:
-        described = _core.operations()[name].parameters
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
+    mirror = None
+    if _core.needs_mirror(name, parameters):
+        mirror = _mirror_of(given, result, require_found, threads)
+        if mirror.footprint is None:  # that the way back from a straightened shape is laid out over
+            mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     made = _core.operate(
         name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
@@ -69,6 +73,35 @@ def _carried(made: OperationResult, values: ArrayLike, name: object) -> NDArray[
     return made.carried(array)
 
 
+def _named_symmetry(
+    result: Result | Mirror | Axis | None, parameters: dict[str, Any]
+) -> tuple[Result | Mirror | Axis | None, dict[str, Any]]:
+    """Both as the core takes them: the symmetry is given as an object in place of its name, or as the
+    result; an axis becomes parameters."""
+    given = parameters.get("symmetry")
+    if given is not None and not isinstance(given, str):
+        if not isinstance(given, (Result, Mirror, Axis)):
+            raise InvalidParameter(
+                f"symmetry is of type {type(given).__name__}; allowed is 'mirror', 'axis', a Result, a "
+                "Mirror or an Axis"
+            )
+        if result is not None:
+            raise InvalidParameter("result and symmetry are both given; allowed is one of them")
+        result, parameters = given, parameters | {"symmetry": "mirror"}
+    if not isinstance(result, Axis):
+        return result, parameters
+    own = {
+        "axis_point": result.point,
+        "axis_direction": result.direction,
+        "axis_order": result.order,
+    }
+    if twice := [name for name in own if name in parameters]:
+        raise InvalidParameter(f"an axis is given and {twice[0]}, too; allowed is one of them")
+    if not np.any(result.direction):
+        raise InvalidParameter("the axis has the direction (0, 0, 0); allowed is another")
+    return None, parameters | own | {"symmetry": "axis"}
+
+
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
     if mask is None:
         return None
@@ -82,7 +115,7 @@ def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
 
 
 def _mirror_of(
-    shape: Input, result: Result | Mirror | None, require_found: bool, threads: int
+    shape: Input, result: Result | Mirror | Axis | None, require_found: bool, threads: int
 ) -> Mirror:
     if result is None:
         found = detect(shape.points, faces=shape.faces, threads=threads)

@@ -16,10 +16,10 @@ from .drawing import (
     UNPAIRED,
     add_title,
     colour_map,
+    draw_axis,
     draw_mirror,
     draw_scalars,
     finite_object,
-    import_pyvista,
     place_camera,
     prepare,
     show_or_write,
@@ -29,7 +29,6 @@ from .drawing import (
 if TYPE_CHECKING:
     import pyvista
 
-AXIS = "#a83244"
 # Labels repeat them; neighbours in the list differ in lightness, too, for colour-blind readers.
 LABELS = (
     "#4477aa",
@@ -66,8 +65,7 @@ def _draw(plotter: pyvista.Plotter, result: AnalysisResult, camera: Any, title: 
         draw_mirror(plotter, vertices, triangles)
         drawn.append(vertices)
     for axis in result.axes:
-        tube = import_pyvista().Line(*axis.ends).tube(radius=0.004 * object_.length)
-        plotter.add_mesh(tube, color=AXIS)
+        draw_axis(plotter, axis, object_)
         drawn.append(axis.ends)
     words = _title(result) if title else ""
     add_title(plotter, words)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter, Mirror
 from ..base.optional import require
+from ..results import Axis
 from ..saving import write_whole
 from ..shapes import Shape
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 SIZE = (1200, 900)
 UNPAIRED = "#9aa3ad"
 MIRROR = "#2f7fd0"
+AXIS = "#a83244"
 OBJECT = "#efdcb8"
 BACKGROUND = "#ffffff"
 INK = "#333333"
@@ -177,6 +179,12 @@ def draw_mirror(
     )
     if edges.n_points:
         plotter.add_mesh(edges, color=MIRROR, line_width=2)
+
+
+def draw_axis(plotter: pyvista.Plotter, axis: Axis, object_: pyvista.PolyData) -> None:
+    """Adds a rotation axis between its ends."""
+    tube = import_pyvista().Line(*axis.ends).tube(radius=0.004 * object_.length)
+    plotter.add_mesh(tube, color=AXIS)
 
 
 def place_camera(

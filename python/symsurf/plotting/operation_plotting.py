@@ -31,6 +31,7 @@ from .drawing import (
     OBJECT,
     add_title,
     colour_map,
+    draw_axis,
     draw_mirror,
     draw_scalars,
     finite_object,
@@ -101,7 +102,7 @@ def _draw_panel(
     plotter: pyvista.Plotter,
     result: OperationResult,
     shape: Shape,
-    mirror: Mirror,
+    mirror: Mirror | None,
     title: str,
     clim: float | None,
     camera: Any,
@@ -109,8 +110,12 @@ def _draw_panel(
     prepare(plotter)
     object_, rows = finite_object(shape)
     _draw_object(plotter, result, object_, rows, clim)
-    vertices, triangles = _mirror_mesh(result, mirror, object_)
-    if not (isinstance(result, Half) and result.cap.any()):  # it would lie within the cap
+    if mirror is None:
+        vertices = _drawn_axis(plotter, result, object_)
+    else:
+        vertices, triangles = _mirror_mesh(result, mirror, object_)
+    if mirror is not None and not (isinstance(result, Half) and result.cap.any()):
+        # Which would lie within the cap.
         draw_mirror(plotter, vertices, triangles)
     add_title(plotter, title)
     points = np.asarray(object_.points)
@@ -154,7 +159,8 @@ def _draw_object(
         title = "moved by, % of the diagonal"
         draw_scalars(plotter, object_, values, title, (0, end), colour_map(COLOURS))
     elif isinstance(result, Completed):
-        _draw_origins(plotter, object_, result.origin[rows])
+        image = "turned" if result.mirror is None else "mirrored"
+        _draw_origins(plotter, object_, result.origin[rows], image)
     elif isinstance(result, Remeshed):
         plotter.add_mesh(object_, color=OBJECT, show_edges=True, edge_color=INK)
     elif isinstance(result, Half) and result.cap.any():
@@ -188,14 +194,15 @@ def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
 
 
 def _draw_origins(
-    plotter: pyvista.Plotter, object_: pyvista.PolyData, origin: NDArray[np.int64]
+    plotter: pyvista.Plotter, object_: pyvista.PolyData, origin: NDArray[np.int64], image: str
 ) -> None:
-    """Faces of the seam join original points with others."""
+    """Faces of the seam join original points with others. image: what those of 1 are called."""
     of_cells = origin
     if object_.n_cells != object_.n_verts:
         corners = origin[object_.regular_faces]
         of_cells = np.where(corners.min(axis=1) > 0, 1, 2 * (corners.max(axis=1) > 0))
-    _draw_parts(plotter, object_, {name: of_cells == k for k, name in enumerate(ORIGINS)})
+    names = [image if name == "mirrored" else name for name in ORIGINS]
+    _draw_parts(plotter, object_, {name: of_cells == k for k, name in enumerate(names)})
 
 
 def _draw_parts(
@@ -231,6 +238,17 @@ def _draw_axes(plotter: pyvista.Plotter, length: float) -> None:
     )
 
 
+def _drawn_axis(
+    plotter: pyvista.Plotter, result: OperationResult, object_: pyvista.PolyData
+) -> NDArray[np.float64]:
+    """Draws the axis of what is completed about one; its ends."""
+    axis = result.axis if isinstance(result, Completed) else None
+    if axis is None:
+        return np.empty((0, 3))
+    draw_axis(plotter, axis, object_)
+    return axis.ends
+
+
 def _mirror_mesh(
     result: OperationResult, mirror: Mirror, object_: pyvista.PolyData
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -245,7 +263,7 @@ def _mirror_mesh(
 
 def _title(result: OperationResult) -> str:
     figures = result.statistics
-    kind = result.mirror.kind
+    kind = result.mirror.kind if result.mirror is not None else "axis"
     if isinstance(result, Asymmetry):
         matched = percent(figures["matched_share"])
         if "rms_of_diagonal" not in figures:
@@ -257,7 +275,8 @@ def _title(result: OperationResult) -> str:
         return f"{name} over a {kind}: {percent(figures['paired_share'])} paired"
     if isinstance(result, Completed):
         added = len(result.shape.points) - len(result.given.points)
-        return f"completed over a {kind}: {added} points added"
+        over = f"over a {kind}" if result.mirror is not None else "about an axis"
+        return f"completed {over}: {added} points added"
     if isinstance(result, Remeshed):
         length = 100 * figures["edge_length_of_diagonal"]
         return f"remeshed over a {kind}: edges of {length:.2g} % of the diagonal"

@@ -8,7 +8,7 @@ from .analysis_results import (
     Symmetries,
     SymmetryEmbedding,
 )
-from .elements import Axis, Transformation
+from .elements import Axis, SymmetryAxis, Transformation
 from .given_mirror import found_mirror, mirror_of
 from .operation_results import (
     Alignment,
@@ -41,6 +41,7 @@ __all__ = [
     "Straightened",
     "Symmetries",
     "Symmetrized",
+    "SymmetryAxis",
     "SymmetryEmbedding",
     "Transferred",
     "Transformation",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """A line about which a shape may be turned."""
+    """A line about which a shape may be turned: found, or made by hand."""
 
     point: NDArray[np.float64]
     """(3,) on the axis, in input units: the centre of the group."""
     direction: NDArray[np.float64]
-    """(3,), of length 1."""
-    order: int
+    """(3,), of length 1 where it is found."""
+    order: int = 0
     """A turn by 360 degrees / order maps the shape onto itself; 0: any turn."""
-    ends: NDArray[np.float64]
-    """(2, 3) of the piece to draw: along the shape and a little beyond."""
+    ends: NDArray[np.float64] = field(default_factory=lambda: np.full((2, 3), np.nan))
+    """(2, 3) of the piece to draw: along the shape and a little beyond; NaN where made by hand."""
 
     @property
     def continuous(self) -> bool:
@@ -28,6 +28,10 @@ class Axis:
     def __repr__(self) -> str:
         direction = ", ".join(f"{number:.4g}" for number in self.direction)
         return f"Axis(order={self.order or 'continuous'}, direction=({direction}))"
+
+
+SymmetryAxis = Axis
+"""The name that it has in C++."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ from .._core import InvalidInput, InvalidParameter, Mirror
 from .result import Result
 
 
-def mirror_of(given: Result | Mirror, argument: str = "mirror") -> Mirror:
+def mirror_of(given: object, argument: str = "mirror") -> Mirror:
     """The mirror itself, or that of a result.
 
     Raises InvalidInput for a result without a mirror, InvalidParameter, which names the argument, for

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, Plane, operations
 from ..shapes import Shape
+from .elements import Axis
 from .outputs import plot, save
 from .summary import Summarised, figures, value_text
 
@@ -30,8 +31,9 @@ class OperationResult(Summarised):
     """The shape before: the caller's own points where they could be read in place."""
     shape: Shape
     """The shape, moved or not: points and faces in the order of the input, then those added."""
-    mirror: Mirror
-    """The mirror that was used; one made by hand with the shape for its footprint."""
+    mirror: Mirror | None
+    """The mirror that was used; one made by hand with the shape for its footprint. None of what is
+    done about an axis."""
     parameters: dict[str, Any]
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]
@@ -108,13 +110,17 @@ class OperationResult(Summarised):
     def summary(self) -> dict[str, str]:
         """What it says in a few words, by name: operation, mirror and statistics, lengths with their
         share of the diagonal, unmatched shares where there are some."""
-        words = {"operation": self.operation, "mirror": self.mirror.kind}
+        words = {"operation": self.operation, "mirror": self._kind}
         for name, value, share in figures(self.statistics):
             words[name.replace("_", " ")] = value_text(name, value, share)
         return words
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.shape!r}, mirror: {self.mirror.kind})"
+        return f"{type(self).__name__}({self.shape!r}, mirror: {self._kind})"
+
+    @property
+    def _kind(self) -> str:
+        return "none" if self.mirror is None else self.mirror.kind
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the shape or its table, in the format of the suffix, whole or not at all.
@@ -147,7 +153,13 @@ class OperationResult(Summarised):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Asymmetry(OperationResult):
+class _OverMirror(OperationResult):
+    mirror: Mirror
+    """The mirror that was used; one made by hand with the shape for its footprint."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Asymmetry(_OverMirror):
     """How far each point is from where the other side says it should be.
 
     ``statistics``: "matched_share" and "unmatched_share", of that "unmatched_without_image",
@@ -184,7 +196,7 @@ class Asymmetry(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Correspondences(OperationResult):
+class Correspondences(_OverMirror):
     """Which point mirrors which. ``statistics``: "paired_share", and why the others are unmatched,
     as those of an asymmetry. ``save`` also takes ``.mirror``, MakeHuman's table: the numbers of a
     point and its mirror point and l, r or m, where l is the side of positive signed distances."""
@@ -203,7 +215,7 @@ class Correspondences(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Alignment(OperationResult):
+class Alignment(_OverMirror):
     """The shape laid so that its mirror plane is a coordinate plane."""
 
     operation = "align"
@@ -215,7 +227,7 @@ class Alignment(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Symmetrized(OperationResult):
+class Symmetrized(_OverMirror):
     """The shape made symmetric. ``statistics``: "paired_share", and why the others are unmatched,
     as those of an asymmetry. With ``triangles="mirrored"`` one side and its image: ``partner`` is an
     exact permutation, ``carried`` takes attributes along."""
@@ -229,7 +241,7 @@ class Symmetrized(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Remeshed(OperationResult):
+class Remeshed(_OverMirror):
     """One side with even triangles, and its image. ``statistics``: "edge_length", the mean of the
     result, in input units and, with "_of_diagonal" behind the name, as a share of the diagonal."""
 
@@ -240,7 +252,7 @@ class Remeshed(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Half(OperationResult):
+class Half(_OverMirror):
     """The shape on one side of the mirror. ``statistics``: "cap_faces", how many close it, and
     "open_curves", how many of the curves where it is cut do not close and are left open."""
 
@@ -253,7 +265,7 @@ class Half(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Transferred(OperationResult):
+class Transferred(_OverMirror):
     """Values of the points, carried to the other side. ``statistics``: "failed_points", how many have
     no counterpart, and why, as those of an asymmetry."""
 
@@ -277,7 +289,7 @@ class Transferred(OperationResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Straightened(OperationResult):
+class Straightened(_OverMirror):
     """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
     the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
     nearest that has one."""
@@ -292,7 +304,13 @@ class Straightened(OperationResult):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Completed(OperationResult):
-    """The shape with what one side lacks filled in from the other."""
+    """The shape with what one side lacks filled in from the other, or what a turn lacks from the rest
+    of it.
+
+    ``statistics``: "added_points", "added_faces" and "seam_faces"; over a mirror why points are
+    unmatched, as those of an asymmetry; about an axis how many "turns" were made and "axis_point",
+    "axis_direction" and "axis_order", 0 of a continuous one.
+    """
 
     operation = "complete"
 
@@ -300,6 +318,23 @@ class Completed(OperationResult):
     """(n,) of each point: 0 original, 1 mirrored, 2 of the seam between them."""
     patch: Shape
     """What was added, with the points of the rim that its faces touch; its own numbering."""
+
+    @property
+    def axis(self) -> Axis | None:
+        """The axis that it was turned about; None where a mirror was used."""
+        given = self.statistics
+        if "axis_direction" not in given:
+            return None
+        return Axis(given["axis_point"], given["axis_direction"], given["axis_order"], self._ends)
+
+    @property
+    def _ends(self) -> NDArray[np.float64]:
+        """Of the axis as it is drawn: a tenth beyond the shape."""
+        point, direction = self.statistics["axis_point"], self.statistics["axis_direction"]
+        along = (self.shape.points - point) @ direction
+        low, high = float(along.min()), float(along.max())
+        margin = 0.1 * (high - low)
+        return point + np.outer([low - margin, high + margin], direction)
 
     @staticmethod
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:

@@ -72,8 +72,12 @@ class MirrorOperation(Algorithm):
         options, operation = self._options, self.operation
         points, faces = points_of(shape), faces_of(shape)
         mask = _mask_of(shape, options["mask_array"]) if operation.takes_mask else None
-        mirror = self._found_mirror(points, faces) if given is None else mirror_of(given)
-        before = _FOUND_AT if given is None else 0
+        parameters = {each.name: options[each.name] for each in operation.parameters}
+        mirror: Mirror | None = None
+        before: float = 0
+        if _core.needs_mirror(operation.name, parameters):
+            mirror = self._found_mirror(points, faces) if given is None else mirror_of(given)
+            before = _FOUND_AT if given is None else 0
         result = _core.operate(
             operation.name,
             points,
@@ -82,7 +86,7 @@ class MirrorOperation(Algorithm):
             mask,
             options["number_of_threads"],
             lambda fraction: self._progress(before + (1 - before) * fraction),
-            {each.name: options[each.name] for each in operation.parameters},
+            parameters,
         )
         added = _set_operated(outputs[0], shape, faces, operation, result)
         if operation.adds_points:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/eigenvectors.h"
@@ -13,6 +15,7 @@
 #include "detection/pipeline.h"
 #include "mesh/closest_point_on_mesh.h"
 #include "symmetries/analysis_registry.h"
+#include "symmetries/point_group/revolution_search.h"
 #include "symmetries/point_group/symmetry_search.h"
 #include "symmetries/point_group/symmetry_test.h"
 
@@ -123,6 +126,26 @@ bool deviates_little(Symmetries& found, const Deviation& deviation, double toler
   return !(tolerance > 0) || *std::max_element(deviations.begin(), deviations.end()) <= tolerance;
 }
 
+void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
+                  const std::function<void(const Cloud&, const Context&)>& search,
+                  const Context& context) {
+  MethodImplementation searching;  // in place of the method
+  searching.name = "symmetries";
+  searching.preprocessing = Preprocessing::none();
+  searching.preprocessing.remove_outliers = true;
+  searching.preprocessing.sample_faces = true;
+  searching.preprocessing.merge_duplicates = true;
+  searching.run = [&](const Cloud& cloud, const ParameterValues&, const Context& running) {
+    search(cloud, running);
+    return Result{};
+  };
+  Cloud cloud;
+  cloud.points = points;
+  cloud.faces = faces;
+  cloud.partition = Partition(points.size());
+  run_pipeline(searching, {}, cloud, refuse_nonfinite, context);
+}
+
 }  // namespace
 
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
@@ -135,28 +158,35 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
                            "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
   Symmetries found;
-  MethodImplementation searching;  // in place of the method
-  searching.name = "symmetries";
-  searching.preprocessing = Preprocessing::none();
-  searching.preprocessing.remove_outliers = true;
-  searching.preprocessing.sample_faces = true;
-  searching.preprocessing.merge_duplicates = true;
-  searching.run = [&](const Cloud& cloud, const ParameterValues&, const Context& running) {
+  const auto search = [&](const Cloud& cloud, const Context& running) {
     const bool is_cloud = options.faces.empty();
     const Deviation deviation(is_cloud ? cloud.points : points, options.faces, running.stage(0, 0));
     const auto accepts = [&](Symmetries& group) {
       return deviates_little(group, deviation, options.tolerance, running.stage(1, 1));
     };
     found = search_symmetries(cloud, is_cloud, options.minimum_score, accepts, running);
-    return Result{};
   };
-  Cloud cloud;
-  cloud.points = points;
-  cloud.faces = options.faces;
-  cloud.partition = Partition(points.size());
-  run_pipeline(searching, {}, cloud, options.refuse_nonfinite, context);
+  run_prepared(points, options.faces, options.refuse_nonfinite, search, context);
   context.report(1);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return found;
+}
+
+std::optional<SymmetryAxis> find_axis(PointsView points, TrianglesView faces,
+                                      const Context& context) {
+  SymmetryOptions options;
+  options.faces = faces;
+  options.refuse_nonfinite = true;
+  const Symmetries group = find_symmetries(points, options, context.stage(0, 0.8));
+  if (!group.axes.empty()) return group.axes.front();
+  std::optional<SymmetryAxis> found;
+  const auto search = [&](const Cloud& cloud, const Context& running) {
+    const SymmetryTest test(cloud, options.minimum_score, running);
+    if (const auto part = find_revolution(cloud, test, running))
+      found = SymmetryAxis{cloud.frame.from_frame(part->axis.pose.centre),
+                           cloud.frame.axes * part->axis.z(), 0};
+  };
+  run_prepared(points, faces, true, search, context.stage(0.8, 1));
   return found;
 }
 

@@ -12,6 +12,7 @@
 #include "symmetries/exact_isometries.h"
 #include "symmetries/point_group/element_search.h"
 #include "symmetries/point_group/point_group.h"
+#include "symmetries/point_group/revolution_search.h"
 #include "symmetries/point_group/symmetry_test.h"
 
 namespace symsurf {
@@ -20,6 +21,9 @@ namespace {
 
 // Of the fit of the turns alone: a group that fits so much worse has more elements than the cloud.
 constexpr double below_turns = 0.03;
+// Of a part of a surface of revolution, of as much of the turn: as of continuous groups, and more
+// the longer its rims are for what it has of surface.
+constexpr double whole_turn = 0.95, most_outliers_of_whole = 0.04;
 
 // Of a pose whose x is to point along a direction, which is laid across z.
 GroupPose with_x(GroupPose pose, const Vector3& x) {
@@ -68,6 +72,7 @@ class SymmetrySearch {
     centre_ = centre_of(planes_);
     axes_ = find_axes(test_, planes_, centre_);
     context_.report(0.8);
+    if (std::optional<Symmetries> found = partly_turned()) return *found;
     for (const auto& kind : {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral,
                              &SymmetrySearch::axial, &SymmetrySearch::of_two})
       if (std::optional<Symmetries> found = (this->*kind)()) return *found;
@@ -82,6 +87,26 @@ class SymmetrySearch {
     GroupPose pose;
     double expected = 0;  // fit: that of the turns alone
   };
+
+  // Part of a surface of revolution, whose axis whole turns did not find.
+  std::optional<Symmetries> partly_turned() const {
+    const bool is_found = std::any_of(axes_.begin(), axes_.end(),
+                                      [](const FoundDirection& axis) { return axis.order == 0; });
+    if (is_found) return {};
+    const std::optional<Revolution> part = find_revolution(cloud_, test_, context_.stage(0.8, 0.8));
+    if (!part || part->turn > whole_turn ||
+        part->axis.vote.outliers > most_outliers_of_whole / part->turn)
+      return {};
+    // Of a gear turns map the body, those by a tooth all of it.
+    for (const FoundDirection& axis : axes_)
+      if (axis.order > 2 && axis.vote.fit > part->axis.vote.fit + below_turns) return {};
+    OrbitVote vote = part->axis.vote;
+    vote.missing = 1 - part->turn;
+    Symmetries found =
+        described(axial_group(0, {.vertical = true}), part->axis.pose, vote, cloud_.frame);
+    if (!accepts_(found)) return {};
+    return found;
+  }
 
   std::optional<Symmetries> spherical() const {
     if (axes_.empty() || axes_.front().order != 0) return {};

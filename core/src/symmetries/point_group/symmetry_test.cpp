@@ -105,7 +105,11 @@ std::optional<SymmetryTest::Passed> SymmetryTest::tried(const GroupPose& start,
   GroupPose pose = fit_.roughly(start, fitted);
   for (const Matrix3& element : fitted)
     if (fit_.support(pose, element, rough_tolerance) < rough_support) return {};
-  pose = fit_.closely(pose, fitted, samples);
+  return voted(fit_.closely(pose, fitted, samples), voting);
+}
+
+std::optional<SymmetryTest::Passed> SymmetryTest::voted(const GroupPose& pose,
+                                                        const std::vector<Matrix3>& voting) const {
   const OrbitVote vote = orbit_vote(score_, pose, voting, few_images);
   if (!may_be(vote)) return {};
   return Passed{pose, vote};

@@ -45,6 +45,9 @@ class SymmetryTest {
   std::optional<Passed> tried(const GroupPose& start, const std::vector<Matrix3>& fitted,
                               const std::vector<Matrix3>& voting) const;
 
+  /// The pose as it is, where they may be symmetries.
+  std::optional<Passed> voted(const GroupPose& pose, const std::vector<Matrix3>& voting) const;
+
   /// Whether a group with these elements, some of those it has where it is continuous, is one of
   /// the cloud's.
   std::optional<Passed> passed(const GroupPose& start, const std::vector<Matrix3>& group,
