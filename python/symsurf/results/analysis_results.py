@@ -15,7 +15,7 @@ from ..reading.inputs import warn_of
 from ..shapes import Shape
 from .elements import Axis, Transformation
 from .outputs import plot, save
-from .poses import coordinate_axis, nearest_poses, rigid, stepped, turn_of
+from .poses import isaac_axes, nearest_poses, rigid, stepped
 from .summary import Summarised, value_text
 
 if TYPE_CHECKING:
@@ -322,25 +322,14 @@ class Symmetries(AnalysisResult):
         Raises:
             InvalidParameter: a tolerance below 0 or not finite.
         """
-        turns, axes = self._rotations(tolerance)
-        names, left_out = [], 0
-        for axis in axes:
-            name = coordinate_axis(axis.direction)
-            names += [f"{name}_full"] if name else []
-            left_out += name is None
-        for direction, angle in map(turn_of, turns[1:]):
-            name = coordinate_axis(direction)
-            left_out += name is None
-            if name and f"{name}_full" not in names:
-                positive = direction["xyz".index(name)] > 0
-                names.append(f"{name}_{angle if positive else 360 - angle:.6g}")
+        names, left_out = isaac_axes(*self._rotations(tolerance))
         if left_out:
             message = (
-                f"{left_out} rotations are about none of the axes x, y and z, and Isaac has no name for "
-                "them; turn the model so that its axes of symmetry are"
+                f"{left_out} rotations are no products of those about x, y and z, and Isaac has no name "
+                "for them; turn the model so that its axes of symmetry are along these"
             )
             warn_of([message])
-        return {"symmetry_axes": sorted(names)}
+        return {"symmetry_axes": names}
 
     def _rotations(self, tolerance: float | None) -> tuple[NDArray[np.float64], list[Axis]]:
         """(k, 4, 4), the identity first, and the continuous axes; those within the tolerance."""

@@ -91,9 +91,38 @@ def stepped(turns: Matrices, axes: Sequence[Axis], step: float) -> Matrices:
 _CLUSTER = 30.0  # degrees; FoundationPose takes poses by less for one
 
 
-def turn_of(matrix: Matrices) -> tuple[NDArray[np.float64], float]:
-    """The unit axis, and the angle in degrees, 0 to 180, of a rotation."""
-    turn = matrix[:3, :3]
+def isaac_axes(turns: Matrices, axes: Sequence[Axis]) -> tuple[list[str], int]:
+    """What Isaac calls the rotations about x, y and z, such as "z_120" and "x_full", and how many are
+    neither these nor products of them."""
+    along = [_coordinate(axis.direction) for axis in axes]
+    if None in along:
+        return [], len(axes) + len(turns) - 1
+    if axes:
+        names = [f"{name}_full" for name in along]
+        # Any line across the axis is as good as that of the half turn that is listed.
+        across = "y" if along == ["x"] else "x"
+        return names + [f"{across}_180"] * (len(turns) > 1 and len(axes) == 1), 0
+    angles: dict[str, list[float]] = {"z": [0], "y": [0], "x": [0]}
+    for turn in turns[1:, :3, :3]:
+        direction, angle = _axis_angle(turn)
+        if name := _coordinate(direction):
+            angles[name].append(angle if direction["xyz".index(name)] > 0 else 360 - angle)
+    about = [
+        _turns(np.eye(3)["xyz".index(name)], np.radians(each)) for name, each in angles.items()
+    ]
+    products = [z @ y @ x for z in about[0] for y in about[1] for x in about[2]]
+    left_out = sum(
+        min(np.abs(product - turn).max() for product in products) > _ALONG
+        for turn in turns[:, :3, :3]
+    )
+    return sorted(f"{name}_{each:.6g}" for name in angles for each in angles[name][1:]), left_out
+
+
+_ALONG = np.radians(1)  # off x, y or z
+
+
+def _axis_angle(turn: Matrices) -> tuple[NDArray[np.float64], float]:
+    """The unit axis of a rotation, and its angle in degrees, 0 to 180."""
     values, vectors = np.linalg.eig(turn)
     axis = vectors[:, np.abs(values - 1).argmin()].real
     sine = np.einsum("ij,ij->", _cross_matrix(axis), turn) / 2
@@ -101,11 +130,10 @@ def turn_of(matrix: Matrices) -> tuple[NDArray[np.float64], float]:
     return (axis, float(angle)) if angle >= 0 else (-axis, float(-angle))
 
 
-def coordinate_axis(direction: NDArray[np.float64]) -> str | None:
-    """ "x", "y" or "z" where a line is along it, within a degree."""
+def _coordinate(direction: NDArray[np.float64]) -> str | None:
+    """ "x", "y" or "z" where a unit direction is along it, either way."""
     largest = int(np.abs(direction).argmax())
-    along = np.abs(direction[largest]) >= np.cos(np.radians(1)) * np.linalg.norm(direction)
-    return "xyz"[largest] if along else None
+    return "xyz"[largest] if np.abs(direction[largest]) >= np.cos(_ALONG) else None
 
 
 def _nearest_rotations(matrices: Matrices) -> Matrices:
