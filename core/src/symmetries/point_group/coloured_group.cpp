@@ -21,8 +21,11 @@ struct PlacedGroup {
 
 class ColouredAxis {
  public:
-  ColouredAxis(const ColouredSurface& surface, const GroupPose& pose)
-      : surface_(surface), pose_(pose), order_(order()) {}
+  ColouredAxis(const ColouredSurface& surface, const Vector3& axis, const Vector3& centre)
+      : surface_(surface), pose_(GroupPose::along(axis, centre)), order_(order()) {}
+
+  // How many elements its group may have at most.
+  double most_elements() const { return order_ == 0 ? infinity : 4 * static_cast<double>(order_); }
 
   // With what the shape has beside its turns about the axis, where the colours have it.
   PlacedGroup group(const AxialElements& shape) {
@@ -104,35 +107,6 @@ class ColouredAxis {
   Index order_;
 };
 
-PlacedGroup about(const Vector3& axis, const Vector3& centre, const AxialElements& shape,
-                  const ColouredSurface& surface) {
-  return ColouredAxis(surface, GroupPose::along(axis, centre)).group(shape);
-}
-
-// A sphere's is that about one of the principal directions of the colours, the largest.
-PlacedGroup group_of_sphere(const Symmetries& found, const ColouredSurface& surface) {
-  constexpr AxialElements all{.across = true, .vertical = true, .twofold = true};
-  const auto size = [](const PlacedGroup& placed) {
-    return placed.group.continuous ? infinity : static_cast<double>(placed.group.elements.size());
-  };
-  const bool any_turn = std::all_of(found.axes.begin(), found.axes.end(), [&](const auto& axis) {
-    return about(axis.direction, found.centre, {}, surface).group.continuous;
-  });
-  if (any_turn) return {spherical_group(), {}};
-  std::vector<Vector3> directions = surface.principal_directions(found.centre);
-  suppress_non_maxima(directions, directions.size(), [](const Vector3& a, const Vector3& b) {
-    constexpr double same = 0.01;  // radians
-    return are_parallel(a, b, same);
-  });
-  PlacedGroup best;
-  best.pose.centre = found.centre;
-  for (const Vector3& direction : directions) {
-    PlacedGroup other = about(direction, found.centre, all, surface);
-    if (size(other) > size(best)) best = std::move(other);
-  }
-  return best;
-}
-
 // The elements that keep the colours, less those that make none of a group with the rest.
 PlacedGroup kept_elements(const Symmetries& found, const ColouredSurface& surface) {
   std::vector<Matrix3> kept, generators;
@@ -155,9 +129,48 @@ PlacedGroup kept_elements(const Symmetries& found, const ColouredSurface& surfac
   return {PointGroup(std::move(elements)), pose};
 }
 
+// A sphere's: that of the colours as a relief, or that about one of its axes or a principal
+// direction, the largest.
+PlacedGroup group_of_sphere(const Symmetries& found, const ColouredSurface& surface,
+                            const Context& context) {
+  constexpr AxialElements all{.across = true, .vertical = true, .twofold = true};
+  constexpr double least_score = 0.7;  // as of shapes
+  const bool any_turn = std::all_of(found.axes.begin(), found.axes.end(), [&](const auto& axis) {
+    return ColouredAxis(surface, axis.direction, found.centre).most_elements() == infinity;
+  });
+  if (any_turn) return {spherical_group(), {}};
+  const Points relief = surface.relief(found.centre);
+  const Symmetries raised = search_symmetries(
+      checked_cloud(relief, {}, 4, context), false, least_score,
+      [&](const Symmetries& group) {
+        return std::all_of(group.elements.begin(), group.elements.end(), [&](const Matrix4& each) {
+          return surface.is_kept_by(Eigen::Isometry3d(each));
+        });
+      },
+      context);
+  std::vector<Vector3> directions = surface.principal_directions(found.centre);
+  for (const SymmetryAxis& axis : raised.axes) directions.push_back(axis.direction);
+  suppress_non_maxima(directions, directions.size(), [](const Vector3& a, const Vector3& b) {
+    constexpr double same = 0.01;  // radians
+    return are_parallel(a, b, same);
+  });
+  const auto size = [](const PlacedGroup& placed) {
+    return placed.group.continuous ? infinity : static_cast<double>(placed.group.elements.size());
+  };
+  PlacedGroup best = kept_elements(raised, surface);
+  for (const Vector3& direction : directions) {
+    ColouredAxis axis(surface, direction, found.centre);
+    if (axis.most_elements() <= size(best)) continue;
+    PlacedGroup other = axis.group(all);
+    if (size(other) > size(best)) best = std::move(other);
+  }
+  return best;
+}
+
 }  // namespace
 
-Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surface) {
+Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surface,
+                          const Context& context) {
   const auto has_plane = [&](bool across) {
     return std::any_of(found.planes.begin(), found.planes.end(), [&](const Plane& plane) {
       return (std::abs(plane.normal().dot(found.axes.front().direction)) > 0.5) == across;
@@ -167,12 +180,12 @@ Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surfac
   if (found.axes.empty() || found.axes.front().order != 0)
     kept = kept_elements(found, surface);
   else if (found.group == "K")
-    kept = group_of_sphere(found, surface);
+    kept = group_of_sphere(found, surface, context);
   else
-    kept = about(
-        found.axes.front().direction, found.centre,
-        {.across = has_plane(true), .vertical = has_plane(false), .twofold = found.axes.size() > 1},
-        surface);
+    kept = ColouredAxis(surface, found.axes.front().direction, found.centre)
+               .group({.across = has_plane(true),
+                       .vertical = has_plane(false),
+                       .twofold = found.axes.size() > 1});
   if (kept.group.name == found.group) return found;
   return described(kept.group, kept.pose, {.support = found.score, .missing = found.missing}, {});
 }

@@ -10,6 +10,7 @@ namespace symsurf {
 /// group are tried one by one. Of a continuous axis the turns of any angle are, then those by the
 /// primes up to 31 and their powers; mirrors and half turns along it are turned to where the
 /// colours agree best.
-Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surface);
+Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surface,
+                          const Context& context);
 
 }  // namespace symsurf

@@ -129,13 +129,24 @@ double ColouredSurface::mean_difference(const Eigen::Isometry3d& map, Index look
          static_cast<double>(count);
 }
 
-std::vector<Vector3> ColouredSurface::principal_directions(const Vector3& centre) const {
-  // A number for the colour: how far it is from the one farthest from the mean.
-  const Eigen::VectorXd mean = colours_.rowwise().mean();
+// A number for each colour: how far it is from the one farthest from the mean.
+Eigen::VectorXd ColouredSurface::values() const {
   Index farthest;
-  (colours_.colwise() - mean).colwise().squaredNorm().maxCoeff(&farthest);
+  (colours_.colwise() - colours_.rowwise().mean()).colwise().squaredNorm().maxCoeff(&farthest);
   const Eigen::VectorXd extreme = colours_.col(farthest);
-  Eigen::VectorXd value = (colours_.colwise() - extreme).colwise().norm().transpose();
+  return (colours_.colwise() - extreme).colwise().norm().transpose();
+}
+
+Points ColouredSurface::relief(const Vector3& centre) const {
+  constexpr double height = 0.25;
+  const Eigen::VectorXd value = values();
+  const Eigen::VectorXd factor = (1 + height / value.maxCoeff() * value.array()).matrix();
+  return (factor.asDiagonal() * (points_.rowwise() - centre.transpose())).rowwise() +
+         centre.transpose();
+}
+
+std::vector<Vector3> ColouredSurface::principal_directions(const Vector3& centre) const {
+  Eigen::VectorXd value = values();
   value.array() -= value.mean();
   Eigen::VectorXd contrast(size());
   for (Index i = 0; i < size(); ++i)

@@ -31,9 +31,14 @@ class ColouredSurface {
   /// colours and of their edges.
   std::vector<Vector3> principal_directions(const Vector3& centre) const;
 
+  /// The samples moved away from the centre by what their colours say, up to a quarter: a shape
+  /// with the symmetries of the colours.
+  Points relief(const Vector3& centre) const;
+
  private:
   void sample_points(PointsView points, const Eigen::MatrixXd& colours);
   void sample_faces(PointsView points, TrianglesView faces, const Eigen::MatrixXd& colours);
+  Eigen::VectorXd values() const;
   double difference(Index one, Index other) const {
     return (colours_.col(one) - colours_.col(other)).norm();
   }

@@ -165,7 +165,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     if (options.colours.size() > 0) {
       const Context last = running.stage(1, 1);
       const ColouredSurface surface(points, options.faces, options.colours, last);
-      found = coloured_group(found, surface);
+      found = coloured_group(found, surface, last);
       deviates_little(found, deviation, 0, last);
     }
     return Result{};
