@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "base/eigenvectors.h"
 #include "base/math.h"
@@ -22,7 +23,10 @@ constexpr Index most_points_of_set = 1000;
 
 // Of the widest range of a channel: less is not seen as a difference.
 constexpr double least_contrast = 0.1;
-constexpr double usual_share = 0.9;  // of the samples whose neighbours say how much noise there is
+constexpr double near_enough = 0.75;  // of the radius of a window: farther off is a hole
+constexpr double usual_share = 0.9;   // of the samples whose neighbours say how much noise there is
+// Samples on a face: on fewer, how the face divides the surface says what lies between its corners.
+constexpr double small_face = 30;
 // Of a window, samples whose colour is another: at an edge of colours a third of them may seem so.
 constexpr double most_unlike = 0.6;
 
@@ -34,11 +38,14 @@ ColouredSurface::ColouredSurface(PointsView points, TrianglesView faces,
   if (!faces.empty()) sample_faces(points, faces, colours);
   if (size() == 0) sample_points(points, colours);  // or no face has an area
   const double range = (colours_.rowwise().maxCoeff() - colours_.rowwise().minCoeff()).maxCoeff();
-  if (range > 0) colours_ /= range;
+  if (range > 0) {
+    colours_ /= range;
+    spread_ /= range;
+  }
   tree_ = std::make_unique<const PointTree>(points_, context);
   const bool is_set = faces.empty() && points.size() <= most_points_of_set;
   near_.resize(is_set ? 1 : std::min(window, size()), size());
-  std::vector<double> noise, far;
+  std::vector<double> noise;
   std::vector<Neighbour> found;
   for (Index i = 0; i < size(); ++i) {
     context.check();
@@ -49,10 +56,9 @@ ColouredSurface::ColouredSurface(PointsView points, TrianglesView faces,
       if (k > 0 && k < around) least = std::min(least, difference(i, found[k].index));
     }
     noise.push_back(is_set ? 0 : least);
-    far.push_back(std::sqrt(found.back().squared_distance));
+    reach_.push_back(is_set ? infinity : near_enough * std::sqrt(found.back().squared_distance));
   }
   limit_ = least_contrast + quantile(noise, usual_share);
-  reach_ = is_set ? infinity : 3 * median(far);
 }
 
 void ColouredSurface::sample_points(PointsView points, const Eigen::MatrixXd& colours) {
@@ -63,6 +69,7 @@ void ColouredSurface::sample_points(PointsView points, const Eigen::MatrixXd& co
     if (const Index i = tree.order()[k]; points[i].allFinite()) chosen.push_back(i);
   points_ = points.matrix()(chosen, Eigen::indexing::all);
   colours_ = colours(chosen, Eigen::indexing::all).transpose();
+  spread_.setZero(size());
 }
 
 void ColouredSurface::sample_faces(PointsView points, TrianglesView faces,
@@ -76,21 +83,28 @@ void ColouredSurface::sample_faces(PointsView points, TrianglesView faces,
   const std::vector<FaceSample> samples = even_face_samples(areas, most_samples);
   points_.resize(static_cast<Index>(samples.size()), 3);
   colours_.resize(colours.cols(), size());
+  spread_.setZero(size());
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   for (Index k = 0; k < size(); ++k) {
     const auto& [face, down, along] = samples[k];
     const Vector3 weights(1 - down, down * (1 - along), down * along);
     const Eigen::Map<const Eigen::Vector<Index, 3>> corners(faces[face]);
     points_.row(k) = weights.transpose() * points.matrix()(corners, Eigen::indexing::all);
-    colours_.col(k) = colours(corners, Eigen::indexing::all).transpose() * weights;
+    const Eigen::MatrixXd of_corners = colours(corners, Eigen::indexing::all).transpose();
+    colours_.col(k) = of_corners * weights;
+    if (areas[face] < small_face * area / most_samples)
+      spread_[k] = (of_corners.colwise() - colours_.col(k)).colwise().norm().maxCoeff();
   }
 }
 
 double ColouredSurface::least_difference(Index sample, const Vector3& image) const {
   thread_local std::vector<Neighbour> found;
   tree_->nearest(image, std::min(around, near_.rows()), found);
-  if (found.front().squared_distance > reach_ * reach_) return 0;  // a hole
+  if (std::sqrt(found.front().squared_distance) > reach_[found.front().index]) return 0;  // a hole
   double least = infinity;
-  for (const Neighbour& other : found) least = std::min(least, difference(sample, other.index));
+  for (const Neighbour& other : found)
+    least =
+        std::min(least, difference(sample, other.index) - spread_[sample] - spread_[other.index]);
   return least;
 }
 

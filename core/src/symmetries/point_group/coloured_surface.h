@@ -48,8 +48,10 @@ class ColouredSurface {
   Eigen::MatrixXd colours_;  // a column a sample, in units of the widest range of a channel
   std::unique_ptr<const PointTree> tree_;
   Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic>
-      near_;  // a column a sample, itself first
-  double reach_ = 0, limit_ = 0;
+      near_;                   // a column a sample, itself first
+  Eigen::VectorXd spread_;     // of each sample, how far the colours of its face's corners are
+  std::vector<double> reach_;  // of each sample, input units: no farther it stands for the surface
+  double limit_ = 0;
   Context context_;
 };
 
