@@ -78,6 +78,7 @@ Outcome AnalysisFilter::apply(const RichParameterList& parameters, MeshDocument&
   AnalysisOptions options;
   options.parameters = read_parameters(parameters, analysis_.parameters, diagonal);
   options.faces = cloud.faces;
+  if (analysis_.takes_colours) options.colours = read_colours(layer, cloud);
   const Context context(progress, static_cast<int>(given.integer("threads")));
   const AnalysisResult result = analyse(analysis_.name, cloud.points, options, context);
 

@@ -93,6 +93,11 @@ LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_norm
   return cloud;
 }
 
+Points read_colours(const MeshModel& layer, const LayerCloud& cloud) {
+  if (!layer.hasDataMask(MeshModel::MM_VERTCOLOR)) return Points(0, 3);
+  return packed(layer.cm, cloud.vertex, [](const CVertexO& v) { return v.cC(); });
+}
+
 Eigen::VectorXd read_mask(const MeshModel& layer, const LayerCloud& cloud, bool only_selected,
                           bool by_quality) {
   if (!only_selected && !by_quality) return {};

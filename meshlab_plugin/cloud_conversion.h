@@ -36,6 +36,9 @@ double layer_diagonal(const MeshModel* layer);
 LayerCloud read_cloud(const MeshModel& layer, bool only_selected, bool with_normals,
                       bool with_faces = false);
 
+/// Red, green and blue of each row of the cloud, 0 to 255; none where the layer has no colours.
+Points read_colours(const MeshModel& layer, const LayerCloud& cloud);
+
 /// How far each row of the cloud may move, 0 to 1: only what is selected, or by the vertices'
 /// quality, or both; empty for neither.
 /// Throws InvalidInput for a layer without a selection, where that is asked for.

@@ -1,6 +1,10 @@
 #include "vtkSymmetryAnalysis.h"
 
 #include <symsurf/analyses.h>
+#include <symsurf/context.h>
+
+#include <string>
+#include <variant>
 
 #include "chosen_parameters.h"
 #include "controller_communicator.h"
@@ -93,6 +97,28 @@ void set_elements(vtkPolyData* output, const symsurf::AnalysisResult& result) {
   elements.set(output);
 }
 
+// A row a point, a column a component.
+Eigen::MatrixXd colours_of(vtkPolyData* shape, const std::string& name) {
+  vtkPointData* data = shape->GetPointData();
+  vtkDataArray* array = data->GetArray(name.c_str());
+  const bool is_active = name.empty() || (name == "None" && !array);
+  if (is_active) array = data->GetScalars();
+  if (!array)
+    throw symsurf::InvalidParameter(
+        is_active ? "ColourArray is empty, and no scalars are active; texture needs colours"
+                  : "ColourArray is '" + name + "', which the input has no point array of");
+  Eigen::MatrixXd colours(array->GetNumberOfTuples(), array->GetNumberOfComponents());
+  for (symsurf::Index row = 0; row < colours.rows(); ++row)
+    for (int column = 0; column < colours.cols(); ++column)
+      colours(row, column) = array->GetComponent(row, column);
+  return colours;
+}
+
+bool is_on(const symsurf::Values& values, const char* name) {
+  const auto found = values.find(name);
+  return found != values.end() && std::get<bool>(found->second);
+}
+
 void set_transformations(vtkPolyData* output, symsurf::PointsView shape,
                          const symsurf::AnalysisResult& result) {
   const auto count = static_cast<symsurf::Index>(result.transformations.size());
@@ -133,6 +159,8 @@ int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inp
     options.parameters = chosen_parameters(this);
     options.faces = faces.view();
     options.refuse_nonfinite = this->RefuseNonfinite;
+    if (is_on(options.parameters, "texture"))
+      options.colours = colours_of(input, this->ColourArray);
     const symsurf::AnalysisResult result = symsurf::analyse(
         this->Analysis, points.view(), options, context_of(this, this->NumberOfThreads));
     warn_of(this, result.statistics);
@@ -152,5 +180,6 @@ int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inp
 void vtkSymmetryAnalysis::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "UseFaces: " << (this->UseFaces ? "On" : "Off") << "\n";
+  os << indent << "ColourArray: " << this->ColourArray << "\n";
   os << indent << "RefuseNonfinite: " << (this->RefuseNonfinite ? "On" : "Off") << "\n";
 }

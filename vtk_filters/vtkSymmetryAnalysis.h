@@ -22,6 +22,8 @@
 #ifndef vtkSymmetryAnalysis_h
 #define vtkSymmetryAnalysis_h
 
+#include <string>
+
 #include "vtkSymmetryAnalysisParameters.h"
 #include "vtkSymsurfFiltersModule.h"  // for the export macro
 
@@ -51,6 +53,15 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
   vtkBooleanMacro(RefuseNonfinite, bool);
   ///@}
 
+  ///@{
+  /**
+   * The name of the point array, of any number of components, whose colours SymmetriesTexture
+   * compares. Empty, or None: the active scalars.
+   */
+  vtkSetStdStringFromCharMacro(ColourArray);
+  vtkGetCharFromStdStringMacro(ColourArray);
+  ///@}
+
  protected:
   vtkSymmetryAnalysis();
   ~vtkSymmetryAnalysis() override = default;
@@ -59,6 +70,7 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
 
   bool UseFaces = true;
   bool RefuseNonfinite = false;
+  std::string ColourArray;
 
  private:
   vtkSymmetryAnalysis(const vtkSymmetryAnalysis&) = delete;

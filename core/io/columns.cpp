@@ -240,7 +240,7 @@ Shape read_columns(std::string_view content) {
     throw InvalidInput("the first of " + std::to_string(head.positions.size()) +
                        " columns without names counts the rows, so that which are x, y and z is "
                        "not clear; name them in a first row, such as id,x,y,z");
-  if (are_colours(shape.normals)) shape.normals.resize(0, 3);
+  if (are_colours(shape.normals)) shape.colours.swap(shape.normals);
   return shape;
 }
 

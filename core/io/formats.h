@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,11 +28,11 @@ T load(const char* bytes, std::endian order) {
 // points lack.
 
 /// Turk's Polygon File Format 1.0: ascii, binary_little_endian, binary_big_endian. Elements but
-/// vertex, those with polygons and tristrips, and properties but x y z nx ny nz and vertex_indices
-/// (vertex_index), are skipped.
+/// vertex, those with polygons and tristrips, and properties but x y z nx ny nz, red green blue and
+/// vertex_indices (vertex_index), are skipped.
 Shape read_ply(std::string_view content);
 
-/// Wavefront OBJ: v, vn and f. A vertex's normal is the one that its faces' corners name (their
+/// Wavefront OBJ: v, vn and f. Colours stand behind the coordinates. A vertex's normal is the one that its faces' corners name (their
 /// mean where they differ); without any in the faces, the normals are the vertices' in order if
 /// there are as many.
 Shape read_obj(std::string_view content);
@@ -53,6 +54,9 @@ class ShapeBuilder {
   Index normals() const { return static_cast<Index>(normals_.size()) / 3; }
 
   void add_point(const Vector3& x) { points_.insert(points_.end(), {x.x(), x.y(), x.z()}); }
+  void add_colour(const std::optional<Vector3>& c) {
+    if (c) colours_.insert(colours_.end(), {c->x(), c->y(), c->z()});
+  }
   void add_normal(const Vector3& n) { normals_.insert(normals_.end(), {n.x(), n.y(), n.z()}); }
 
   /// As a fan of triangles around the first corner; none for fewer than three corners.
@@ -64,11 +68,12 @@ class ShapeBuilder {
   Shape build() const {
     return {Eigen::Map<const Points>(points_.data(), points(), 3),
             Eigen::Map<const Triangles>(faces_.data(), static_cast<Index>(faces_.size()) / 3, 3),
-            Eigen::Map<const Points>(normals_.data(), normals(), 3)};
+            Eigen::Map<const Points>(normals_.data(), normals(), 3),
+            Eigen::Map<const Points>(colours_.data(), static_cast<Index>(colours_.size()) / 3, 3)};
   }
 
  private:
-  std::vector<double> points_, normals_;
+  std::vector<double> points_, normals_, colours_;
   std::vector<Index> faces_;
 };
 

@@ -88,6 +88,7 @@ Shape read_obj(std::string_view content) {
     const std::string_view keyword = text.word();
     if (keyword == "v") {
       shape.add_point(text.vector("a coordinate"));
+      shape.add_colour(text.colour());
     } else if (keyword == "vn") {
       normals.push_back(text.vector("a coordinate of the normal"));
     } else if (keyword == "f") {

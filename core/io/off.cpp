@@ -70,6 +70,7 @@ Shape read_off(std::string_view content) {
     begin_row(text, is_line, "vertex", v, vertices);
     shape.add_point(text.vector("a coordinate"));
     if (has_normals) shape.add_normal(text.vector("a coordinate of the normal"));
+    if (is_line) shape.add_colour(text.colour());
   }
   std::vector<Index> corners;
   for (Index f = 0; f < faces; ++f) {

@@ -51,7 +51,8 @@ void each_row(Rows& rows, const PlyElement& element, const Read& read, const End
 
 template <typename Rows>
 void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
-  constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+  constexpr std::array<std::string_view, 9> names{"x",  "y",   "z",     "nx",  "ny",
+                                                  "nz", "red", "green", "blue"};
   std::vector<int> position(element.properties.size(), -1);
   int named = 0;  // a bit a name
   for (std::size_t p = 0; p < position.size(); ++p) {
@@ -62,11 +63,11 @@ void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
     named |= 1 << position[p];
   }
   if ((named & 7) != 7) throw InvalidInput("the element 'vertex' lacks x, y or z");
-  const bool has_normals = (named & 56) == 56;
-  if (!has_normals)
-    for (int& p : position) p = p < 3 ? p : -1;
+  const bool has_normals = (named & 56) == 56, has_colours = (named & 448) == 448;
+  for (int& p : position)
+    if ((p >= 3 && p < 6 && !has_normals) || (p >= 6 && !has_colours)) p = -1;
 
-  std::array<double, 6> values;
+  std::array<double, 9> values;
   each_row(
       rows, element,
       [&](std::size_t p) {
@@ -77,6 +78,7 @@ void read_vertices(Rows& rows, const PlyElement& element, ShapeBuilder& shape) {
       [&] {
         shape.add_point({values[0], values[1], values[2]});
         if (has_normals) shape.add_normal({values[3], values[4], values[5]});
+        if (has_colours) shape.add_colour(Vector3(values[6], values[7], values[8]));
       });
 }
 

@@ -82,6 +82,7 @@ Shape read(const std::filesystem::path& path) {
     Shape shape = format.read(content_of(path));
     if (shape.points.rows() == 0) throw InvalidInput("the file holds no points");
     if (!has_normals(shape)) shape.normals.resize(0, 3);
+    if (shape.colours.rows() != shape.points.rows()) shape.colours.resize(0, 3);
     return shape;
   } catch (const InvalidInput& error) {
     throw InvalidInput(path.string() + ": " + error.what());

@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -126,6 +127,15 @@ double TextScanner::number(std::string_view what) {
 Vector3 TextScanner::vector(std::string_view what) {
   const double x = number(what), y = number(what), z = number(what);
   return {x, y, z};
+}
+
+std::optional<Vector3> TextScanner::colour() {
+  std::array<double, 4> values{};
+  std::size_t count = 0;
+  while (!line_ends() && count < 4)
+    if (!parse(word(), values[count++])) return {};
+  if (!line_ends() || count < 3) return {};
+  return Vector3(values[0], values[1], values[2]);
 }
 
 Index TextScanner::integer(std::string_view what) {

@@ -2,6 +2,7 @@
 
 #include <symsurf/points.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -60,6 +61,9 @@ class TextScanner {
   double number(std::string_view what);
   Vector3 vector(std::string_view what);
   Index integer(std::string_view what);
+
+  /// Red, green and blue, where the rest of the line is three or four numbers.
+  std::optional<Vector3> colour();
 
   Index line_number() const { return line_number_; }
 

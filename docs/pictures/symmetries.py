@@ -14,6 +14,7 @@ import symsurf
 from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+from accuracy.coloured_parts import COLOURED_PARTS
 from accuracy.limbed import BODIES
 from accuracy.posing import posed
 from accuracy.repeated import facade
@@ -50,6 +51,11 @@ def upright_facade():
     return symsurf.recurring_parts(points[:, [0, 2, 1]] * (1, -1, 1), faces=faces)
 
 
+def labelled_bottle():
+    points, faces, colours = COLOURED_PARTS["bottle with a label"].mesh(edge=0.02)
+    return symsurf.symmetries(points, faces=faces, colours=colours, texture=True)
+
+
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
     image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
@@ -60,6 +66,7 @@ def main(folder):
     folder.mkdir(exist_ok=True)
     above = (0.5, -1, 0.9)
     write(symsurf.symmetries(nut()), folder / "symmetries.png", above)
+    write(labelled_bottle(), folder / "texture.png", (1, -0.5, 0.4))
     write(
         symsurf.partial_symmetries(twins_and_another()),
         folder / "partial_symmetries.png",

@@ -3,6 +3,7 @@
 #include <symsurf/analyses.h>
 
 #include <array>
+#include <optional>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -22,13 +23,14 @@ Points ends_of(const std::array<Vector3, 2>& segment) {
 
 py::dict analyse_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, bool refuse_nonfinite,
-                        const py::object& threads, const py::object& progress,
-                        const py::dict& parameters) {
+                        const std::optional<Eigen::MatrixXd>& colours, const py::object& threads,
+                        const py::object& progress, const py::dict& parameters) {
   const Analysis& described = analysis(name);
   AnalysisOptions options;
   options.parameters = values_from(parameters, described.parameters);
   options.faces = view_of(faces);
   options.refuse_nonfinite = refuse_nonfinite;
+  if (colours) options.colours = *colours;
   const Context context = context_from(progress, threads);
   const AnalysisResult result =
       without_gil([&] { return analyse(name, points, options, context); });
@@ -65,6 +67,8 @@ void bind_analyses(py::module_& module) {
                     "The name of the array to colour points by; empty: none.")
       .def_readonly("minimum_points", &Analysis::minimum_points)
       .def_readonly("needs_faces", &Analysis::needs_faces, "Whether a bare cloud is refused.")
+      .def_readonly("takes_colours", &Analysis::takes_colours,
+                    "Whether colours of the points may count.")
       .def_readonly("finds_elements", &Analysis::finds_elements,
                     "Whether it may give planes and axes.")
       .def_readonly("finds_transforms", &Analysis::finds_transforms,
@@ -81,8 +85,8 @@ void bind_analyses(py::module_& module) {
       },
       "All analyses by name, in the order to show them in.");
   module.def("analyse", &analyse_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
-             py::arg("refuse_nonfinite"), py::arg("threads"), py::arg("progress"),
-             py::arg("parameters"), "The fields of an analysis' result.");
+             py::arg("refuse_nonfinite"), py::arg("colours"), py::arg("threads"),
+             py::arg("progress"), py::arg("parameters"), "The fields of an analysis' result.");
 }
 
 }  // namespace symsurf::python

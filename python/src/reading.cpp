@@ -32,6 +32,7 @@ py::dict read_fields(const std::filesystem::path& path) {
   fields["points"] = owned_array(std::move(shape.points));
   fields["faces"] = array_or_none(std::move(shape.faces));
   fields["normals"] = array_or_none(std::move(shape.normals));
+  fields["colours"] = array_or_none(std::move(shape.colours));
   return fields;
 }
 

@@ -32,6 +32,7 @@ from . import (
     single_kinds,
     spheres,
     symmetries,
+    textures,
     without_mirror,
 )
 from .case import Case, Figures
@@ -40,7 +41,7 @@ from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
            halves, intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
-           pots, recurring, scores, single_kinds, spheres, symmetries, without_mirror)  # fmt: skip
+           pots, recurring, scores, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -155,6 +155,7 @@ const char* const shape_input =
         </DataTypeDomain>
         <InputArrayDomain name="input_array" attribute_type="point" number_of_components="1"
                           optional="1"/>
+        <InputArrayDomain name="any_array" attribute_type="point" optional="1"/>
         <Documentation>
           The shape: a mesh or a bare set of points; of other grids their surface, of an image the
           points above ImageThreshold, of a multiblock all blocks together.

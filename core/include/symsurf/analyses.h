@@ -48,6 +48,8 @@ struct Symmetries {
   /// the image of a vertex to the surface, of a cloud from that of a point to the nearest point. Of
   /// large shapes by a sample of their points.
   std::vector<double> max_deviations;
+  /// The same of the turns about each continuous axis, in the order of axes: of eight.
+  std::vector<double> axis_max_deviations;
   double score = 1;    ///< how well images lie on the shape where it has points, 0 to 1
   double missing = 0;  ///< share of the images that fall where it has none: what is cut away
   double seconds = 0;  ///< that it took
@@ -58,6 +60,10 @@ struct SymmetryOptions {
   bool refuse_nonfinite = false;  ///< whether a point that is not finite is an error
   double minimum_score = 0.7;     ///< of a group, [0, 1]
   double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: any
+  /// One row a point, a column a channel; empty: colours do not count. Else only what keeps them is
+  /// a symmetry: over any dozen neighbours among 20000 samples of the surface, colours and those at
+  /// the images may differ by no more than colours of neighbours do, and a tenth of their range.
+  Eigen::MatrixXd colours = {};
 };
 
 /// Finds the point group of a shape. Of at most 1000 points without faces, as landmarks and the
@@ -68,7 +74,8 @@ struct SymmetryOptions {
 /// at most a third of the images fall where the shape has none. Orders are products of primes up to
 /// 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any mirror
 /// (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput and
-/// Cancelled as detect() does, InvalidParameter for minimum_score and tolerance.
+/// Cancelled as detect() does, InvalidInput for colours that are not one a point or not finite,
+/// InvalidParameter for minimum_score and tolerance.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});
 
@@ -83,6 +90,7 @@ struct Analysis {
   std::string shown;  ///< the array to colour points by; empty: none
   Index minimum_points = 4;
   bool needs_faces = false;       ///< a bare cloud is InvalidInput
+  bool takes_colours = false;     ///< AnalysisOptions::colours
   bool finds_elements = false;    ///< AnalysisResult::planes and axes
   bool finds_transforms = false;  ///< AnalysisResult::transformations
 };
@@ -113,6 +121,7 @@ struct AnalysisOptions {
   /// Whether a point that is not finite is an error. Otherwise such points are left out, with their
   /// faces: AnalysisResult::statistics has their number.
   bool refuse_nonfinite = false;
+  Eigen::MatrixXd colours = {};  ///< optional, one row a point, for the parameter "texture"
 };
 
 struct AnalysisResult {
@@ -130,7 +139,8 @@ struct AnalysisResult {
 };
 
 /// Runs an analysis. The points are read in place and must stay alive for the call. No symmetry is
-/// a result too. Throws InvalidInput as detect() does, or for a cloud where faces are needed;
+/// a result too. Throws InvalidInput as detect() does, for a cloud where faces are needed, and for
+/// colours that are not one a point or not finite, or missing where texture is true;
 /// InvalidParameter for an unknown name, parameter or value; Cancelled.
 AnalysisResult analyse(std::string_view name, PointsView points,
                        const AnalysisOptions& options = {}, const Context& context = {});

@@ -13,6 +13,7 @@ struct Shape {
   Points points;    ///< as they stand in the file: some may not be finite
   Triangles faces;  ///< no rows for a bare cloud; polygons come as fans of triangles
   Points normals;   ///< no rows where a finite point has none, or one that is 0 or not finite
+  Points colours;   ///< red, green, blue as they stand in the file; no rows where it has none
 };
 
 /// Reads PLY, OBJ, OFF, STL, XYZ, CSV, TXT or FCSV, distinguished by suffix. Coordinates keep every

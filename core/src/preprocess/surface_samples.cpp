@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "base/parallel.h"
@@ -74,26 +75,19 @@ struct Samples {
   Points points, normals;  // no normals where none are wanted
 };
 
-// One at random within each equal share of the area: shares of as many faces would always pick the
-// same.
-Samples even_samples(const std::vector<Face>& faces, double area, bool with_normals) {
-  Samples samples{Points(wanted, 3), Points(with_normals ? wanted : 0, 3)};
-  Index k = 0;
-  double covered = 0;
-  for (const Face& face : faces) {
-    covered += face.area();
-    const auto position = [&] {
-      return (static_cast<double>(k) + low_discrepancy(k, 0)) / static_cast<double>(wanted) * area;
-    };
-    for (; k < wanted && position() < covered; ++k) {
-      const double down = std::sqrt(low_discrepancy(k, 1)), along = low_discrepancy(k, 2);
-      samples.points.row(k) =
-          (face.origin + down * ((1 - along) * face.u + along * face.v)).transpose();
-      if (with_normals) samples.normals.row(k) = face.normal.normalized().transpose();
-    }
+Samples even_samples(const std::vector<Face>& faces, bool with_normals) {
+  std::vector<double> areas;
+  for (const Face& face : faces) areas.push_back(face.area());
+  const std::vector<FaceSample> chosen = even_face_samples(areas, wanted);
+  const auto count = static_cast<Index>(chosen.size());
+  Samples samples{Points(count, 3), Points(with_normals ? count : 0, 3)};
+  for (Index k = 0; k < count; ++k) {
+    const auto& [f, down, along] = chosen[k];
+    const Face& face = faces[f];
+    samples.points.row(k) =
+        (face.origin + down * ((1 - along) * face.u + along * face.v)).transpose();
+    if (with_normals) samples.normals.row(k) = face.normal.normalized().transpose();
   }
-  samples.points.conservativeResize(k, 3);
-  if (with_normals) samples.normals.conservativeResize(k, 3);
   return samples;
 }
 
@@ -135,6 +129,25 @@ std::vector<Plane> orthogonal_planes(const std::vector<Plane>& planes, const Mes
 
 }  // namespace
 
+// One at random within each equal share of the area: shares of as many faces would always pick the
+// same.
+std::vector<FaceSample> even_face_samples(const std::vector<double>& areas, Index count) {
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  std::vector<FaceSample> samples;
+  Index k = 0;
+  double covered = 0;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    covered += areas[f];
+    const auto position = [&] {
+      return (static_cast<double>(k) + low_discrepancy(k, 0)) / static_cast<double>(count) * area;
+    };
+    for (; k < count && position() < covered; ++k)
+      samples.push_back(
+          {static_cast<Index>(f), std::sqrt(low_discrepancy(k, 1)), low_discrepancy(k, 2)});
+  }
+  return samples;
+}
+
 bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
   const std::vector<Face> faces = distinct_faces(cloud.points, cloud.faces, context);
   const double area = area_of(faces);
@@ -142,7 +155,7 @@ bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
     cloud.faces = {};
     return false;
   }
-  Samples samples = even_samples(faces, area, !cloud.normals.empty());
+  Samples samples = even_samples(faces, !cloud.normals.empty());
   cloud.vertices = vertices_ = cloud.points;
   cloud.vertex_planes = exact_planes(vertices_, context);
   if (!cloud.vertex_planes.empty()) {

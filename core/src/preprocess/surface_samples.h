@@ -1,8 +1,21 @@
 #pragma once
 
+#include <vector>
+
 #include "preprocess/preprocessing.h"
 
 namespace symsurf {
+
+/// A point of a face: its first corner, from there `down` of the way to the point `along` the
+/// opposite side.
+struct FaceSample {
+  Index face;
+  double down, along;
+};
+
+/// About `count` of them, one of a low-discrepancy sequence in each equal share of the faces'
+/// areas.
+std::vector<FaceSample> even_face_samples(const std::vector<double>& areas, Index count);
 
 /// Even sampling of a triangle mesh by area: one point of a low-discrepancy sequence an equal share
 /// of the area of the faces in their order. Where planes map the mesh onto itself the samples of

@@ -114,6 +114,16 @@ std::string kind_of(const Matrix4& matrix, const Vector3& centre, double angle_t
   return is_short(shift - shift.dot(axis) * axis) ? "reflection" : "glide reflection";
 }
 
+void require_colours(PointsView points, const Eigen::MatrixXd& colours) {
+  if (colours.size() == 0) return;
+  if (colours.rows() != points.size())
+    throw InvalidInput(std::to_string(colours.rows()) + " colours are given for " +
+                       std::to_string(points.size()) + " points; allowed is one a point");
+  for (Index i = 0; i < points.size(); ++i)
+    if (points[i].allFinite() && !colours.row(i).allFinite())
+      throw InvalidInput("the colour of point " + std::to_string(i) + " is not finite");
+}
+
 const Analysis& analysis(std::string_view name) { return analysis_implementation(name); }
 
 AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisOptions& options,
@@ -127,13 +137,20 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   if (analysis.maximum_points > 0 && points.size() > analysis.maximum_points)
     throw InvalidInput(std::to_string(points.size()) + " points given; " + analysis.name +
                        " takes at most " + std::to_string(analysis.maximum_points));
-  Cloud cloud;
+  require_colours(points, options.colours);
+  ColouredCloud cloud;
   cloud.points = points;
   cloud.faces = options.faces;
+  cloud.colours = options.colours;
   cloud.partition = Partition(points.size());
   NonfiniteRemoval removal(analysis.minimum_points, options.refuse_nonfinite);
   const Context before = context.stage(0, 0);  // no progress worth telling
-  const bool removed = removal.apply(cloud, before);
+  std::vector<Index> kept;
+  if (removal.apply(cloud, before)) {
+    for (Index i = 0; i < points.size(); ++i)
+      if (points[i].allFinite()) kept.push_back(i);
+    if (cloud.colours.size() > 0) cloud.colours = options.colours(kept, Eigen::indexing::all);
+  }
   validate(cloud, needed_points(cloud, analysis.minimum_points), before);
 
   AnalysisResult result;
@@ -143,10 +160,7 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   drop_nonfinite(result.statistics);
   result.footprint = std::make_shared<const Points>(footprint_of(cloud));
   for (Plane& plane : result.planes) plane.set_footprint(result.footprint);
-  if (removed) {
-    std::vector<Index> kept;
-    for (Index i = 0; i < points.size(); ++i)
-      if (points[i].allFinite()) kept.push_back(i);
+  if (!kept.empty()) {
     map_back(result, analysis, kept, points.size());
     result.statistics["nonfinite_points"] = points.size() - cloud.points.size();
   }

@@ -9,12 +9,17 @@
 
 namespace symsurf {
 
+/// What an analysis is given.
+struct ColouredCloud : Cloud {
+  Eigen::MatrixXd colours;  ///< one row a point, or none
+};
+
 /// An analysis and how it runs.
 struct AnalysisImplementation : Analysis {
   Index maximum_points = 0;  ///< that memory is enough for; 0: any number
   /// Gets a validated cloud of finite points, with its faces; fills in all but parameters,
   /// footprint and seconds, with a row of the arrays for each point of the cloud.
-  void (*run)(const Cloud& cloud, const ParameterValues& values, const Context& context,
+  void (*run)(const ColouredCloud& cloud, const ParameterValues& values, const Context& context,
               AnalysisResult& result) = nullptr;
 };
 
@@ -23,6 +28,9 @@ AnalysisImplementation symmetry_embedding_analysis();
 AnalysisImplementation intrinsic_symmetry_analysis();
 AnalysisImplementation partial_symmetries_analysis();
 AnalysisImplementation recurring_parts_analysis();
+
+/// Throws InvalidInput unless there are no colours, or one a point, finite where the point is.
+void require_colours(PointsView points, const Eigen::MatrixXd& colours);
 
 /// The name of a motion, reflection or similarity, as Transformation::kind has it. What differs by
 /// less than the tolerances, in radians and input units, is the same. `centre`: of the shape, where

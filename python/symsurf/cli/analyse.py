@@ -27,6 +27,13 @@ from .batch_options import (
 from .described_options import add_parameters, given_values
 from .values import shown
 
+# What pose estimators read, by the record's name for it.
+_TABLES = {
+    "bop": "an entry of the BOP toolkit's models_info, with symmetries_discrete and "
+    "symmetries_continuous",
+    "isaac": "the parameter symmetry_axes of Isaac ROS FoundationPose",
+}
+
 
 class AnalysisCommand:
     """What symsurf.cli takes for a command."""
@@ -34,7 +41,7 @@ class AnalysisCommand:
     def __init__(self, analysis: Analysis) -> None:
         self._analysis = analysis
         self.SUMMARY = analysis.summary
-        self._has_bop = analysis.name == Symmetries.analysis
+        self._tables = _TABLES if analysis.name == Symmetries.analysis else {}
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
@@ -52,12 +59,13 @@ class AnalysisCommand:
             "that is found, ply and vtp the shape with what the analysis gives each point; default "
             "%(default)s",
         )
-        if self._has_bop:
+        for name, content in self._tables.items():
             parser.add_argument(
-                "--bop",
-                action="store_true",
-                help="print one JSON object: for each file an entry of the BOP toolkit's models_info, "
-                "with symmetries_discrete and symmetries_continuous",
+                f"--{name}",
+                dest="pose_table",
+                action="store_const",
+                const=name,
+                help=f"print one JSON object: for each file {content}",
             )
         add_batch_options(parser)
         add_absolute(parser)
@@ -77,12 +85,15 @@ class AnalysisCommand:
             )
             for task in given
         ]
-        if not getattr(arguments, "bop", False):
+        pose_table = getattr(arguments, "pose_table", None)
+        if pose_table is None:
             return run_tasks(tasks, arguments, _text)[0]
         for name in ("json", "table", "resume", "shard"):
             if getattr(arguments, name):
-                raise InvalidParameter(f"{name} is given beside bop; allowed is one of them")
-        return _print_models_info(tasks, arguments)
+                raise InvalidParameter(
+                    f"{name} is given beside {pose_table}; allowed is one of them"
+                )
+        return _print_pose_table(pose_table, tasks, arguments)
 
 
 def _output_suffix(format_name: str) -> str:
@@ -92,13 +103,13 @@ def _output_suffix(format_name: str) -> str:
     return f".{format_name}"
 
 
-def _print_models_info(tasks: Sequence[FileTask], arguments: argparse.Namespace) -> int:
+def _print_pose_table(name: str, tasks: Sequence[FileTask], arguments: argparse.Namespace) -> int:
     entries = {}
     status = 0
     for record in worked_on(tasks, arguments):
         status = max(status, tell(record))
-        if "bop" in record:
-            entries[record["file"]] = record["bop"]
+        if name in record:
+            entries[record["file"]] = record[name]
     print(json.dumps(entries, indent=1))
     return status
 

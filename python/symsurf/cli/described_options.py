@@ -30,18 +30,20 @@ def add_kinds(
 
 
 def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
-    """One option for each parameter of the kind."""
+    """One option for each parameter of the kind; a boolean one without a value is true."""
     parser.set_defaults(kind=kind)
     group = parser.add_argument_group("parameters")
     for parameter in kind.parameters:
         about = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
         vector = parameter.type in ("direction", "position")
+        bare: dict[str, Any] = {"nargs": "?", "const": "true"} if parameter.type == "boolean" else {}
         group.add_argument(
             *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
             dest=f"value:{parameter.name}",
             default=argparse.SUPPRESS,
             metavar="X,Y,Z" if vector else "VALUE",
             help=about.replace("%", "%%"),
+            **bare,
         )
 
 

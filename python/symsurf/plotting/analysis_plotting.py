@@ -81,6 +81,12 @@ def _draw_object(
 ) -> bool:
     """The object in the colours of what the analysis says; whether there is a bar of them."""
     shown = analyses()[result.analysis].shown
+    colours = result.shape.colours
+    if shown not in result.arrays and colours is not None and colours.shape[1] in (3, 4):
+        of_one = 1.0 if colours.max() > 1 else 255.0
+        object_.point_data["colours"] = np.clip(of_one * colours[rows], 0, 255).astype(np.uint8)
+        plotter.add_mesh(object_, scalars="colours", rgb=True, **style_of(object_, smooth=False))
+        return False
     if shown not in result.arrays:
         plotter.add_mesh(object_, color=OBJECT, **style_of(object_, smooth=False))
         return False

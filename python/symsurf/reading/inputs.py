@@ -32,6 +32,8 @@ class Input:
     """(m, 3) indices of points; None for a bare cloud."""
     space: str | None = None
     """Of the axes; see ``Shape``."""
+    colours: Any = None
+    """(n, k) of the points, where the input brings some."""
 
 
 def as_input(
@@ -71,12 +73,13 @@ def as_input(
     if is_data_set:
         from ..shapes import grids
 
-        return Input(given.points, grids.faces_of(given))
+        return Input(given.points, grids.faces_of(given), colours=grids.colours_of(given))
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
     own = _first_of(given, "faces", "triangles")
     found = None if own is None or not len(own) else triangles(own)
-    return Input(_points(given), found, given.space if isinstance(given, Shape) else None)
+    space = given.space if isinstance(given, Shape) else None
+    return Input(_points(given), found, space, _colours(given))
 
 
 def triangles(faces: ArrayLike) -> NDArray[np.int64]:
@@ -137,6 +140,14 @@ def _points(given: Any) -> Any:
             "the name of a file, a Shape, or a mesh or data set with points or vertices"
         )
     return given
+
+
+def _colours(given: Any) -> Any:
+    """Those of a Shape, of Open3D's clouds and meshes, and of trimesh's vertices; None of others."""
+    if getattr(getattr(given, "visual", None), "kind", None) == "vertex":
+        return given.visual.vertex_colors
+    found = _first_of(given, "colours", "vertex_colors", "colors")
+    return None if found is None or not len(found) else found
 
 
 def _first_of(given: Any, *attributes: str) -> Any:

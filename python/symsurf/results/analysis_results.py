@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from .._core import Plane
+from .._core import InvalidInput, InvalidParameter, Plane
 from ..base.plain import plain
+from ..reading.inputs import warn_of
 from ..shapes import Shape
 from .elements import Axis, Transformation
 from .outputs import plot, save
+from .poses import isaac_axes, nearest_poses, rigid, stepped
 from .summary import Summarised, value_text
 
 if TYPE_CHECKING:
@@ -212,7 +214,52 @@ class Symmetries(AnalysisResult):
             "missing": self.missing,
         }
 
-    def to_bop(self) -> dict[str, Any]:
+    @property
+    def axis_max_deviation(self) -> NDArray[np.float64]:
+        """(k,) of each continuous axis, in the order of ``axes``: the same of the turns about it."""
+        return np.ravel(self.statistics.get("axis_max_deviations", ()))
+
+    def nearest(self, pose: ArrayLike, to: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Of all poses in which the shape looks the same, the one nearest to another pose.
+
+        A pose maps the shape's coordinates to those of a camera or the world. Equivalent ones are
+        ``pose @ S`` for each rotation S of the group; about a continuous axis the best angle is
+        computed. Nearest is the one by the least angle of rotation: all place the centre of the group
+        alike, so that translations do not tell them apart. Of several as near, the given pose comes
+        first, then the order of ``transformations``.
+
+        Args:
+            pose: (4, 4), or (k, 4, 4) of a sequence.
+            to: (4, 4), or one for each pose; without it each pose of a sequence is taken nearest to
+                the one before it, as that is given back: what a tracker gave jumps no more.
+
+        Returns:
+            (4, 4) or (k, 4, 4), as ``pose``.
+
+        Raises:
+            InvalidInput: naming what is no rigid motion; a number of poses to be nearest to that is
+                neither one nor that of ``pose``; a single pose without ``to``.
+        """
+        poses = rigid("pose", pose)
+        if to is None and np.ndim(pose) == 2:
+            raise InvalidInput(
+                "to is None and pose is one; allowed without to is a sequence (k, 4, 4)"
+            )
+        turns, axes = self._rotations(None)
+        if to is not None:
+            others = rigid("to", to)
+            if len(others) not in (1, len(poses)):
+                raise InvalidInput(
+                    f"to has {len(others)} poses, pose {len(poses)}; allowed is one, or as many"
+                )
+            found = nearest_poses(poses, others, turns, axes)
+        else:
+            found = poses
+            for k in range(1, len(poses)):
+                found[k : k + 1] = nearest_poses(poses[k : k + 1], found[k - 1 : k], turns, axes)
+        return found.reshape(np.shape(pose))
+
+    def to_bop(self, tolerance: float | None = None) -> dict[str, Any]:
         """The rotations as an entry of the BOP toolkit's ``models_info.json`` has them.
 
         ``symmetries_discrete``: 4 x 4 matrices, row by row in lists of 16, without the identity;
@@ -220,22 +267,86 @@ class Symmetries(AnalysisResult):
         toolkit reads; ``symmetries_continuous``: dictionaries with axis and offset, a point on the
         axis. Each is left out where there are none. Lengths are in the unit of the input; the toolkit's is the
         millimetre. Reflections, which no object can be moved by, are not among them.
+
+        Args:
+            tolerance: the greatest ``max_deviation`` and ``axis_max_deviation`` of those to take, a
+                length in input units; without it all. The BOP challenge takes the larger of 15 mm
+                and a tenth of the diameter.
+
+        Raises:
+            InvalidParameter: a tolerance below 0 or not finite.
         """
-        is_turn = np.linalg.det(self.elements[:, :3, :3]) > 0
-        is_turn[0] = False
-        turns = self.elements[is_turn]
-        continuous = [
-            {"axis": axis.direction.tolist(), "offset": axis.point.tolist()}
-            for axis in self.axes
-            if axis.continuous
-        ]
+        taken = self._taken(tolerance)[1:]
+        turns = self.elements[1:][taken]
+        _, axes = self._rotations(tolerance)
         entry: dict[str, Any] = {}
         if len(turns):
             entry["symmetries_discrete"] = [turn.ravel().tolist() for turn in turns]
-            entry["max_deviation"] = self.max_deviation[is_turn].tolist()
-        if continuous:
-            entry["symmetries_continuous"] = continuous
+            entry["max_deviation"] = self.max_deviation[1:][taken].tolist()
+        if axes:
+            entry["symmetries_continuous"] = [
+                {"axis": axis.direction.tolist(), "offset": axis.point.tolist()} for axis in axes
+            ]
         return entry
+
+    def to_foundationpose(
+        self, step: float = 5.0, tolerance: float | None = None
+    ) -> NDArray[np.float64]:
+        """The rotations as ``symmetry_tfs`` of FoundationPose, which its own reader of
+        ``models_info.json`` makes only of axes along x, y or z through the origin.
+
+        Args:
+            step: degrees between turns about a continuous axis, above 0 and at most 180; of a ball 30
+                at least, as FoundationPose takes poses by less for one.
+            tolerance: as of ``to_bop``.
+
+        Returns:
+            (k, 4, 4), the identity first, in input units; FoundationPose's is the metre.
+
+        Raises:
+            InvalidParameter: a step or a tolerance out of range.
+        """
+        return stepped(*self._rotations(tolerance), step)
+
+    def to_isaac(self, tolerance: float | None = None) -> dict[str, list[str]]:
+        """The rotations as parameters of Isaac ROS FoundationPose: ``symmetry_axes``, such as
+        "x_full" for any turn about x and "y_180" for one by 180 degrees about y.
+
+        The older parameter ``symmetry_planes`` is deprecated, and its "x" means "x_180". Rotations
+        about other axes than x, y and z have no name there: they are left out, with an
+        ``InputWarning``, and the products of those that are named are rotations of the shape, too.
+
+        Args:
+            tolerance: as of ``to_bop``.
+
+        Raises:
+            InvalidParameter: a tolerance below 0 or not finite.
+        """
+        names, left_out = isaac_axes(*self._rotations(tolerance))
+        if left_out:
+            message = (
+                f"{left_out} rotations are no products of those about x, y and z, and Isaac has no name "
+                "for them; turn the model so that its axes of symmetry are along these"
+            )
+            warn_of([message])
+        return {"symmetry_axes": names}
+
+    def _rotations(self, tolerance: float | None) -> tuple[NDArray[np.float64], list[Axis]]:
+        """(k, 4, 4), the identity first, and the continuous axes; those within the tolerance."""
+        continuous = [axis for axis in self.axes if axis.continuous]
+        if tolerance is not None:
+            near = self.axis_max_deviation <= tolerance
+            continuous = [axis for axis, is_near in zip(continuous, near) if is_near]
+        return self.elements[self._taken(tolerance)], continuous
+
+    def _taken(self, tolerance: float | None) -> NDArray[np.bool_]:
+        """(n,) of the elements: which are rotations within the tolerance."""
+        is_turn = np.linalg.det(self.elements[:, :3, :3]) > 0
+        if tolerance is None:
+            return is_turn
+        if not (np.isfinite(tolerance) and tolerance >= 0):
+            raise InvalidParameter(f"tolerance is {tolerance!r}; allowed is [0, inf)")
+        return is_turn & (self.max_deviation <= tolerance)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
+from .._core import InvalidInput, InvalidParameter
 from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress
 from ..reading.inputs import as_input, refuses, warn
@@ -17,6 +19,7 @@ def analyse(
     shape: object,
     *,
     faces: ArrayLike | None = None,
+    colours: ArrayLike | None = None,
     nonfinite: str = "skip",
     absolute: bool = False,
     threads: int = 0,
@@ -28,8 +31,29 @@ def analyse(
     if absolute:
         described = _core.analyses()[name].parameters
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
+    counted = _colours(given.colours if colours is None else colours, parameters.get("texture"))
+    if colours is not None and counted is None:
+        if not _core.analyses()[name].takes_colours:
+            raise TypeError(f"{name}() got an unexpected keyword argument 'colours'")
+        raise InvalidParameter("colours are given, but texture is not; allowed is texture=True")
     made = _core.analyse(
-        name, given.points, given.faces, refuses(nonfinite), threads, progress, parameters
+        name, given.points, given.faces, refuses(nonfinite), counted, threads, progress, parameters
     )
     warn(made["statistics"])
-    return RESULTS[name].from_fields(Shape(made["points"], given.faces, space=given.space), made)
+    found = Shape(made["points"], given.faces, space=given.space, colours=counted)
+    return RESULTS[name].from_fields(found, made)
+
+
+def _colours(given: object, count: object) -> NDArray[np.float64] | None:
+    """Rows of channels, where they count; a single channel may be given as (n,)."""
+    if given is None or not count:
+        return None
+    try:
+        colours = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"colours are no numbers ({error}); allowed is (n, k)") from error
+    if colours.ndim == 1:
+        colours = colours[:, None]
+    if colours.ndim != 2 or not colours.size:
+        raise InvalidInput(f"colours have shape {colours.shape}; allowed is (n, k), a row a point")
+    return colours

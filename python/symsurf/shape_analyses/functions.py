@@ -14,8 +14,13 @@ from .analyse import analyse
 
 _ARGUMENTS = inspect.signature(analyse).parameters
 
+_COLOURS = (
+    "(n, k) of the points, a channel a column, for ``texture``; without them those that ``shape`` "
+    "brings: a Shape, a file (PLY, OBJ, OFF, columns, VTK's), a mesh of PyVista, trimesh or Open3D."
+)
 _DOCUMENTED = {
     "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
+    "colours": _COLOURS,
     "nonfinite": '"skip": points with a NaN or infinite coordinate are left out, with an '
     '``InputWarning``; "refuse": they are an error.',
     "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
@@ -24,8 +29,13 @@ _DOCUMENTED = {
 }
 
 
+def _left_out(analysis: Analysis) -> set[str]:
+    """What ``analyse`` takes, and the function of the analysis does not."""
+    return {"name", "parameters"} | (set() if analysis.takes_colours else {"colours"})
+
+
 def _signature(analysis: Analysis) -> inspect.Signature:
-    shared = {name: word for name, word in _ARGUMENTS.items() if name not in ("name", "parameters")}
+    shared = {name: word for name, word in _ARGUMENTS.items() if name not in _left_out(analysis)}
     own = {parameter.name: keyword(parameter) for parameter in analysis.parameters}
     words = {"shape": shared.pop("shape")} | own | shared
     returned = RESULTS[analysis.name].__name__
@@ -40,7 +50,11 @@ def _documentation(analysis: Analysis) -> list[str]:
         "Args:",
         argument_text(f"shape: {given}, as ``detect`` takes them."),
         *parameter_texts(analysis.parameters),
-        *(argument_text(f"{name}: {text}") for name, text in _DOCUMENTED.items()),
+        *(
+            argument_text(f"{name}: {text}")
+            for name, text in _DOCUMENTED.items()
+            if name not in _left_out(analysis)
+        ),
         "",
         "Raises:",
         "    InvalidInput, InvalidParameter, Cancelled: as ``detect`` does.",

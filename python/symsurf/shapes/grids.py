@@ -83,6 +83,14 @@ def shape_of(
     )
 
 
+def colours_of(mesh: pyvista.DataSet) -> NDArray[np.float64] | None:
+    """The active point scalars, where these are whole numbers of 3 or 4 channels."""
+    values = mesh.point_data.active_scalars
+    if values is None or values.ndim != 2 or values.shape[1] not in (3, 4):
+        return None
+    return np.array(values, dtype=np.float64) if values.dtype.kind == "u" else None
+
+
 def poly_data(
     points: NDArray[np.float64],
     faces: NDArray[np.int64] | None,

@@ -26,6 +26,8 @@ class Shape:
     """(n, 3) as the file gives them; None where it gives none."""
     space: str | None = None
     """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
+    colours: NDArray[np.float64] | None = None
+    """(n, k), a channel a column, as the file gives them; None where it gives none."""
 
     def __repr__(self) -> str:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"
@@ -34,14 +36,15 @@ class Shape:
 
     @classmethod
     def from_pyvista(cls, mesh: pyvista.DataSet) -> Shape:
-        """The points of a data set, the faces of its flat cells as triangles, its point normals.
+        """The points of a data set, the faces of its flat cells as triangles, its point normals and
+        colours: the active point scalars, where these are whole numbers of 3 or 4 channels.
 
         Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
         """
         require("PyVista's meshes", "pyvista")
-        from .grids import shape_of
+        from .grids import colours_of, shape_of
 
-        return cls(*shape_of(mesh))
+        return cls(*shape_of(mesh), colours=colours_of(mesh))
 
     def to_pyvista(self) -> pyvista.PolyData:
         """The faces, or the points of a bare cloud as vertices, in double precision; the normals are

@@ -6,16 +6,25 @@ import warnings
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .._core import Analysis, analyses
+from .._core import Analysis, InvalidParameter, analyses
 from ..reading.inputs import InputWarning
 from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
 from .algorithm import THREADS, Algorithm, Property, selected
-from .arrays import add_values, faces_of, points_of, set_vertices, vtk_cells, vtk_points
+from .arrays import (
+    add_values,
+    faces_of,
+    points_of,
+    rows_of,
+    set_vertices,
+    vtk_cells,
+    vtk_points,
+)
 from .names import camel_case
 
 
@@ -41,6 +50,11 @@ class SymmetryAnalysis(Algorithm):
             "use_faces": Property(
                 True, "Whether the input's polygons are used, not its points alone."
             ),
+            "colour_array": Property(
+                "",
+                "The name of the point array, of any number of components, whose colours "
+                "``symmetries_texture`` compares. Empty, or None: the active scalars.",
+            ),
             "refuse_nonfinite": Property(
                 False, "Whether points that are not finite are an error, not left out."
             ),
@@ -52,6 +66,8 @@ class SymmetryAnalysis(Algorithm):
         (source,) = inputs
         shape, elements, transformations = outputs
         options = self._options
+        chosen = self._chosen("analysis", analyses())
+        colours = _colours(source, options["colour_array"]) if chosen.get("texture") else None
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", InputWarning)  # said below as VTK says it
             result = analyse(
@@ -61,7 +77,8 @@ class SymmetryAnalysis(Algorithm):
                 nonfinite="refuse" if options["refuse_nonfinite"] else "skip",
                 threads=options["number_of_threads"],
                 progress=self._progress,
-                **self._chosen("analysis", analyses()),
+                colours=colours,
+                **chosen,
             )
         if count := result.statistics.get("nonfinite_points"):
             self._warn(f"{count} points are not finite and were left out")
@@ -70,6 +87,21 @@ class SymmetryAnalysis(Algorithm):
         add_values(shape.GetFieldData(), result.statistics | {"analysis": result.analysis})
         _set_elements(elements, result)
         _set_transformations(transformations, result)
+
+
+def _colours(shape: vtkPolyData, name: str) -> NDArray[Any]:
+    data = shape.GetPointData()
+    array = data.GetArray(name)
+    is_active = name == "" or (name == "None" and array is None)
+    if is_active:
+        array = data.GetScalars()
+    if array is None:
+        raise InvalidParameter(
+            "ColourArray is empty, and no scalars are active; texture needs colours"
+            if is_active
+            else f"ColourArray is {name!r}, which the input has no point array of"
+        )
+    return rows_of(array)
 
 
 def _add_arrays(shape: vtkPolyData, analysis: Analysis, result: AnalysisResult) -> None:

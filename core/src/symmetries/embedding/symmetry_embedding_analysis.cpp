@@ -60,7 +60,7 @@ void add_stationary_set(PointsView points, const Points& means, const NearSymmet
   result.statistics["centre"] = centre;
 }
 
-void run_symmetry_embedding(const Cloud& cloud, const ParameterValues& values,
+void run_symmetry_embedding(const ColouredCloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
   const PointsView points = cloud.points;
   const PointTree tree(points, context.stage(0, 0.1));

@@ -83,7 +83,7 @@ std::vector<Image> carried_images(const Cloud& cloud, const ConnectedSurface& su
   return carried;
 }
 
-void run_intrinsic_symmetry(const Cloud& cloud, const ParameterValues& values,
+void run_intrinsic_symmetry(const ColouredCloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
   require_surface(cloud, context.stage(0, 0));
   const Index count = values.integer("functions");

@@ -95,7 +95,7 @@ std::vector<PatchPair> partial_search(const ThinnedSurface& surface,
 // Radians and diagonals: what a fitted map may miss the symmetry by that it is named after.
 constexpr double same_angle = 0.02, same_length = 0.01;
 
-void run_partial_symmetries(const Cloud& cloud, const ParameterValues& values,
+void run_partial_symmetries(const ColouredCloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
   const ThinnedSurface surface(cloud, values.integer("points"), context.stage(0, 0.2));
   PartialSearchOptions options;

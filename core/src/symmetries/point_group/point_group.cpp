@@ -13,22 +13,6 @@ namespace {
 // least turn of a thousand points is more.
 constexpr double same = 1e-3;
 
-bool contains(const std::vector<Matrix3>& elements, const Matrix3& element) {
-  return std::any_of(elements.begin(), elements.end(),
-                     [&](const Matrix3& other) { return (other - element).isZero(same); });
-}
-
-// The group that the generators make.
-std::vector<Matrix3> closed(const std::vector<Matrix3>& generators) {
-  std::vector<Matrix3> elements{Matrix3::Identity()};
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    for (const Matrix3& generator : generators) {
-      const Matrix3 product = generator * elements[i];
-      if (!contains(elements, product)) elements.push_back(product);
-    }
-  return elements;
-}
-
 // Schoenflies'.
 std::string name_of(const PointGroup& group) {
   const std::vector<PointGroup::Axis> axes = group.axes();
@@ -52,6 +36,21 @@ std::string name_of(const PointGroup& group) {
 }
 
 }  // namespace
+
+bool contains(const std::vector<Matrix3>& elements, const Matrix3& element) {
+  return std::any_of(elements.begin(), elements.end(),
+                     [&](const Matrix3& other) { return (other - element).isZero(same); });
+}
+
+std::vector<Matrix3> closed(const std::vector<Matrix3>& generators) {
+  std::vector<Matrix3> elements{Matrix3::Identity()};
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (const Matrix3& generator : generators) {
+      const Matrix3 product = generator * elements[i];
+      if (!contains(elements, product)) elements.push_back(product);
+    }
+  return elements;
+}
 
 Matrix3 turn(const Vector3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();

@@ -47,6 +47,11 @@ PointGroup spherical_group();   ///< K
 /// T, O or I for the highest order of an axis, 3, 4 or 5, with more where it has a mirror.
 PointGroup polyhedral_group(Index highest_order, bool inversion, bool mirror);
 
+/// The group that the generators make, the identity first.
+std::vector<Matrix3> closed(const std::vector<Matrix3>& generators);
+
+bool contains(const std::vector<Matrix3>& elements, const Matrix3& element);
+
 Matrix3 turn(const Vector3& axis, double angle);
 Matrix3 reflection(const Vector3& normal);
 

@@ -15,6 +15,8 @@
 #include "detection/pipeline.h"
 #include "mesh/closest_point_on_mesh.h"
 #include "symmetries/analysis_registry.h"
+#include "symmetries/point_group/coloured_group.h"
+#include "symmetries/point_group/coloured_surface.h"
 #include "symmetries/point_group/revolution_search.h"
 #include "symmetries/point_group/symmetry_search.h"
 #include "symmetries/point_group/symmetry_test.h"
@@ -78,12 +80,21 @@ std::vector<double> Deviation::of(const std::vector<Matrix4>& maps, Index looked
   return deviations;
 }
 
-void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Context& context,
-                    AnalysisResult& result) {
+Eigen::MatrixXd column(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+void run_symmetries(const ColouredCloud& cloud, const ParameterValues& values,
+                    const Context& context, AnalysisResult& result) {
   SymmetryOptions options;
   options.faces = cloud.faces;
   options.minimum_score = values.real("minimum_score");
   options.tolerance = values.real("tolerance");
+  if (values.boolean("texture")) {
+    if (cloud.colours.size() == 0)
+      throw InvalidInput("texture is true, but no colours are given; allowed is a colour a point");
+    options.colours = cloud.colours;
+  }
   Symmetries found = find_symmetries(cloud.points, options, context);
   constexpr double rounding = 1e-5;  // radians and diagonals: that of sets in single precision
   for (const Matrix4& element : found.elements)
@@ -96,33 +107,35 @@ void run_symmetries(const Cloud& cloud, const ParameterValues& values, const Con
   const std::vector<double>& deviations = found.max_deviations;
   result.planes = std::move(found.planes);
   result.axes = std::move(found.axes);
-  result.statistics = {
-      {"group", found.group},
-      {"centre", found.centre},
-      {"inversion", found.inversion},
-      {"score", found.score},
-      {"missing", found.missing},
-      {"max_deviation", *std::max_element(deviations.begin(), deviations.end())},
-      {"max_deviations", Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(
-                             deviations.data(), static_cast<Index>(deviations.size())))}};
+  result.statistics = {{"group", found.group},
+                       {"centre", found.centre},
+                       {"inversion", found.inversion},
+                       {"score", found.score},
+                       {"missing", found.missing},
+                       {"max_deviation", *std::max_element(deviations.begin(), deviations.end())},
+                       {"max_deviations", column(deviations)}};
+  if (!found.axis_max_deviations.empty())
+    result.statistics["axis_max_deviations"] = column(found.axis_max_deviations);
 }
 
-// Fills in how far the elements take the shape off itself. Whether all are within the tolerance,
-// and of continuous axes some turns.
+// Fills in how far the elements, and some turns about continuous axes, take the shape off itself.
+// Whether all are within the tolerance.
 bool deviates_little(Symmetries& found, const Deviation& deviation, double tolerance,
                      const Context& context) {
   constexpr Index looked = 100'000;  // images: less than a second
   constexpr int turns = 8;
   std::vector<Matrix4> maps = found.elements;
-  if (tolerance > 0)
-    for (const SymmetryAxis& axis : found.axes) {
-      if (axis.order != 0) continue;
-      for (const Matrix3& turned : any_turns(axis.direction, turns))
-        maps.push_back(map_taking(turned, axis.point, axis.point).matrix());
-    }
+  for (const SymmetryAxis& axis : found.axes) {
+    if (axis.order != 0) continue;
+    for (const Matrix3& turned : any_turns(axis.direction, turns))
+      maps.push_back(map_taking(turned, axis.point, axis.point).matrix());
+  }
   const std::vector<double> deviations = deviation.of(maps, looked, context);
-  found.max_deviations.assign(
-      deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(found.elements.size()));
+  const auto end = deviations.begin() + static_cast<std::ptrdiff_t>(found.elements.size());
+  found.max_deviations.assign(deviations.begin(), end);
+  found.axis_max_deviations.clear();
+  for (auto first = end; first != deviations.end(); first += turns)
+    found.axis_max_deviations.push_back(*std::max_element(first, first + turns));
   return !(tolerance > 0) || *std::max_element(deviations.begin(), deviations.end()) <= tolerance;
 }
 
@@ -156,6 +169,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)))
     throw InvalidParameter("tolerance is " + to_string(Value(options.tolerance)) +
                            "; allowed is [0, inf)");
+  require_colours(points, options.colours);
   const auto start = std::chrono::steady_clock::now();
   Symmetries found;
   const auto search = [&](const Cloud& cloud, const Context& running) {
@@ -165,6 +179,12 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
       return deviates_little(group, deviation, options.tolerance, running.stage(1, 1));
     };
     found = search_symmetries(cloud, is_cloud, options.minimum_score, accepts, running);
+    if (options.colours.size() > 0) {
+      const Context last = running.stage(1, 1);
+      const ColouredSurface surface(points, options.faces, options.colours, last);
+      found = coloured_group(found, surface, last);
+      deviates_little(found, deviation, 0, last);
+    }
   };
   run_prepared(points, options.faces, options.refuse_nonfinite, search, context);
   context.report(1);
@@ -202,7 +222,11 @@ AnalysisImplementation symmetries_analysis() {
       Parameter::real(
           "tolerance", 0, 0, infinity, "input units",
           "No element may take a vertex farther off the surface, of a cloud a point off "
-          "its nearest one; 0: any may.")};
+          "its nearest one; 0: any may."),
+      Parameter::boolean("texture", false,
+                         "Only what keeps the colours of the points is a symmetry: a label breaks "
+                         "that of a bottle.")};
+  analysis.takes_colours = true;
   analysis.finds_elements = true;
   analysis.finds_transforms = true;
   analysis.run = run_symmetries;

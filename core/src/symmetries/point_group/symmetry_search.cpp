@@ -32,31 +32,6 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
   return pose;
 }
 
-Symmetries described(const PointGroup& group, const GroupPose& pose, const OrbitVote& vote,
-                     const PrincipalFrame& frame) {
-  const Matrix3 axes = frame.axes * pose.axes;
-  Symmetries found;
-  found.group = group.name;
-  found.centre = frame.from_frame(pose.centre);
-  for (const Vector3& normal : group.plane_normals()) {
-    const Vector3 unit = pose.axes * normal;
-    found.planes.push_back(in_input_units({unit, -unit.dot(pose.centre)}, frame));
-  }
-  for (const PointGroup::Axis& axis : group.axes())
-    found.axes.push_back({found.centre, axes * axis.direction, axis.order});
-  found.inversion = group.inversion();
-  for (const Matrix3& element : group.elements) {
-    if (element.isIdentity(0))  // else it would be one but for rounding
-      found.elements.emplace_back(Matrix4::Identity());
-    else
-      found.elements.push_back(
-          map_taking(axes * element * axes.transpose(), found.centre, found.centre).matrix());
-  }
-  found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
-  found.missing = vote.missing;
-  return found;
-}
-
 class SymmetrySearch {
  public:
   SymmetrySearch(const Cloud& cloud, double minimum_score,
@@ -319,6 +294,31 @@ PointGroup exact_group(const Cloud& cloud, const Context& context) {
 }
 
 }  // namespace
+
+Symmetries described(const PointGroup& group, const GroupPose& pose, const OrbitVote& vote,
+                     const PrincipalFrame& frame) {
+  const Matrix3 axes = frame.axes * pose.axes;
+  Symmetries found;
+  found.group = group.name;
+  found.centre = frame.from_frame(pose.centre);
+  for (const Vector3& normal : group.plane_normals()) {
+    const Vector3 unit = pose.axes * normal;
+    found.planes.push_back(in_input_units({unit, -unit.dot(pose.centre)}, frame));
+  }
+  for (const PointGroup::Axis& axis : group.axes())
+    found.axes.push_back({found.centre, axes * axis.direction, axis.order});
+  found.inversion = group.inversion();
+  for (const Matrix3& element : group.elements) {
+    if (element.isIdentity(0))  // else it would be one but for rounding
+      found.elements.emplace_back(Matrix4::Identity());
+    else
+      found.elements.push_back(
+          map_taking(axes * element * axes.transpose(), found.centre, found.centre).matrix());
+  }
+  found.score = std::clamp(vote.support, 0.0, 1.0);  // rounding; the support may be negative
+  found.missing = vote.missing;
+  return found;
+}
 
 Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
                              const std::function<bool(Symmetries&)>& accepts,

@@ -6,8 +6,14 @@
 #include <optional>
 
 #include "cloud/cloud.h"
+#include "symmetries/point_group/point_group.h"
+#include "symmetries/point_group/symmetry_test.h"
 
 namespace symsurf {
+
+/// A point group that stands in a pose of the principal frame, in input units.
+Symmetries described(const PointGroup& group, const GroupPose& pose, const OrbitVote& vote,
+                     const PrincipalFrame& frame);
 
 /// The point group of a validated cloud in one process. Elements are proposed by candidate planes,
 /// by the lines that these meet in and by the principal axes; the groups that they may make are

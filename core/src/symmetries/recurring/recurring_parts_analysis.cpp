@@ -13,8 +13,8 @@ namespace {
 // after.
 constexpr double named_angle = 0.02, named_share = 0.1;
 
-void run_recurring_parts(const Cloud& cloud, const ParameterValues& values, const Context& context,
-                         AnalysisResult& result) {
+void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& values,
+                         const Context& context, AnalysisResult& result) {
   // In diagonals, from the centroid.
   Points scaled = cloud.points.matrix();
   scaled.rowwise() -= cloud.frame.centroid.transpose();
