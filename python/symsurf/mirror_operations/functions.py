@@ -5,11 +5,11 @@ from __future__ import annotations
 import inspect
 import textwrap
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 from .._core import Operation, operations, require_found_parameter
 from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
-from ..results.operation_results import RESULTS, OperationResult
+from ..results.operation_results import RESULTS, OperationResult, Transferred
 from .operate import operate, with_values
 
 _ARGUMENTS = inspect.signature(operate).parameters
@@ -91,7 +91,8 @@ def _function(operation: Operation) -> Callable[..., OperationResult]:
         return operate(operation.name, shape, result, **options)
 
     def carry(values: Any, shape: Any, result: Any = None, **options: Any) -> OperationResult:
-        return with_values(operate(operation.name, shape, result, **options), values)
+        made = operate(operation.name, shape, result, **options)
+        return with_values(cast(Transferred, made), values)
 
     return name_function(
         carry if operation.carries_values else function,

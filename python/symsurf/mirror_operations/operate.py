@@ -14,7 +14,7 @@ from .._core import InvalidInput, InvalidParameter, Mirror
 from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress, detect
 from ..reading.inputs import Input, as_input, warn_of
-from ..results import Axis, OperationResult, Result, found_mirror, mirror_of
+from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.operation_results import RESULTS
 
 
@@ -51,7 +51,7 @@ def operate(
     )
 
 
-def with_values(made: OperationResult, values: Any) -> OperationResult:
+def with_values(made: Transferred, values: Any) -> Transferred:
     """The result with the values that its points then have of those of the input's points, an array
     or a dictionary of arrays. Raises InvalidInput where one is not a value a point."""
     if values is None:

@@ -156,8 +156,8 @@ def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
         position = end + 1
     kept = _kept(vertices, new)
     names = [words[1] for _, words in kept]
-    columns = [new.of_words(words[1], [row[i] for row in rows]) for i, words in kept]
-    made = [list(row) for row in zip(*columns, strict=True)]
+    carried = [new.of_words(words[1], [row[i] for row in rows]) for i, words in kept]
+    made = [list(row) for row in zip(*carried, strict=True)]
     if new.changes_points:
         _replace(made, names, (b"x", b"y", b"z"), new.points)
     if new.turn is not None and b"nx" in names:
