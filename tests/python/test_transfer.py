@@ -163,3 +163,14 @@ def test_other_files_are_refused(ball, tmp_path):
     assert done.returncode != 0
     assert "cannot be carried over" in done.stderr
     assert not list((tmp_path / "out").glob("*"))
+
+
+def test_pairs_are_saved_as_makehuman_reads_them(ball, tmp_path):
+    symsurf.correspondences(ball, PLANE).save(tmp_path / "ball.mirror")
+    rows = [line.split() for line in (tmp_path / "ball.mirror").read_text().splitlines()]
+    assert [int(row[0]) for row in rows] == list(range(len(ball.points)))
+    np.testing.assert_array_equal([int(row[1]) for row in rows], partner_of(ball.points))
+    for (_, _, side), x in zip(rows, ball.points[:, 0], strict=True):
+        assert side == ("m" if abs(x) < 1e-6 else "l" if x > 0 else "r")
+    with pytest.raises(symsurf.InvalidParameter, match="allowed are the suffixes"):
+        symsurf.align(ball, PLANE).save(tmp_path / "other.mirror")
