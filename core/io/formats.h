@@ -32,9 +32,9 @@ T load(const char* bytes, std::endian order) {
 /// vertex_indices (vertex_index), are skipped.
 Shape read_ply(std::string_view content);
 
-/// Wavefront OBJ: v, vn and f. Colours stand behind the coordinates. A vertex's normal is the one that its faces' corners name (their
-/// mean where they differ); without any in the faces, the normals are the vertices' in order if
-/// there are as many.
+/// Wavefront OBJ: v, vn and f. Colours stand behind the coordinates. A vertex's normal is the one
+/// that its faces' corners name (their mean where they differ); without any in the faces, the
+/// normals are the vertices' in order if there are as many.
 Shape read_obj(std::string_view content);
 
 /// Geomview's OFF, COFF, NOFF, CNOFF, with or without texture coordinates (ST); ascii, the keyword

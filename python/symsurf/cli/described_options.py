@@ -36,7 +36,9 @@ def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
     for parameter in kind.parameters:
         about = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
         vector = parameter.type in ("direction", "position")
-        bare: dict[str, Any] = {"nargs": "?", "const": "true"} if parameter.type == "boolean" else {}
+        bare: dict[str, Any] = (
+            {"nargs": "?", "const": "true"} if parameter.type == "boolean" else {}
+        )
         group.add_argument(
             *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
             dest=f"value:{parameter.name}",
