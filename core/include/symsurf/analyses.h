@@ -61,8 +61,9 @@ struct SymmetryOptions {
   double minimum_score = 0.7;     ///< of a group, [0, 1]
   double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: any
   /// One row a point, a column a channel; empty: colours do not count. Else only what keeps them is
-  /// a symmetry: over any dozen neighbours among 20000 samples of the surface, colours and those at
-  /// the images may differ by no more than colours of neighbours do, and a tenth of their range.
+  /// a symmetry: nowhere may most of a dozen neighbours, of 20000 samples of the surface, fall
+  /// where the colours differ by more than a tenth of their range, beyond what neighbours differ
+  /// by.
   Eigen::MatrixXd colours = {};
 };
 

@@ -4,6 +4,7 @@ pose estimators read its symmetries in."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -142,7 +143,7 @@ def _nearest_rotations(matrices: Matrices) -> Matrices:
     return u @ vt
 
 
-def _turns(axis: NDArray[np.float64], angles: NDArray[np.float64]) -> Matrices:
+def _turns(axis: NDArray[np.float64], angles: NDArray[np.floating[Any]]) -> Matrices:
     """(..., 3, 3) by Rodrigues' formula."""
     along, cross = np.outer(axis, axis), _cross_matrix(axis)
     cosine, sine = np.cos(angles)[..., None, None], np.sin(angles)[..., None, None]
