@@ -129,15 +129,14 @@ def _draw_labels(
 def _title(result: AnalysisResult) -> str:
     name = result.analysis.replace("_", " ")
     if isinstance(result, Symmetries):
-        counts = f"{len(result.planes)} planes, {len(result.axes)} axes"
-        return f"symmetry group {result.group}: {counts}"
+        name = f"symmetry group {result.group}"
     counts = ", ".join(
-        f"{len(found)} {kind}"
-        for kind, found in (
-            ("planes", result.planes),
-            ("axes", result.axes),
-            ("transformations", result.transformations),
+        f"{len(found)} {one if len(found) == 1 else many}"
+        for one, many, found in (
+            ("plane", "planes", result.planes),
+            ("axis", "axes", result.axes),
+            ("transformation", "transformations", result.transformations),
         )
-        if found
+        if found and not (isinstance(result, Symmetries) and one == "transformation")
     )
     return f"{name}: {counts}" if counts else name
