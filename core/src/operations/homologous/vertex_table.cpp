@@ -16,10 +16,10 @@ namespace symsurf {
 namespace {
 
 constexpr Index table_grain = 1024;
-constexpr int most_starts = 30;       // a connected part: a tenth of them may be right
-constexpr double usual_slide = 0.01;  // diagonals, of a registration
-constexpr double least_close = 0.5;   // of the vertices of a part, to where the registration is
-constexpr double least_sound = 0.75;  // of them; LEASTSOUND
+constexpr int most_starts = 30;         // a connected part: one in ten may be right
+constexpr double usual_slide = 0.01;    // of a registration, diagonals
+constexpr double least_close = 0.5;     // of the vertices of a part, to the registration
+constexpr double least_sound = 0.5;     // of them, with their edges: resampled sides reach 0.1
 constexpr double worth_of_edges = 10;   // kept, against being close: a slid lattice keeps 99 %
 constexpr double most_turned = 0.5;     // of the edges at a vertex: quadrangles divided at random
 constexpr double most_unlike = 0.0625;  // an edge and its image: their difference by it, squared
@@ -113,7 +113,8 @@ class MirrorMap {
   // that hang together. Past faces that have no image the edges lead that are most like their own.
   void grow(const Corner& start) {
     using Step = std::tuple<double, std::int32_t, std::int32_t, std::int32_t>;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;  // unlike, vertex, image, from
+    std::priority_queue<Step, std::vector<Step>, std::greater<>>
+        steps;  // unlike, vertex, image, from
     std::vector<Corner> corners, found;
     for (int c = 0; c < 3; ++c)
       corners.push_back({start[c], start[(c + 1) % 3], start[(c + 2) % 3]});
