@@ -243,13 +243,12 @@ TEST(HomologousPoints, OfASymmetricTriangulationAreItsVerticesToTheLast) {
       {"three", [](const Vector3& u) { return std::abs(std::abs(u.x()) - 0.4) > 0.1; }}};
   const Ball lattice = subdivided(subdivided(subdivided(subdivided(subdivided(octahedron())))));
   for (std::uint64_t seed = 60; seed < 63; ++seed)
-    for (const bool bent : {false, true})
-      for (const auto& [name, keeps] : parts) {
-        const Ball irregular = body_of(subdivided(two_halves(seed)), keeps);
-        EXPECT_EQ(wrong_partners(irregular, seed, bent, everywhere), 0) << seed << bent << name;
-        EXPECT_EQ(wrong_partners(body_of(lattice, keeps), seed, bent, everywhere), 0)
-            << seed << bent << name;
-      }
+    for (const auto& [name, keeps] : parts) {
+      const bool bent = seed % 2 == 1;
+      const Ball irregular = body_of(subdivided(two_halves(seed)), keeps);
+      EXPECT_EQ(wrong_partners(irregular, seed, bent, everywhere), 0) << seed << name;
+      EXPECT_EQ(wrong_partners(body_of(lattice, keeps), seed, bent, everywhere), 0) << seed << name;
+    }
 }
 
 // All but for what mirrors a hole.
