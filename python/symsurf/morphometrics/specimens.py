@@ -215,8 +215,8 @@ def _is_mirrored(faces: NDArray[np.int64], index: NDArray[np.int64]) -> bool:
     """Whether each vertex has another, or itself, that mirrors it, and each face."""
     if (index < 0).any() or (index[index] != np.arange(len(index))).any():
         return False
-    both = (np.unique(np.sort(each, axis=1), axis=0) for each in (faces, index[faces]))
-    return np.array_equal(*both)
+    own, mirrored = (np.unique(np.sort(each, axis=1), axis=0) for each in (faces, index[faces]))
+    return np.array_equal(own, mirrored)
 
 
 def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:
