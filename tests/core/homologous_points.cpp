@@ -3,11 +3,15 @@
 #include <symsurf/operations.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <queue>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
@@ -125,6 +129,141 @@ TEST(HomologousPoints, FollowASmoothDeformationWithoutTwins) {
       EXPECT_LE(median_error(result, d), 0.35) << seed << ' ' << bent;
       EXPECT_GE(median_error(closest, d), 0.4) << seed << ' ' << bent;
     }
+}
+
+// Both sides of a ball's half with x > 0, whose rims are drawn to the midline.
+Ball two_halves(std::uint64_t seed) {
+  const Ball whole = ball(seed);
+  std::vector<std::array<Index, 3>> faces;
+  std::vector<Vector3> points;
+  std::map<std::pair<Index, int>, Index> number;
+  const auto of = [&](Index i, int side) {
+    Vector3 x = whole.points.row(i).transpose();
+    if (std::abs(x.x()) <= 0.09 * std::hypot(x.x(), x.y())) x.x() = side = 0;
+    const auto [at, is_new] = number.try_emplace({i, side}, static_cast<Index>(points.size()));
+    if (is_new) points.push_back(Vector3(side < 0 ? -x.x() : x.x(), x.y(), x.z()));
+    return at->second;
+  };
+  for (const auto& face : whole.faces.rowwise()) {
+    if (std::any_of(face.begin(), face.end(), [&](Index i) { return whole.points(i, 0) < 0; }))
+      continue;
+    faces.push_back({of(face[0], 1), of(face[1], 1), of(face[2], 1)});
+    faces.push_back({of(face[1], -1), of(face[0], -1), of(face[2], -1)});
+  }
+  Ball b{Points(static_cast<Index>(points.size()), 3),
+         Triangles(static_cast<Index>(faces.size()), 3),
+         {}};
+  for (Index i = 0; i < b.points.rows(); ++i) b.points.row(i) = points[i].transpose();
+  for (Index f = 0; f < b.faces.rows(); ++f)
+    b.faces.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  return b;
+}
+
+Ball octahedron() {
+  Ball b{Points(6, 3), Triangles(8, 3), {}};
+  b.points << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
+  for (int f = 0; f < 8; ++f) {
+    const bool turned = (f ^ f >> 1 ^ f >> 2) & 1;
+    b.faces.row(f) << f % 2, turned ? 4 + f / 4 : 2 + f / 2 % 2, turned ? 2 + f / 2 % 2 : 4 + f / 4;
+  }
+  return b;
+}
+
+// Each face in four.
+Ball subdivided(const Ball& coarse) {
+  std::map<std::pair<Index, Index>, Index> middle_of;
+  std::vector<std::array<Index, 3>> faces;
+  for (const auto& face : coarse.faces.rowwise()) {
+    std::array<Index, 3> m;
+    for (int c = 0; c < 3; ++c)
+      m[c] = middle_of
+                 .try_emplace(std::minmax(face[c], face[(c + 1) % 3]),
+                              coarse.points.rows() + static_cast<Index>(middle_of.size()))
+                 .first->second;
+    for (int c = 0; c < 3; ++c) faces.push_back({face[c], m[c], m[(c + 2) % 3]});
+    faces.push_back(m);
+  }
+  Ball fine{Points(coarse.points.rows() + static_cast<Index>(middle_of.size()), 3),
+            Triangles(static_cast<Index>(faces.size()), 3),
+            {}};
+  fine.points.topRows(coarse.points.rows()) = coarse.points;
+  for (const auto& [ends, i] : middle_of)
+    fine.points.row(i) =
+        (coarse.points.row(ends.first) + coarse.points.row(ends.second)).normalized();
+  for (Index f = 0; f < fine.faces.rows(); ++f)
+    fine.faces.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  return fine;
+}
+
+// Gives the body's shape to a ball, leaves the faces whose centres on the ball are kept, and finds
+// the partners among all points.
+Ball body_of(Ball b, const std::function<bool(const Vector3&)>& keeps) {
+  std::vector<Index> kept;
+  for (Index f = 0; f < b.faces.rows(); ++f) {
+    Vector3 centre = Vector3::Zero();
+    for (const Index i : b.faces.row(f)) centre += b.points.row(i).normalized().transpose() / 3;
+    if (keeps(centre)) kept.push_back(f);
+  }
+  b.faces = Triangles(b.faces(kept, Eigen::indexing::all));
+  for (Index i = 0; i < b.points.rows(); ++i)
+    b.points.row(i) = on_body(b.points.row(i).normalized().transpose()).transpose();
+  b.partner.resize(b.points.rows());
+  for (Index i = 0; i < b.points.rows(); ++i) {
+    const Eigen::RowVector3d image = b.points.row(i) * Vector3(-1, 1, 1).asDiagonal();
+    (b.points.rowwise() - image).rowwise().squaredNorm().minCoeff(&b.partner[i]);
+  }
+  return b;
+}
+
+// How many vertices of faces, of those that count, are not mapped to their partners.
+Index wrong_partners(const Ball& body, std::uint64_t seed, bool bent,
+                     const std::function<bool(const Vector3&)>& counts) {
+  const double diagonal = diagonal_of(body.points);
+  const Deformed d = deformed(body, SideMap(seed, 2 * share_of_diagonal * diagonal), bent);
+  Values values = homologous;
+  values["max_angle"] = 90.0;
+  const OperationResult pairs =
+      operate("correspondences", {d.points, d.faces}, mirror_of(bent), values);
+  std::vector<bool> is_wrong(d.points.rows(), false);
+  for (const auto& face : body.faces.rowwise())
+    for (const Index i : face)
+      is_wrong[i] = counts(body.points.row(i).normalized().transpose()) &&
+                    pairs.arrays.at("index")(i, 0) != static_cast<double>(body.partner[i]);
+  return std::count(is_wrong.begin(), is_wrong.end(), true);
+}
+
+bool everywhere(const Vector3&) { return true; }
+
+TEST(HomologousPoints, OfASymmetricTriangulationAreItsVerticesToTheLast) {
+  const std::pair<const char*, bool (*)(const Vector3&)> parts[]{
+      {"whole", everywhere},
+      {"face", [](const Vector3& u) { return u.y() > -0.3; }},
+      {"two that mirror each other", [](const Vector3& u) { return std::abs(u.x()) > 0.15; }},
+      {"two that mirror themselves", [](const Vector3& u) { return std::abs(u.z()) > 0.15; }},
+      {"three", [](const Vector3& u) { return std::abs(std::abs(u.x()) - 0.4) > 0.1; }}};
+  const Ball lattice = subdivided(subdivided(subdivided(subdivided(subdivided(octahedron())))));
+  for (std::uint64_t seed = 60; seed < 63; ++seed)
+    for (const auto& [name, keeps] : parts) {
+      const bool bent = seed % 2 == 1;
+      const Ball irregular = body_of(subdivided(two_halves(seed)), keeps);
+      EXPECT_EQ(wrong_partners(irregular, seed, bent, everywhere), 0) << seed << name;
+      EXPECT_EQ(wrong_partners(body_of(lattice, keeps), seed, bent, everywhere), 0) << seed << name;
+    }
+}
+
+// All but for what mirrors a hole.
+TEST(HomologousPoints, OfATriangulationWithAHoleOnOneSideAreItsVertices) {
+  const Ball lattice = subdivided(subdivided(subdivided(subdivided(subdivided(octahedron())))));
+  const Vector3 hole = Vector3(0.8, 0.6, 0);
+  const auto has_face = [&](const Vector3& u) { return u.dot(hole) < 0.85; };
+  const auto counts = [&](const Vector3& u) {
+    return Vector3(std::abs(u.x()), u.y(), u.z()).dot(hole) < 0.8;
+  };
+  for (std::uint64_t seed = 70; seed < 73; ++seed) {
+    EXPECT_EQ(wrong_partners(body_of(subdivided(two_halves(seed)), has_face), seed, false, counts),
+              0);
+    EXPECT_EQ(wrong_partners(body_of(lattice, has_face), seed, false, counts), 0);
+  }
 }
 
 // But for the diagonals of its quadrangles, which are drawn on both sides apart.

@@ -13,7 +13,7 @@ from command_line import run_here
 from symmetric_shapes import mirrored_surface, random_rotation
 
 import symsurf
-from symsurf.morphometrics.triangulation import mirrored_vertices
+from symsurf.morphometrics.specimens import Specimens, paired
 
 
 def write_landmarks(folder, landmarks, names):
@@ -209,22 +209,22 @@ def test_meshes_whose_triangulation_is_not_symmetric(rng, tmp_path):
     assert "directional asymmetry has the error of registration" in record["pairs_from"]
 
 
-def test_mirrored_vertices(rng):
-    """Found from a guess of which every third is wrong; none where one edge is another."""
+def test_pairs_of_a_triangulation():
+    """Of each vertex the one that mirrors it; where one edge is another, homologous points."""
     x, faces = ball()
+    shapes = bent_more_and_more(x)
     partner = partners(x)
-    assert (partner[partner] == np.arange(len(x))).all()
-    guess = np.where(rng.random(len(x)) < 1 / 3, rng.permutation(partner), partner)
-    np.testing.assert_array_equal(mirrored_vertices(faces, guess), partner)
+    _, found, source = paired(Specimens(list("abcde"), shapes, faces=faces))
+    both = np.column_stack([np.arange(len(x)), partner])
+    np.testing.assert_array_equal(found.pairs, both[both[:, 0] < both[:, 1]])
+    np.testing.assert_array_equal(found.midline, np.flatnonzero(partner == np.arange(len(x))))
+    assert "triangulation is not symmetric" not in source
     a, b, c = faces[0]
     (other,) = (i for i, face in enumerate(faces) if i and {a, b} <= set(face))
     (d,) = set(faces[other]) - {a, b}
     flipped = faces.copy()
     flipped[0], flipped[other] = (a, d, c), (d, b, c)
-    assert mirrored_vertices(flipped, partner) is None
-    apart = np.concatenate([faces, faces + len(x)])  # two that hang not together
-    both = np.concatenate([partner + len(x), partner])
-    np.testing.assert_array_equal(mirrored_vertices(apart, both), both)
+    assert "not symmetric" in paired(Specimens(list("abcde"), shapes, faces=flipped))[2]
 
 
 def cells(page):

@@ -21,7 +21,6 @@ from ..shapes import Landmarks, Shape
 from .checks import listed
 from .pairing import LandmarkPairs, landmark_pairs, side_of
 from .procrustes import superimposed
-from .triangulation import mirrored_vertices
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,11 +177,14 @@ def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
     if specimens.faces is None:
         return specimens, landmark_pairs(mean, mirror, specimens.names or None), source
     shape = Shape(mean, specimens.faces)
+    exact = operate(
+        "correspondences", shape, mirror, pairing="homologous", max_distance=1, max_angle=90
+    )
+    assert isinstance(exact, Correspondences)
+    if _is_mirrored(specimens.faces, exact.index):
+        return specimens, _of_vertices(exact.index), f"{source} and the triangulation"
     found = operate("correspondences", shape, mirror, pairing="homologous")
     assert isinstance(found, Correspondences)
-    vertices = mirrored_vertices(specimens.faces, found.index)
-    if vertices is not None:
-        return specimens, _of_vertices(vertices), f"{source} and the triangulation"
     source += "; the triangulation is not symmetric: directional asymmetry has the error of registration in it"
     return *_of_one_side(specimens, found, mirror.signed_distance(mean) > 0), source
 
@@ -207,6 +209,14 @@ def _of_one_side(
         np.concatenate([specimens.points[:, side], others], axis=1),
         faces=np.concatenate([faces, faces[:, ::-1] + count]),
     ), LandmarkPairs(pairs, none, none)
+
+
+def _is_mirrored(faces: NDArray[np.int64], index: NDArray[np.int64]) -> bool:
+    """Whether each vertex has another, or itself, that mirrors it, and each face."""
+    if (index < 0).any() or (index[index] != np.arange(len(index))).any():
+        return False
+    own, mirrored = (np.unique(np.sort(each, axis=1), axis=0) for each in (faces, index[faces]))
+    return np.array_equal(own, mirrored)
 
 
 def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:

@@ -3,6 +3,7 @@
 #include <symsurf/context.h>
 #include <symsurf/points.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,10 +30,14 @@ class SurfaceGraph {
 
   bool are_neighbours(Index one, Index other) const;
 
+  /// The third vertices of the faces at an edge; -1 where there is none, both of more than two.
+  std::array<std::int32_t, 2> thirds(Index one, Index other) const;
+
  private:
   std::vector<Index> begin_;
   std::vector<std::int32_t> neighbour_;
   std::vector<double> length_;
+  std::vector<std::array<std::int32_t, 2>> thirds_;
   std::vector<bool> is_boundary_;
 };
 

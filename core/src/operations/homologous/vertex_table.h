@@ -9,9 +9,10 @@
 
 namespace symsurf {
 
-/// Of each vertex the one that mirrors it, where both sides have one triangulation: the
-/// automorphism of the edges that is nearest to a registration. -1 where it does not hold; empty
-/// where it holds for too few vertices to be no chance. `displacements`: of the registration.
+/// Of each vertex the one that mirrors it, where both sides have one triangulation: of the maps of
+/// each connected part onto itself or another the one that is nearest to a registration; -1 where
+/// faces differ, and for parts that have no map of at least half of their vertices.
+/// Lengths are in diagonals; `displacements`: of the registration.
 std::vector<Index> vertex_table(PointsView points, PointsView images, const SurfaceGraph& graph,
                                 const Points& displacements, const Context& context);
 
