@@ -18,8 +18,8 @@ namespace {
 constexpr Index table_grain = 1024;
 constexpr int most_starts = 40;       // a connected part: one in fifteen may be right
 constexpr double usual_slide = 0.01;  // of a registration, diagonals
-// Shares of the vertices of a part. Of 27 icospheres turned at random one was taken to one of its
-// own mirrors, and 0.40 of it close; where a side moved by 0.04 diagonals 0.47 and more are.
+// Shares of the vertices of a part. An icosphere turned at random was taken to one of its own
+// mirrors with 0.40 of it close; where a side moved by 0.04 diagonals 0.47 and more are.
 constexpr double least_close = 0.45;
 constexpr double least_sound = 0.5;     // resampled sides reach 0.1
 constexpr double worth_of_edges = 10;   // against being close: a lattice that slid keeps 0.99
