@@ -13,6 +13,7 @@
 
 #include "expect_error.h"
 #include "random_cloud.h"
+#include "triangle_soup.h"
 
 namespace symsurf {
 namespace {
@@ -25,6 +26,7 @@ struct LongCall {
 // Every call that takes a context, on a cloud large enough for several reports.
 std::vector<LongCall> long_calls() {
   static const Points points = RandomCloud(0).sphere(20000);
+  static const Triangles soup = triangle_soup(points);
   std::vector<LongCall> calls{
       {"estimate_normals",
        [](const Context& context) { estimate_normals(points, 10, "pca", context); }},
@@ -51,7 +53,9 @@ std::vector<LongCall> long_calls() {
                        }});
   for (const Operation& operation : operations())
     calls.push_back({operation.name, [&operation](const Context& context) {
-                       operate(operation.name, {points}, Plane({1, 0, 0}, 0), {}, context);
+                       const TrianglesView faces =
+                           operation.needs_faces ? TrianglesView(soup) : TrianglesView();
+                       operate(operation.name, {points, faces}, Plane({1, 0, 0}, 0), {}, context);
                      }});
   return calls;
 }

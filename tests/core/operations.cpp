@@ -12,6 +12,7 @@
 #include "expect_error.h"
 #include "figure.h"
 #include "random_cloud.h"
+#include "triangle_soup.h"
 
 namespace symsurf {
 namespace {
@@ -175,13 +176,6 @@ TEST(Operations, KeepTheirNumbersWhereImagesEnd) {
   }
 }
 
-// Three points each make a triangle.
-Triangles soup_of(const Points& points) {
-  Triangles faces(points.rows() / 3, 3);
-  for (Index f = 0; f < faces.rows(); ++f) faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
-  return faces;
-}
-
 TEST(Operations, RefuseAMirrorOfAnotherUnit) {
   RandomCloud random(0);
   Points points = random.box(200);
@@ -189,7 +183,7 @@ TEST(Operations, RefuseAMirrorOfAnotherUnit) {
   const Plane plane(Vector3::UnitX(), -50);
   const Points scaled = 1000 * points;
   for (const Operation& each : operations()) {
-    const Triangles faces = each.needs_faces ? soup_of(points) : Triangles(0, 3);
+    const Triangles faces = each.needs_faces ? triangle_soup(points) : Triangles(0, 3);
     EXPECT_NO_THROW(operate(each.name, {points, faces}, plane));
     expect_error<InvalidInput>("diagonals away from this plane; the mirror is to be in the unit",
                                [&] {

@@ -40,6 +40,11 @@ def folder(tmp_path):
     properties = "".join(f"property double {axis}\n" for axis in "xyz")
     for name in ("scan.ply", "other.ply", "part.ply"):
         (tmp_path / name).write_text(f"{header}{properties}end_header\n{rows}\n")
+    x, y = (each.ravel() for each in np.meshgrid(np.linspace(-1, 1, 21), np.linspace(0, 3, 31)))
+    corners = (np.arange(30)[:, None] * 21 + np.arange(20)).reshape(-1, 1)
+    faces = np.vstack([corners + (0, 1, 22), corners + (0, 22, 21)])
+    mesh = symsurf.Shape(np.column_stack([x, y, x**2 + 0.3 * y**2 + 0.1 * y**3]), faces)
+    symsurf.straighten(mesh, symsurf.Plane((1, 0, 0), 0)).save(tmp_path / "mesh.ply")
     return tmp_path
 
 

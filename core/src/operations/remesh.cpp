@@ -64,10 +64,14 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
   const Triangles faces = welded(input, context.stage(0, 0.05));
   const Half half = half_of(input.points, faces, mirror, values.choice("side") == "positive",
                             context.stage(0.05, 0.15));
+  const double area = surface_area(half.points, half.faces);
+  if (!(area > 0))
+    throw InvalidInput("the faces on the " + values.choice("side") +
+                       " side of the mirror have no area; remesh needs a surface");
   Remeshing remeshing;
   remeshing.edge_length = values.real("edge_length") * diagonal;
   if (remeshing.edge_length == 0) remeshing.edge_length = mean_edge(input.points, faces);
-  const double least = edge_length_of(surface_area(half.points, half.faces), most_triangles);
+  const double least = edge_length_of(area, most_triangles);
   if (remeshing.edge_length < least)
     throw InvalidParameter("edge_length is " + to_string(Value(remeshing.edge_length / diagonal)) +
                            " of the diagonal, which makes more than " +
