@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import ROOT
 from symmetric_shapes import mirrored_surface
@@ -44,7 +45,7 @@ def folder(tmp_path):
     corners = (np.arange(30)[:, None] * 21 + np.arange(20)).reshape(-1, 1)
     faces = np.vstack([corners + (0, 1, 22), corners + (0, 22, 21)])
     mesh = symsurf.Shape(np.column_stack([x, y, x**2 + 0.3 * y**2 + 0.1 * y**3]), faces)
-    symsurf.straighten(mesh, symsurf.Plane((1, 0, 0), 0)).save(tmp_path / "mesh.ply")
+    symsurf.correspondences(mesh, symsurf.Plane((1, 0, 0), 0)).save(tmp_path / "mesh.ply")
     return tmp_path
 
 
