@@ -18,7 +18,7 @@ namespace symsurf::python {
 namespace {
 
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
-                        const FacesArgument& faces, const Mirror* mirror,
+                        const FacesArgument& faces, const std::optional<const Mirror*>& mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
                         const py::object& progress, const py::dict& parameters) {
   const Operation& described = operation(name);
@@ -27,7 +27,7 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   const Values values = values_from(parameters, described.parameters);
   const Context context = context_from(progress, threads);
   OperationResult result =
-      without_gil([&] { return operate(name, input, mirror, values, context); });
+      without_gil([&] { return operate(name, input, mirror.value_or(nullptr), values, context); });
   py::dict fields;
   fields["operation"] = described.name;
   fields["given"] = points.array;
@@ -102,7 +102,7 @@ void bind_operations(py::module_& module) {
       py::arg("name"), py::arg("parameters"),
       "Whether the operation takes a mirror with these parameters: not about an axis.");
   module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
-             py::arg("mirror").none(true), py::arg("mask"), py::arg("threads"), py::arg("progress"),
+             py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), "The fields of an operation's result.");
 }
 

@@ -31,12 +31,12 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
         new = replace(new, arrays={})
     coordinates, normals = _places(names, len(table[0]), table)
     stay = {*coordinates, *normals}
-    given = list(zip(*table, strict=True))
+    given_columns = zip(*table, strict=True)
     words = [
         [column[source] for source in new.sources.tolist()]
         if number in stay
         else new.of_words(b"" if names is None else names[number], list(column))
-        for number, column in enumerate(given)
+        for number, column in enumerate(given_columns)
     ]
     made = [list(row) for row in zip(*words, strict=True)]
     for row, values in zip(made, row_texts(new.points)):

@@ -63,6 +63,7 @@ def other_obj(content: bytes, new: NewShape) -> Rewritten:
     """The file with the new shape in place of its own. Raises ValueError where its triangles are not
     those that were read."""
     source = _Source(content)
+    assert new.given_faces is not None
     if not np.array_equal(np.array(source.corners).reshape(-1, 3), new.given_faces):
         raise ValueError("the triangles are not those of the file's lines")
     columns = [list(column) for column in zip(*source.rests, strict=True)]
