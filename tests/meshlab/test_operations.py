@@ -15,7 +15,7 @@ GREY = 128 / 255
 
 def filter_of(operation: str) -> str:
     described = symsurf.operations()[operation]
-    moves = described.moves_points or described.adds_points
+    moves = described.moves_points or described.adds_points or described.carries_values
     return ("apply_" if moves else "compute_") + described.title.lower().replace(" ", "_")
 
 

@@ -30,7 +30,7 @@ def shown_values(method: str) -> dict:
 
 def filter_of(operation: str) -> str:
     described = symsurf.operations()[operation]
-    changes = described.moves_points or described.adds_points
+    changes = described.moves_points or described.adds_points or described.carries_values
     return ("apply_" if changes else "compute_") + described.title.lower().replace(" ", "_")
 
 

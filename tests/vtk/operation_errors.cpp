@@ -87,6 +87,10 @@ TEST(OperationErrors, AMirrorThatIsNoneWarnsUnlessRefused) {
     SCOPED_TRACE(name);
     filter->SetInputData(0, polydata_of(points));
     filter->SetMethod("plane");
+    if (name == "MirrorRemeshing") {
+      EXPECT_NE(error_of(filter).find("remesh needs a mesh"), std::string::npos);
+      continue;
+    }
     {
       const ErrorListener warnings(filter, vtkCommand::WarningEvent);
       EXPECT_EQ(error_of(filter), "");

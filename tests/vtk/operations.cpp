@@ -253,8 +253,13 @@ TEST(Operations, WorkOnCloudsOfSinglePrecision) {
     filter->SetInputData(1, mirror_data(ball_mirror));
     const ErrorListener errors(filter);
     filter->Update();
+    if (name == "MirrorRemeshing") {
+      EXPECT_NE(errors.message().find("remesh needs a mesh"), std::string::npos);
+      continue;
+    }
     EXPECT_EQ(errors.message(), "");
-    EXPECT_GE(filter->GetOutput()->GetNumberOfPoints(), points.rows());
+    EXPECT_GE(filter->GetOutput()->GetNumberOfPoints(),
+              name == "MirrorCut" ? points.rows() / 2 : points.rows());
   }
 }
 
