@@ -410,3 +410,42 @@ def test_a_cloud_is_completed_too():
     assert np.array_equal(points[:old], cut.points) and returned["added_points"] > 50
     assert off_the_shape(points[old:], cut.whole.points) < 1e-9 * cut.diagonal
     assert layer.vertex_selection_array().sum() == returned["added_points"]
+
+
+def test_a_cut_selects_the_faces_that_close_it():
+    shape = lump(16)
+    mesh_set = shape.mesh_set()
+    plane = add_plane(mesh_set, shape, shift=0.02 * shape.diagonal)
+    returned = apply(mesh_set, "cut", mirror_layer=plane, side="positive")
+    layer = mesh_set.current_mesh()
+    points, faces = layer.vertex_matrix(), layer.face_matrix()
+    offset = shape.offset - 0.02 * shape.diagonal
+    side = points @ shape.normal + offset
+    assert np.ptp(np.sign(side[np.abs(side) > 1e-6 * shape.diagonal])) == 0  # all on one
+    is_cap = layer.face_selection_array()
+    assert is_cap.sum() == returned["cap_faces"] > 10
+    assert np.abs(side[faces[is_cap]]).max() < 1e-9 * shape.diagonal
+
+
+def test_what_vertices_have_is_carried():
+    shape = lump(17)
+    mesh_set = pymeshlab.MeshSet()
+    side = shape.points @ shape.normal + shape.offset
+    colours = np.ones((len(side), 4))
+    colours[:, 0] = side > 0
+    mesh = pymeshlab.Mesh(
+        shape.points, shape.faces, v_color_matrix=colours, v_scalar_array=np.maximum(side, 0)
+    )
+    mesh.add_vertex_custom_scalar_attribute(side, "side")
+    mesh_set.add_mesh(mesh, "shape")
+    plane = add_plane(mesh_set, shape)
+    returned = apply(mesh_set, "transfer", mirror_layer=plane, side="average")
+    layer = mesh_set.current_mesh()
+    assert returned["failed_points"] == 0 and np.array_equal(layer.vertex_matrix(), shape.points)
+    off = np.abs(side) > 1e-6 * shape.diagonal
+    even = layer.vertex_custom_scalar_attribute_array("side")
+    assert np.allclose(even, 0, rtol=0, atol=1e-9 * shape.diagonal)
+    assert np.allclose(
+        layer.vertex_scalar_array()[off], np.abs(side[off]) / 2, atol=1e-9 * shape.diagonal
+    )
+    assert np.allclose(layer.vertex_color_matrix()[off, 0], 0.5, atol=0.01)
