@@ -189,3 +189,16 @@ def test_what_cannot_be_remeshed_is_an_error():
     )
     with pytest.raises(symsurf.InvalidInput, match="third at an edge"):
         symsurf.remesh(fin, symsurf.Plane((0, 0, 1), 3))
+
+
+def test_a_surface_with_split_vertices_is_closed_too():
+    """A cylinder whose ends have vertices of their own, as flat shading makes them."""
+    mesh = pyvista.Cylinder(resolution=40).triangulate()
+    assert mesh.n_open_edges > 0
+    whole = mesh.clean()
+    for plane in (PLANE, symsurf.Plane((0, 1, 0), 0)):
+        halves = [symsurf.cut(mesh, plane, side=side) for side in ("positive", "negative")]
+        assert all(made.statistics["open_curves"] == 0 for made in halves)
+        volumes = [of(made).clean().volume for made in halves]
+        assert all(of(made).clean().is_manifold for made in halves)
+        assert sum(volumes) == pytest.approx(whole.volume, rel=1e-6)

@@ -39,7 +39,7 @@ class Remesher {
       mesh_.add_vertex({points[i].x(), points[i].y(), points[i].z()});
     for (const auto& face : faces.rowwise())
       mesh_.add_face(vertex(face[0]), vertex(face[1]), vertex(face[2]));
-    mesh_.delete_isolated_vertices();
+    if (!remeshing.keeps_boundary) mesh_.delete_isolated_vertices();
     curve_.resize(mesh_.n_edges(), none);
     freedom_.resize(mesh_.n_vertices(), free);
     find_curves();

@@ -12,9 +12,10 @@ namespace symsurf {
 
 /// What a surface is remeshed to.
 struct Remeshing {
-  double edge_length;           ///< of the triangles, input units
-  double feature_angle = 180;   ///< degrees: edges between faces that meet at more stay as curves
-  bool keeps_boundary = false;  ///< leaves the boundary's vertices and edges as they are
+  double edge_length;          ///< of the triangles, input units
+  double feature_angle = 180;  ///< degrees: edges between faces that meet at more stay as curves
+  /// Leaves the boundary's vertices and edges as they are, and these vertices the first.
+  bool keeps_boundary = false;
   /// Edges on the boundary that are a curve of their own, which others end at.
   std::vector<std::pair<Index, Index>> marked = {};
   /// Moves a vertex back onto the surface; without it that is the closest point of the faces.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/math.h"
+#include "cloud/distinct_points.h"
 #include "mesh/isotropic_remeshing.h"
 #include "mesh/polygon_triangulation.h"
 #include "mesh/triangle_mesh.h"
@@ -14,15 +15,18 @@ namespace symsurf {
 
 namespace {
 
-// The curves of the cut, against the winding of the faces there. Those that do not close are
-// counted and left out.
-std::vector<Polygon> closed_curves(const Half& half, Index& open) {
+// The curves of the cut, against the winding of the faces there, copies of points taken for one.
+// Those that do not close are counted and left out.
+std::vector<Polygon> closed_curves(const Half& half, Index& open, const Context& context) {
+  const DistinctPoints distinct = distinct_points(half.points, context);
+  const auto first = [&](Index i) -> Index { return distinct.first[distinct.number[i]]; };
   std::multimap<Index, Index> next;
   std::map<Index, Index> ends;  // edges that arrive, less those that leave
   for (const auto& [a, b] : cut_edges(half)) {
-    next.emplace(b, a);
-    ++ends[a];
-    --ends[b];
+    if (first(a) == first(b)) continue;
+    next.emplace(first(b), first(a));
+    ++ends[first(a)];
+    --ends[first(b)];
   }
   const auto follow = [&](Index start) {
     Polygon curve{start};
@@ -58,7 +62,7 @@ Points2 laid_flat(const Points& points, const Mirror& mirror, const Context& con
 Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
   Cap cap;
   cap.faces.resize(0, 3);
-  std::vector<Polygon> curves = closed_curves(half, cap.open);
+  std::vector<Polygon> curves = closed_curves(half, cap.open, context.stage(0, 0));
   std::vector<Index> rim;  // of the cap's points the half's
   for (Polygon& curve : curves)
     for (Index& i : curve) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -89,6 +90,9 @@ class Cut {
     if (!is_new) return found->second;
     constexpr int most_steps = 100;
     constexpr double precision = 1e-15;  // of the edge, and of the diagonal
+    // From the same end of copies of an edge, so that they cross at the same bits.
+    const auto coordinates = [&](Index i) { return std::span(points_.data() + 3 * i, 3); };
+    if (std::ranges::lexicographical_compare(coordinates(b), coordinates(a))) std::swap(a, b);
     const Vector3 from = points_[a], along = points_[b] - from;
     const double zero = precision * near_ / on_the_mirror;
     double low = 0, high = 1, at_low = distances_[a], at_high = distances_[b], share = 0.5;

@@ -269,7 +269,7 @@ def _docstring(operation: Operation) -> str:
         text = f"- {array_name(operation, array.name)}: {array.doc}"
         lines.append(textwrap.fill(text, 96, subsequent_indent="  "))
     if operation.face_arrays:
-        lines += ["Cell data:", ""]
+        lines += ["", "Cell data:", ""]
     for array in operation.face_arrays:
         text = f"- {array_name(operation, array.name)}: {array.doc}"
         lines.append(textwrap.fill(text, 96, subsequent_indent="  "))
