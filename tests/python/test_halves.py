@@ -202,3 +202,16 @@ def test_a_surface_with_split_vertices_is_closed_too():
         volumes = [of(made).clean().volume for made in halves]
         assert all(of(made).clean().is_manifold for made in halves)
         assert sum(volumes) == pytest.approx(whole.volume, rel=1e-6)
+
+
+def test_points_whose_feet_are_out_of_reach_stay():
+    """Over a quadric whose numbers are out of all proportion, as fuzzing drew one."""
+    points = [(2, 0, 0), (2, 0, 1), (0, 2, 2), (2, 0, 0), (2, 0, 1), (1, 2, 1), (1, 2, 0)]
+    points += [(2, 0, 2), (0, 1, 1), (1, 2, 2), (2, 1, 0), (2, 1, 2), (1, 0, 0), (2, 0, 0)]
+    points += [(1, 2, 2), (1, 2, 1), (1, 1, 0), (2, 0, 0), (2, 2, 0), (2, 1, 0)]
+    faces = [(6, 4, 13), (6, 5, 12), (14, 18, 8), (10, 10, 7), (17, 6, 3), (11, 5, 5)]
+    matrix = np.array([[0.3, -1.8, 0.3], [-1.5, -0.5, -1.3], [0.1, 1.2, 1e50]])
+    mirror = symsurf.Quadric(matrix, (0.6, -1.9, 1.3), 1.5)
+    made = symsurf.remesh(symsurf.Shape(np.array(points, float), faces), mirror)
+    assert np.isfinite(made.shape.points).all()
+    assert made.parents.min() >= 0 and made.parents.max() < len(points)

@@ -144,7 +144,11 @@ Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool 
     if (f % 4096 == 0) context.check();
     cut.add(faces[f], f);
   }
-  return cut.half();
+  Half half = cut.half();
+  if (!half.points.allFinite())
+    throw InvalidInput("some points where this " + std::string(mirror.kind()) +
+                       " cuts the shape have no foot on it; all need one");
+  return half;
 }
 
 std::vector<std::pair<Index, Index>> cut_edges(const Half& half) {

@@ -41,7 +41,8 @@ Half remeshed(const Half& half, const OperationInput& input, const Mirror& mirro
   for (Index i = 0; i < count; ++i) {
     if (i % 4096 == 0) context.check();
     if (other.on_mirror[i])
-      other.points.row(i) = mirror.foot(other.points.row(i).transpose()).transpose();
+      if (const Vector3 foot = mirror.foot(other.points.row(i).transpose()); foot.allFinite())
+        other.points.row(i) = foot.transpose();
     const ClosestPoint closest = surface(other.points.row(i).transpose());
     Index most;
     closest.weights.maxCoeff(&most);
