@@ -21,13 +21,6 @@ class Polygons {
  public:
   explicit Polygons(const Points2& points) : points_(points) {}
 
-  double area(const Polygon& loop) const {
-    double sum = 0;
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      sum += turn(at(loop[0]), at(loop[k]), at(loop[(k + 1) % loop.size()]));
-    return sum / 2;
-  }
-
   // By how often a ray crosses it.
   bool is_inside(const Vector2& x, const Polygon& loop) const {
     bool inside = false;
@@ -148,12 +141,20 @@ class Polygons {
 
 }  // namespace
 
+double signed_area(const Points2& points, const Polygon& loop) {
+  const auto at = [&](std::size_t k) -> Vector2 { return points.row(loop[k]).transpose(); };
+  double sum = 0;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    sum += turn(at(0), at(k), at((k + 1) % loop.size()));
+  return sum / 2;
+}
+
 Triangles polygon_triangulation(const Points2& points, const std::vector<Polygon>& loops) {
   const Polygons polygons(points);
   std::vector<Polygon> outer;
   std::vector<const Polygon*> holes;
   for (const Polygon& loop : loops)
-    if (polygons.area(loop) >= 0)
+    if (signed_area(points, loop) >= 0)
       outer.push_back(loop);
     else
       holes.push_back(&loop);
@@ -166,7 +167,8 @@ Triangles polygon_triangulation(const Points2& points, const std::vector<Polygon
     std::size_t best = outer.size();
     for (std::size_t k = 0; k < given.size(); ++k)
       if (polygons.is_inside(x, given[k]) &&
-          (best == outer.size() || polygons.area(given[k]) < polygons.area(given[best])))
+          (best == outer.size() ||
+           signed_area(points, given[k]) < signed_area(points, given[best])))
         best = k;
     if (best < outer.size()) polygons.join(outer[best], *hole);
   }

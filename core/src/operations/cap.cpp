@@ -73,11 +73,7 @@ Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
   const Points corners = half.points(rim, Eigen::indexing::all);
   Points2 flat = laid_flat(corners, mirror, context.stage(0, 0.2));
   double area = 0;
-  for (const Polygon& curve : curves)
-    for (std::size_t k = 0; k < curve.size(); ++k) {
-      const auto a = flat.row(curve[k]), b = flat.row(curve[(k + 1) % curve.size()]);
-      area += a.x() * b.y() - a.y() * b.x();
-    }
+  for (const Polygon& curve : curves) area += signed_area(flat, curve);
   if (area < 0) flat.col(0) *= -1;  // outer curves run counterclockwise
   const Triangles filled = polygon_triangulation(flat, curves);
 

@@ -41,8 +41,8 @@ void add_cap(const Cap& cap, Half& half) {
 
 void run_cut(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
              const Context& context, OperationResult& result) {
-  Half half = half_of(input.points, input.faces, mirror, values.choice("side") == "positive",
-                      context.stage(0, 0.4));
+  Half half =
+      half_of(input.points, input.faces, mirror, keeps_positive(values), context.stage(0, 0.4));
   const Index faces = half.faces.rows();
   if (values.boolean("capped") && faces > 0) {
     const Cap cap = cap_of(half, mirror, context.stage(0.4, 1));
@@ -67,9 +67,7 @@ OperationImplementation cut_operation() {
   operation.title = "Mirror cut";
   operation.summary = "Cuts the shape along the mirror and keeps one side: half a model.";
   operation.parameters = {
-      Parameter::choice("side", "positive", {"positive", "negative"},
-                        "Which to keep: the side where signed distances from the mirror are "
-                        "positive or negative."),
+      kept_side(),
       Parameter::boolean("capped", true,
                          "Close a mesh by faces within the mirror; what is closed stays so.")};
   operation.arrays = {{"on_mirror", ParameterType::Boolean, 1,

@@ -212,6 +212,14 @@ Eigen::VectorXd partner_array(const MirroredHalf& whole) {
   return partners;
 }
 
+Parameter kept_side() {
+  return Parameter::choice("side", "positive", {"positive", "negative"},
+                           "Which to keep: the side where signed distances from the mirror are "
+                           "positive or negative.");
+}
+
+bool keeps_positive(const ParameterValues& values) { return values.choice("side") == "positive"; }
+
 void set_shape(Half half, OperationResult& result) {
   for (Index i = 0; i < half.points.rows(); ++i) result.point_sources.push_back(half.parents(i, 0));
   result.points = std::move(half.points);

@@ -42,6 +42,10 @@ MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context)
 /// The partners as an array of an operation.
 Eigen::VectorXd partner_array(const MirroredHalf& whole);
 
+/// The parameter that says which side is kept, and what it says.
+Parameter kept_side();
+bool keeps_positive(const ParameterValues& values);
+
 /// Puts points and faces, and where they come from, in place of those of the input.
 void set_shape(Half half, OperationResult& result);
 

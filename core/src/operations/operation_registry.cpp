@@ -27,6 +27,10 @@ const OperationImplementation& operation_implementation(std::string_view name) {
   return find_named(operation_implementations(), name, "operation");
 }
 
+bool is_over_mirror(const OperationImplementation& operation, const ParameterValues& values) {
+  return !operation.run_about_axis || values.choice("symmetry") != "axis";
+}
+
 void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index points) {
   if (mask.size() == 0) return;
   if (!operation.takes_mask) throw InvalidInput(operation.name + " takes no mask");
@@ -67,8 +71,7 @@ bool OperationResult::is_other_shape() const {
 
 bool needs_mirror(std::string_view name, const Values& parameters) {
   const OperationImplementation& operation = operation_implementation(name);
-  const ParameterValues values(operation.name, operation.parameters, parameters);
-  return !operation.run_about_axis || values.choice("symmetry") != "axis";
+  return is_over_mirror(operation, {operation.name, operation.parameters, parameters});
 }
 
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
@@ -80,8 +83,8 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
                         const Values& parameters, const Context& context) {
   const OperationImplementation& operation = operation_implementation(name);
   const ParameterValues values(operation.name, operation.parameters, parameters);
-  const bool is_over_mirror = needs_mirror(name, parameters);
-  if (is_over_mirror && !mirror) throw InvalidInput(operation.name + " needs a mirror");
+  const bool takes_mirror = is_over_mirror(operation, values);
+  if (takes_mirror && !mirror) throw InvalidInput(operation.name + " needs a mirror");
   require_points(input.points);
   require_coordinates(input.points);
   require_corners(input.faces, input.points.size());
@@ -89,14 +92,14 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
     throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
                        operation.name + " needs a mesh of triangles");
   require_mask(operation, input.mask, input.points.size());
-  if (is_over_mirror) require_near(input.points, *mirror);
+  if (takes_mirror) require_near(input.points, *mirror);
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();
   result.faces = Eigen::Map<const Triangles>(input.faces.data(), input.faces.size(), 3);
   result.parameters = values.all();
   context.report(0);
-  if (is_over_mirror)
+  if (takes_mirror)
     operation.run(input, *mirror, values, context, result);
   else
     operation.run_about_axis(input, values, context, result);

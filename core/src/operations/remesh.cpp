@@ -63,8 +63,8 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
                 const Context& context, OperationResult& result) {
   const double diagonal = diagonal_of(input.points);
   const Triangles faces = welded(input, context.stage(0, 0.05));
-  const Half half = half_of(input.points, faces, mirror, values.choice("side") == "positive",
-                            context.stage(0.05, 0.15));
+  const Half half =
+      half_of(input.points, faces, mirror, keeps_positive(values), context.stage(0.05, 0.15));
   const double area = surface_area(half.points, half.faces);
   if (!(area > 0))
     throw InvalidInput("the faces on the " + values.choice("side") +
@@ -83,8 +83,9 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
   MirroredHalf made = with_image(remeshed(half, input, mirror, remeshing, context.stage(0.15, 0.9)),
                                  mirror, context.stage(0.9, 1));
   result.arrays = {{"partner", partner_array(made)}};
-  result.statistics["edge_length"] = mean_edge(made.points, made.faces);
-  result.statistics["edge_length_of_diagonal"] = mean_edge(made.points, made.faces) / diagonal;
+  const double edge_length = mean_edge(made.points, made.faces);
+  result.statistics["edge_length"] = edge_length;
+  result.statistics["edge_length_of_diagonal"] = edge_length / diagonal;
   set_shape(std::move(made), result);
 }
 
@@ -99,9 +100,7 @@ OperationImplementation remesh_operation() {
   operation.parameters = {
       Parameter::real("edge_length", 0, 0, 1, "diagonal",
                       "Of the triangles; 0: that which those of the shape have on average."),
-      Parameter::choice("side", "positive", {"positive", "negative"},
-                        "Which to keep: the side where signed distances from the mirror are "
-                        "positive or negative."),
+      kept_side(),
       Parameter::real("feature_angle", 45, 0, 180, "degrees",
                       "Edges between faces whose normals differ by more stay sharp.")};
   operation.arrays = {{"partner", ParameterType::Integer, 1,

@@ -59,7 +59,8 @@ def save_shape(
         content: of the source, where that is no file.
     """
     is_same = suffix in REWRITERS and suffix == path.suffix.lower()
-    if _core.operations()[result.operation].carries_values and not is_same:
+    carries = _core.operations()[result.operation].carries_values
+    if carries and not is_same:
         raise InvalidInput(
             f"what the points of a {suffix} file have cannot be carried over in {path.suffix}; allowed "
             f"are {', '.join(REWRITERS)}, each written in its own format"
@@ -67,7 +68,6 @@ def save_shape(
     if not is_same:
         result.save(path)
         return []
-    carries = _core.operations()[result.operation].carries_values
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
     faces = result.shape.faces
