@@ -87,11 +87,9 @@ class OperationResult(Summarised):
         texture coordinates: real numbers, and colours of three or four bytes, between those of a
         point's ``parents``, others those of its source. (n, ...) of ``shape`` from (k, ...) of the
         input."""
-        if self.parents is None or self.shares is None or not _lies_between(values):
+        if self.parents is None or self.shares is None:
             return values[self.sources]
-        shares = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
-        mean = (values[self.parents] * shares).sum(axis=1)
-        return (mean if values.dtype.kind == "f" else mean.round()).astype(values.dtype)
+        return carried_values(values, self.sources, self.parents, self.shares)
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -358,10 +356,20 @@ RESULTS: dict[str, type[OperationResult]] = {
 }
 
 
-def _lies_between(values: NDArray[Any]) -> bool:
-    """Whether there are values between two."""
+def carried_values(
+    values: NDArray[Any],
+    sources: NDArray[np.int64],
+    parents: NDArray[np.int64],
+    shares: NDArray[np.float64],
+) -> NDArray[Any]:
+    """Real numbers and colours, of three or four bytes, by the shares of the parents, others those of
+    the sources."""
     is_colour = values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4)
-    return is_colour or values.dtype.kind == "f"
+    if not is_colour and values.dtype.kind != "f":
+        return values[sources]
+    counts = shares.reshape(*shares.shape, *[1] * (values.ndim - 1))
+    mean = (values[parents] * counts).sum(axis=1)
+    return (mean.round() if is_colour else mean).astype(values.dtype)
 
 
 def _patch(points: NDArray[np.float64], given: int, faces: NDArray[np.int64]) -> Shape:

@@ -9,9 +9,7 @@ from numpy.typing import NDArray
 from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
-    VTK_DOUBLE,
-    VTK_FLOAT,
-    VTK_UNSIGNED_CHAR,
+    VTK_BIT,
     vtkDataArray,
     vtkIdList,
     vtkPoints,
@@ -26,6 +24,7 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from .._core import InvalidInput, Mirror, make_mirror
+from ..results.operation_results import carried_values
 from .names import camel_case
 
 
@@ -172,22 +171,14 @@ def blend_rows(
 ) -> None:
     """Makes the data that between rows of another, real numbers and colours by their shares; others
     are those of the source."""
-    parents, shares = result["point_parents"], result["point_shares"]
-    copy_rows(to, source, result["point_sources"])
+    sources, parents, shares = (
+        result[f"point_{rows}"] for rows in ("sources", "parents", "shares")
+    )
+    copy_rows(to, source, sources)
     for i in range(source.GetNumberOfArrays()):
-        array = source.GetArray(i)
-        if array is None or not _lies_between(array):
-            continue
-        values = vtk_to_numpy(array)
-        counts = shares.reshape(*shares.shape, *[1] * (values.ndim - 1))
-        mean = (values[parents] * counts).sum(axis=1)
-        vtk_to_numpy(to.GetArray(i))[:] = mean if values.dtype.kind == "f" else mean.round()
-
-
-def _lies_between(array: vtkDataArray) -> bool:
-    """Whether there are values between two."""
-    is_colour = array.GetDataType() == VTK_UNSIGNED_CHAR and array.GetNumberOfComponents() in (3, 4)
-    return is_colour or array.GetDataType() in (VTK_FLOAT, VTK_DOUBLE)
+        if (array := source.GetArray(i)) is not None and array.GetDataType() != VTK_BIT:
+            values = vtk_to_numpy(array)
+            vtk_to_numpy(to.GetArray(i))[:] = carried_values(values, sources, parents, shares)
 
 
 def _ids(rows: NDArray[np.int64]) -> vtkIdList:
