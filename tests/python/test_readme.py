@@ -1,5 +1,5 @@
-"""The README's examples in Python and those of every page run; the tables of methods and of operations
-are their own descriptions."""
+"""The README's examples in Python and those of every page run; the table of operations is their own
+descriptions."""
 
 from __future__ import annotations
 
@@ -17,9 +17,6 @@ from symmetric_shapes import mirrored_surface
 import symsurf
 
 README = (ROOT / "README.md").read_text()
-SECTIONS = README.split("\n## ")
-# What the README shows of the library itself.
-OPENING = SECTIONS[0] + "".join(s for s in SECTIONS if s.startswith("What to do with a mirror"))
 START = (ROOT / "docs/start.md").read_text()
 
 
@@ -27,7 +24,7 @@ START = (ROOT / "docs/start.md").read_text()
 HOSTS = r"^(?:import|from) (?:paraview|pymeshlab)\b"
 
 
-def examples(language: str, page: str = OPENING) -> list[str]:
+def examples(language: str, page: str = README) -> list[str]:
     found = re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     return [example for example in found if not re.search(HOSTS, example, re.MULTILINE)]
 
@@ -162,12 +159,6 @@ def test_examples_of_many_files(line, folder):
 
 def test_there_are_examples():
     assert examples("python", README) and command_lines()
-
-
-def test_table_of_methods():
-    rows = re.findall(r"^\| `\w+` \| .* \|$", README, re.MULTILINE)
-    methods = symsurf.methods().values()
-    assert rows == [f"| `{method.name}` | {method.summary} |" for method in methods]
 
 
 def test_table_of_operations():
