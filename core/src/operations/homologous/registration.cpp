@@ -19,21 +19,25 @@ namespace symsurf {
 namespace {
 
 // Lengths are in diagonals.
-constexpr Index most_nodes = 600;           // 300 leave 6 % more error, 1000 2 % less
-constexpr int neighbourhood = 12;           // nodes that bending is measured among
-constexpr int shared_by = 4;                // nodes that move a vertex
-constexpr Index most_data = 100'000;        // vertices that are fitted
-constexpr Index grain = 512;                // vertices; a closest point takes some microseconds
-constexpr double curvature_scale = 0.0035;  // coarser ones leave more error, alone and beside it
-constexpr double clipped = 4;               // standard deviations of curvature: creases, rims
+constexpr Index most_nodes = 600;          // 300 leave 6 % more error, 1000 2 % less
+constexpr int neighbourhood = 12;          // nodes that bending is measured among
+constexpr int shared_by = 4;               // nodes that move a vertex
+constexpr Index most_data = 100'000;       // vertices that are fitted
+constexpr Index grain = 512;               // vertices; a closest point takes some microseconds
+constexpr double curvature_scale = 0.002;  // coarser ones leave more error, alone and before it
+constexpr double clipped = 4;              // standard deviations of curvature: creases, rims
 // What a difference of curvature by its standard deviation counts for. A tenth and ten times its
 // square leave 4 and 10 % more error.
 constexpr double curvature_length = 0.018;
-constexpr double usual_difference = 0.6;  // of curvature: a bump is none of its own image
-constexpr double least_cosine = 0.5;      // between the normals of counterparts
-// Coarse to fine: the squared length that a unit of bending energy counts for.
-constexpr std::array bending_weights{3e-4, 2e-5, 1e-6};
-constexpr int iterations = 2;      // for each
+constexpr double least_cosine = 0.5;  // between the normals of counterparts
+// Coarse to fine.
+struct Stage {
+  double bending;     // the squared length that a unit of its energy counts for
+  double difference;  // of curvature that is usual: what lies far off its counterpart differs more,
+                      // in the end a bump is none of its own image
+};
+constexpr std::array stages{Stage{3e-4, 4}, Stage{2e-5, 2}, Stage{1e-6, 0.6}};
+constexpr int iterations = 3;      // in each
 constexpr double damping = 1e-10;  // where nothing holds a node
 constexpr double rounding = 1e-6;  // a barycentric weight of nothing
 
@@ -127,7 +131,7 @@ class Registration {
   };
 
   void place_nodes(const Context& context);
-  Term term(Index vertex) const;
+  Term term(Index vertex, double usual_difference) const;
   Vector3 moved_by(Index vertex) const {
     Vector3 u = Vector3::Zero();
     for (int k = 0; k < shared_by; ++k)
@@ -217,7 +221,7 @@ void Registration::place_nodes(const Context& context) {
   }
 }
 
-Registration::Term Registration::term(Index vertex) const {
+Registration::Term Registration::term(Index vertex, double usual_difference) const {
   const Vector3 x = points_[vertex];
   const ClosestPoint closest = image_surface_(x + moved_by(vertex));
   if (closest.face < 0) return {};
@@ -265,11 +269,12 @@ Points Registration::displacements(const Context& context) {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   solver.analyzePattern(normal_equations.matrix());
   std::vector<Term> terms(data);
-  const int rounds = iterations * static_cast<int>(bending_weights.size());
+  const int rounds = iterations * static_cast<int>(stages.size());
   for (int round = 0; round < rounds; ++round) {
+    const Stage& stage = stages[round / iterations];
     const Context part = context.stage(1.0 * round / rounds, 1.0 * (round + 1) / rounds);
     parallel_for(part.stage(0, 0.8), data, grain, [&](Index begin, Index end) {
-      for (Index d = begin; d < end; ++d) terms[d] = term(d * stride);
+      for (Index d = begin; d < end; ++d) terms[d] = term(d * stride, stage.difference);
     });
     normal_equations.set_zero();
     Eigen::VectorXd right = Eigen::VectorXd::Zero(3 * nodes);
@@ -283,13 +288,13 @@ Points Registration::displacements(const Context& context) {
             normal_equations.add(node[k], node[l], scale * share[k] * share[l] * terms[d].left);
       }
     });
-    const double stiffness = bending_weights[round / iterations];
     for (const auto& [node, energy] : bending_)
       for (std::size_t k = 0; k < node.size(); ++k)
         for (std::size_t l = 0; l < node.size(); ++l)
           if (node[l] <= node[k])
             normal_equations.add(node[k], node[l],
-                                 stiffness * energy(static_cast<Index>(k), static_cast<Index>(l)) *
+                                 stage.bending *
+                                     energy(static_cast<Index>(k), static_cast<Index>(l)) *
                                      Matrix3::Identity());
     for (std::int32_t k = 0; k < nodes; ++k)
       normal_equations.add(k, k, damping * Matrix3::Identity());
