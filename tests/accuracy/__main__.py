@@ -16,6 +16,7 @@ from . import (
     deformed,
     exact,
     halves,
+    homologous,
     intrinsic,
     judged_bends,
     judged_scores,
@@ -40,7 +41,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           halves, intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
+           halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
            pots, recurring, scores, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

@@ -1,0 +1,97 @@
+"""Homologous points: of bodies whose one side is deformed by a known smooth map, and meshed anew."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+import symsurf
+from symsurf import Shape
+
+from .case import Case, Figures, at_least, at_most
+from .poses import diagonal, random_rotation
+
+AMOUNTS = {"0.4 %": 0.004, "2 %": 0.02}
+"""Root mean square of the deformation over the side, in diagonals."""
+BODIES = {"smooth": 0.0, "detailed": 0.004}
+"""Height of the details, in radii: wavelengths of 3 to 6 % of the diagonal, as a face's. Without them a
+body has no features that are finer than its deformation."""
+WAVE = 0.5  # diagonals: wavelengths lie within 0.6 and 1.4 of it
+SEAM = 0.15  # diagonals from the mirror over which the deformation sets in
+
+Points = NDArray[np.float64]
+
+
+def _symmetric(unit: Points, details: float, rng: np.random.Generator) -> Points:
+    """Of points of the unit sphere those of a body with features, the same on both sides of x = 0."""
+    x, y, z = unit.T
+    radius = 1 + 0.1 * np.sin(3 * y + 1) + 0.1 * z * x**2 + 0.05 * np.cos(9 * x) * np.cos(5 * y)
+    radius += 0.06 * np.sin(7 * z + 2 * y) * (1 - x**2)
+    waves = rng.normal(size=(12, 3))
+    waves *= rng.uniform(30, 60, (12, 1)) / np.linalg.norm(waves, axis=1, keepdims=True)
+    for (across, *along), phase in zip(waves, rng.uniform(0, 2 * np.pi, 12)):
+        radius += details * np.cos(across * x) * np.sin(unit[:, 1:] @ along + phase)
+    return unit * radius[:, None]
+
+
+class SideMap:
+    """Plane waves that move the side of positive x, normal and tangential to the surface."""
+
+    def __init__(self, points: Points, amount: float, rng: np.random.Generator) -> None:
+        size = diagonal(points)
+        across = rng.normal(size=(3, 3))
+        across /= np.linalg.norm(across, axis=1, keepdims=True)
+        self._waves = 2 * np.pi / (WAVE * size) / rng.uniform(0.6, 1.4, (3, 1)) * across
+        self._phases = rng.uniform(0, 2 * np.pi, 3)
+        self._ways = rng.normal(size=(3, 3))
+        self._seam = SEAM * size
+        self._unit = 1.0
+        side = self(points)[points[:, 0] > 0] - points[points[:, 0] > 0]
+        self._unit = amount * size / np.sqrt((side**2).sum(axis=1).mean())
+
+    def __call__(self, points: Points) -> Points:
+        near = np.clip(points[:, :1] / self._seam, 0, 1)
+        moves = np.sin(points @ self._waves.T + self._phases) @ self._ways
+        return points + self._unit * near**2 * (3 - 2 * near) * moves
+
+
+def _deformed(subject: str, rng: np.random.Generator) -> Figures:
+    import pyvista
+
+    body, amount = subject.split(", ")
+    mesh = pyvista.Icosphere(nsub=6)  # 40,962 vertices
+    unit = np.asarray(mesh.points, dtype=float)
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    points = _symmetric(unit @ random_rotation(rng).T, BODIES[body], rng)  # no vertex has a twin
+    moved_by = SideMap(points, AMOUNTS[amount], rng)
+    moved = moved_by(points)
+    truth = moved_by(points * (-1, 1, 1)) * (-1, 1, 1) - moved
+    start = time.process_time()
+    found = symsurf.asymmetry(
+        Shape(moved, mesh.regular_faces),
+        symsurf.Plane((1, 0, 0), 0),
+        pairing="homologous",
+        threads=1,
+    )
+    seconds = time.process_time() - start
+    known = np.isfinite(found.vector).all(axis=1)
+    off = np.linalg.norm(found.vector - truth, axis=1)[known]
+    lengths = np.linalg.norm(truth, axis=1)[known]
+    return {
+        "median error": float(np.median(off) / np.sqrt(np.mean(lengths**2))),
+        "error": float(np.sqrt(np.mean(off**2) / np.mean(lengths**2))),
+        "distance": float(np.corrcoef(found.distance[known], lengths)[0, 1]),
+        "components": min(
+            float(np.corrcoef(found.vector[known, k], truth[known, k])[0, 1]) for k in range(3)
+        ),
+        "seconds": seconds,
+    }
+
+
+CASES = (
+    Case("homologous points, deformed bodies", tuple(f"{body}, {amount}" for body in BODIES for amount in AMOUNTS), _deformed,
+         {"median error": at_most(0.2), "error": at_most(0.5), "distance": at_least(0.8),
+          "components": at_least(0.9), "seconds": at_most(6)}),
+)  # fmt: skip
