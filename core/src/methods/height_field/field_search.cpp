@@ -20,18 +20,16 @@ constexpr Index searched_size = 2000;
 constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
 constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
 constexpr double evidence_reach = 1.7;                     // spacings
-constexpr double suspicion = 3;            // from here on the evidence is measured again
 constexpr double no_evidence = 5;          // standard deviations that chance reaches
 constexpr double known_scatter = 7;        // from here on the scatter is believed
 constexpr double strong_evidence = 9;      // no need to look further
-constexpr double evidence_weight = 0.15;   // share of supported points a deviation is worth
 constexpr double common_share = 0.3;       // of points with partners: no accident of the sampling
 constexpr double support_margin = 0.03;    // of directions with about as much
 constexpr double rough_surfaces = 0.1155;  // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
-// Ranks directions by the support of their surface and by the partners found along them.
+// The direction whose surface has most support, and the partners found along it.
 class Ranking {
  public:
   Ranking(const SurfacePoints& cloud, const Context& context)
@@ -61,20 +59,9 @@ class Ranking {
   void examine(const Vector3& direction) {
     const double support = surface_.support(direction);
     context_.check();
-    PartnerEvidence evidence = partner_evidence(surface_, cloud_, direction, context_);
-    if (evidence.significance > suspicion) {
-      // Partners that are there vote for better heights than chance does, and stand out more.
-      surface_.support(evidence.direction, evidence.scatter);
-      context_.check();
-      const PartnerEvidence again =
-          partner_evidence(surface_, cloud_, evidence.direction, context_);
-      if (again.significance > evidence.significance) evidence = again;
-    }
-    const double common = std::min(1.0, evidence.share / common_share);
-    const double rank = support + evidence_weight * common * common *
-                                      std::max(0.0, evidence.significance - no_evidence);
-    if (rank <= rank_) return;
-    rank_ = rank;
+    const PartnerEvidence evidence = partner_evidence(surface_, cloud_, direction, context_);
+    if (support <= support_) return;
+    support_ = support;
     best_ = evidence;
     if (best_.significance <= no_evidence) best_.direction = direction;
     if (best_.significance <= known_scatter)
@@ -85,7 +72,7 @@ class Ranking {
   const Context& context_;
   MidSurface surface_;
   PartnerEvidence best_;
-  double rank_ = -1;
+  double support_ = -1;
 };
 
 template <typename Directed>

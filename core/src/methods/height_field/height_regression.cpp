@@ -84,22 +84,6 @@ Points HeightRegression::fitted(const Points& positions, Index neighbours) const
   return fits(kept, Eigen::indexing::all);
 }
 
-void HeightRegression::reject_outliers(Index neighbours) {
-  const Index n = static_cast<Index>(observations_.size());
-  std::vector<double> residuals(n);
-  std::vector<Neighbour> near;
-  const auto predict = [&](Index i) {
-    nearest(observations_[i].position, neighbours, near);
-    residuals[i] = std::abs(observations_[i].height - height(observations_[i].position, near, i));
-  };
-  interruptible_for(context_, n, predict, stretch);
-  for (double& r : residuals)
-    if (!std::isfinite(r)) r = 0;
-  const double limit = 6 * median(residuals);
-  if (!(limit > 0)) return;
-  for (Index i = 0; i < n; ++i) observations_[i].weight *= biweight(residuals[i] / limit);
-}
-
 Index HeightRegression::best_neighbours(const std::vector<Index>& offered) const {
   const Index n = static_cast<Index>(observations_.size());
   const Index step = std::max<Index>(1, n / most_left_out);

@@ -27,10 +27,6 @@ class HeightRegression {
   /// nearest observations, tricube weights; without positions where all of these were rejected.
   Points fitted(const Points& positions, Index neighbours) const;
 
-  /// Lowers the weight of observations that do not fit their surroundings (Tukey's biweight, from
-  /// the median residual).
-  void reject_outliers(Index neighbours);
-
   /// The largest of the numbers of neighbours offered that predicts left-out observations about as
   /// well as the best does.
   Index best_neighbours(const std::vector<Index>& offered) const;

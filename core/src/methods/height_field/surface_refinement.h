@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "cloud/surface_points.h"
 #include "methods/height_field/field_search.h"
 #include "methods/height_field/height_regression.h"
@@ -9,56 +7,9 @@
 
 namespace symsurf {
 
-/// Where the surfaces of a cloud end. A mirror maps rims onto rims, and where no point has an exact
-/// partner that is what determines its direction: half-way between two surfaces there is a surface
-/// along any direction.
-///
-/// A point near a rim has its neighbours on one side of it: their mean offset, as a share of their
-/// reach, grows from 0 inside to 4/(3 pi) on a straight rim.
-class SurfaceRims {
- public:
-  explicit SurfaceRims(const SurfacePoints& cloud);
-
-  /// A piece of rim as it looks along a direction.
-  struct Rim {
-    Eigen::Vector2d inwards;  ///< unit, across the direction
-    double distance;          ///< of the point from it
-    double reach;             ///< beyond which a rim is not seen
-  };
-  /// The rim near point i; false where there is none, or where it points along the direction.
-  bool seen_across(Index i, const Eigen::Matrix<double, 3, 2>& across, Rim& rim) const;
-
- private:
-  const SurfacePoints& cloud_;
-  Points lean_;  // mean offset of the neighbours within the surface, as a share of their reach
-  Eigen::VectorXd reach_;  // of the neighbours
-};
-
-/// Least squares for the turn of a direction that carries rims onto rims. Surfaces of different
-/// density end, as far as their points show, differently far inside their rims: one common
-/// difference is an unknown too. A prior keeps the direction near where the search began, for
-/// surfaces so close that turning moves no rim.
-class RimAlignment {
- public:
-  RimAlignment(const SurfaceRims& rims, const Eigen::Matrix<double, 3, 2>& across)
-      : rims_(rims), across_(across) {}
-
-  /// A point whose image lies by `aside` away from its partner, and moves by `arm` times a turn.
-  void add(Index point, Index partner, const Eigen::Vector2d& aside, double arm, double weight);
-
-  /// From the present direction, the start of the search as it lies across it given.
-  Eigen::Vector2d turn(const Eigen::Vector2d& start) const;
-
- private:
-  const SurfaceRims& rims_;
-  Eigen::Matrix<double, 3, 2> across_;
-  Matrix3 normal_ = Matrix3::Zero();  // of the turn and the common difference
-  Vector3 right_ = Vector3::Zero();
-};
-
 /// Mirror, match, fit again: images over the estimate meet the surfaces on the other side, half
-/// their distance along the direction is what the surface is wrong by there. Where partners are
-/// known, what remains across determines how the direction turns; where not, the rims do.
+/// their distance along the direction is what the surface is wrong by there. What remains across
+/// determines how the direction turns.
 class SurfaceRefinement {
  public:
   SurfaceRefinement(const SurfacePoints& cloud, const SurfacePatches& patches,
@@ -81,8 +32,6 @@ class SurfaceRefinement {
   const SurfacePoints& cloud_;
   const SurfacePatches& patches_;
   const Context context_;
-  std::optional<SurfaceRims> rims_;  // where no partners determine the direction
-  Vector3 start_ = Vector3::Zero();
   MidSurface votes_;
 };
 
