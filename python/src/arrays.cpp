@@ -39,16 +39,25 @@ py::object as_doubles(const py::array& array, const std::string& what) {
   }
 }
 
+bool is_rows(py::handle object) {
+  return py::isinstance<py::array>(object) || py::isinstance<py::list>(object) ||
+         py::isinstance<py::tuple>(object);
+}
+
+py::module_ other_objects() { return py::module_::import("symsurf.shapes.objects"); }
+
 }  // namespace
 
 bool has_points(py::handle object) {
-  return !py::hasattr(object, "__array__") &&
-         (py::hasattr(object, "points") || py::hasattr(object, "vertices"));
+  if (is_rows(object)) return false;
+  const bool is_array = py::hasattr(object, "__array__");
+  if (!is_array && (py::hasattr(object, "points") || py::hasattr(object, "vertices"))) return true;
+  return other_objects().attr("is_known")(object).cast<bool>();
 }
 
 py::object points_of(py::handle object) {
-  if (!has_points(object)) return py::reinterpret_borrow<py::object>(object);
-  return object.attr(py::hasattr(object, "points") ? "points" : "vertices");
+  if (is_rows(object)) return py::reinterpret_borrow<py::object>(object);
+  return other_objects().attr("points_of")(object);
 }
 
 Rows rows_from(py::handle object, const char* what) {

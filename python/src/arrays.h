@@ -45,10 +45,11 @@ Rows rows_from(py::handle object, const char* what);
 /// Throws InvalidInput naming the shape given, unless that is three numbers.
 VectorArgument vector_from(py::handle object);
 
-/// Whether it has points or vertices, and is no array itself.
+/// Whether it is a mesh, a cloud or a table: has points or vertices and is no array itself, or is an
+/// object that `symsurf.shapes.objects` knows.
 bool has_points(py::handle object);
 
-/// The object's points: those of a data set (`.points`) or a mesh (`.vertices`), else the object.
+/// The points of such an object, else the object itself.
 py::object points_of(py::handle object);
 
 /// An array over memory that `owner` keeps alive; nothing is copied.

@@ -89,7 +89,8 @@ void bind_mirror(py::module_& module) {
             return py::module_::import("symsurf.reflection").attr("reflected")(mesh, self);
           },
           py::arg("mesh"),
-          "The image of a Shape, a PyVista or a trimesh mesh: one of the same kind, its faces\n"
+          "The image of a Shape, or of a mesh, a cloud or a table of PyVista, trimesh, Open3D,\n"
+          "ITK, meshio, pandas or polars: one of the same type with its own attributes, its faces\n"
           "turned round, so that what was outside is. Without normals, which would no longer fit.\n"
           "Of another object with points or vertices their images (n, 3). Raises InvalidInput for\n"
           "a data set whose cells are not all points, lines and flat faces.")

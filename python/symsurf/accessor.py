@@ -12,21 +12,16 @@ PyVista finds it by itself where symsurf is installed.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from functools import partial
 from typing import Any
 
-import numpy as np
 import pyvista
-from numpy.typing import NDArray
-from vtkmodules.vtkCommonCore import vtkStringArray
 
 from . import shape_analyses
-from ._core import InvalidInput, operations
+from ._core import InvalidInput
 from .detection import detect
 from .mirror_operations.operate import operate
-from .results import AnalysisResult, OperationResult, Result
-from .shapes.grids import drop_normals, is_grid, require_sound_cells
+from .results import AnalysisResult, Result
+from .shapes.grids import is_grid
 
 __all__ = ["Symmetry"]
 
@@ -79,7 +74,7 @@ class Symmetry:
         """The surface of triangles, or the points, with what ``symsurf.complete`` adds: the point
         array "origin" says which is which. What is added has the attributes that its counterpart
         has."""
-        return self._other(self._result("complete", options))
+        return self._operated("complete", options)
 
     def symmetrize(self, **options: Any) -> pyvista.DataSet:
         """A copy made symmetric by ``symsurf.symmetrize``; with ``triangles="mirrored"`` a surface of
@@ -132,37 +127,12 @@ class Symmetry:
 
     def _analysed(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         self._require_points(name)
-        result = self.analysis = getattr(shape_analyses, name)(self._mesh, **options)
-        return _with_arrays(self._mesh.copy(), result)
+        self.analysis = getattr(shape_analyses, name)(self._mesh, **options)
+        return self.analysis.like(self._mesh)
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
-        result = self._result(name, options)
-        if result.is_other:
-            return self._other(result)
-        made = self._mesh.copy()
-        if operations()[name].moves_points:
-            made.points = result.shape.points
-            drop_normals(made)
-        if operations()[name].carries_values:
-            kept = made.point_data.active_texture_coordinates_name
-            _carry(self._mesh.point_data, made.point_data, result.carried, kept)
-        return _with_arrays(made, result)
-
-    def _other(self, result: OperationResult) -> pyvista.PolyData:
-        """Points and faces of the result, with the attributes of their sources."""
-        made = result.shape.to_pyvista()
-        _carry(self._mesh.point_data, made.point_data, result.carried)
-        if result.given.faces is not None:
-            require_sound_cells(self._mesh)  # ``faces`` may stand in place of them
-            triangles = self._mesh.triangulate()
-            if triangles.n_cells == len(result.given.faces):  # neither lines nor vertices beside
-                of_sources = partial(np.take, indices=result.face_sources, axis=0)
-                _carry(triangles.cell_data, made.cell_data, of_sources)
-        return _with_arrays(made, result)
-
-    def _result(self, name: str, options: dict[str, Any]) -> Any:
         self._require_points(name)
-        return operate(name, self._mesh, self.result, **options)
+        return operate(name, self._mesh, self.result, **options).like(self._mesh)
 
     def _require_points(self, name: str) -> None:
         if is_grid(self._mesh):
@@ -170,42 +140,3 @@ class Symmetry:
                 f"{name} takes the points of a surface or a cloud; {type(self._mesh).__name__} has "
                 "none: give a surface of it, such as contour()"
             )
-
-
-def _with_arrays(
-    made: pyvista.DataSet, result: OperationResult | AnalysisResult
-) -> pyvista.DataSet:
-    for array, values in result.arrays.items():
-        made.point_data[array] = values
-    if isinstance(result, OperationResult):
-        for array, values in result.face_arrays.items():
-            made.cell_data[array] = values
-    for figure, value in result.statistics.items():
-        if isinstance(value, str):
-            made.GetFieldData().AddArray(_text(figure, value))
-        else:
-            made.field_data[figure] = np.atleast_1d(value)
-    return made
-
-
-def _text(name: str, value: str) -> vtkStringArray:
-    """PyVista itself makes arrays of ASCII alone; groups such as D∞h are not."""
-    array = vtkStringArray()
-    array.SetName(name)
-    array.InsertNextValue(value)
-    return array
-
-
-def _carry(
-    before: pyvista.DataSetAttributes,
-    after: pyvista.DataSetAttributes,
-    carried: Callable[[NDArray[Any]], NDArray[Any]],
-    kept: str | None = None,
-) -> None:
-    """Carries the attributes along, but for one; normals, which would be wrong, not."""
-    for name, values in before.items():
-        if name in (before.active_normals_name, kept):
-            continue
-        after[name] = carried(np.asarray(values))
-        if name == before.active_texture_coordinates_name:
-            after.active_texture_coordinates = after[name]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Mirror
-from .shapes import Shape
+from .shapes import Shape, objects
 
 
 def reflected(mesh: Any, mirror: Mirror) -> Any:
@@ -17,18 +16,12 @@ def reflected(mesh: Any, mirror: Mirror) -> Any:
     if isinstance(mesh, Shape):
         faces = None if mesh.faces is None else _turned(mesh.faces)
         return Shape(mirror.reflect(np.asarray(mesh.points)), faces)
-    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
-    if pyvista is not None and isinstance(mesh, pyvista.DataSet):
-        from .shapes import grids
-
-        return grids.turned_inside_out(mesh, mirror.reflect(np.asarray(mesh.points, dtype=float)))
-    trimesh = sys.modules.get("trimesh")
-    if trimesh is not None and isinstance(mesh, trimesh.Trimesh):
-        image = mesh.copy()
-        image.vertices = mirror.reflect(np.asarray(mesh.vertices))
-        image.faces = _turned(np.asarray(mesh.faces))
-        return image
-    return mirror.reflect(np.asarray(mesh.points if hasattr(mesh, "points") else mesh.vertices))
+    parts = objects.parts_of(mesh)
+    if parts is None:
+        return mirror.reflect(np.asarray(objects.points_of(mesh)))
+    images = mirror.reflect(np.asarray(parts.points))
+    faces = None if parts.faces is None else _turned(np.asarray(parts.faces))
+    return objects.remade(mesh, objects.Remade(images, faces, turned=True))
 
 
 def _turned(faces: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 HEAVY = (
-    "concurrent.futures", "ctypes.util", "json", "matplotlib", "multiprocessing", "pyvista", "subprocess",
-    "tempfile", "trame_vtk", "urllib.request", "vtkmodules",
+    "concurrent.futures", "ctypes.util", "itk", "json", "matplotlib", "meshio", "multiprocessing", "open3d",
+    "pandas", "polars", "pyvista", "subprocess", "tempfile", "trame_vtk", "trimesh", "urllib.request",
+    "vtkmodules",
 )  # fmt: skip
 
 

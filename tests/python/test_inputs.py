@@ -144,24 +144,14 @@ def test_a_file_is_read(tmp_path):
 # Meshes
 
 
-def open3d_mesh(points, faces):
-    """Stands in for Open3D's TriangleMesh, whose attributes it has: Open3D is not installed here. Its
-    tensor meshes have ``to_legacy``, which gives one of these."""
-    normals = np.tile((0.0, 0.0, 1.0), (len(points), 1))
-    return SimpleNamespace(
-        vertices=points, triangles=faces.astype(np.int32), vertex_normals=normals
-    )
-
-
 def shapes_of(points, faces):
     """The same mesh as everything that detect takes for one."""
     yield {"points": points, "faces": faces}
     yield {"points": points.tolist(), "faces": faces.tolist()}
     yield {"points": points, "faces": faces.astype(np.uint32)}
     yield {"points": symsurf.Shape(points, faces)}
-    yield {"points": SimpleNamespace(vertices=points, faces=faces)}  # as trimesh has them
-    yield {"points": open3d_mesh(points, faces)}
-    yield {"points": SimpleNamespace(to_legacy=lambda: open3d_mesh(points, faces))}
+    yield {"points": SimpleNamespace(vertices=points, faces=faces)}
+    yield {"points": SimpleNamespace(points=points, triangles=faces.astype(np.int32))}
     pyvista = pytest.importorskip("pyvista")
     mesh = pyvista.PolyData.from_regular_faces(points, faces)
     yield {"points": mesh}

@@ -47,7 +47,7 @@ def points_of(data: vtkPolyData) -> np.ndarray:
 
 def triangles_of(data: vtkPolyData) -> np.ndarray:
     """As VTK divides them: compared with what the filter does, not with one's own idea."""
-    from symsurf.vtk.arrays import faces_of
+    from symsurf.shapes.poly_data import faces_of
 
     return faces_of(data).corners
 

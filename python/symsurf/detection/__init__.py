@@ -34,9 +34,10 @@ def detect(
 
     Args:
         points: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
-            ``Shape``, a data set with ``points`` or a mesh with ``vertices``, with the ``faces`` or
-            ``triangles`` that it has: one of PyVista, trimesh or Open3D. A C-ordered float64 array
-            is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
+            ``Shape``, a mesh or a cloud of PyVista, VTK, trimesh, Open3D, ITK or meshio, a table of
+            pandas or polars with the columns x, y and z or with three that hold numbers, or another
+            object with ``points`` or ``vertices``, with the ``faces`` or ``triangles`` that it has. A
+            C-ordered float64 array is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
             ``StructuredGrid`` with such points) the points, or the centres of the cells, that
             ``threshold`` chooses: ``Result.points`` are then these, and pairs are indices into
             them.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter
-from ..shapes import Choice, Shape
+from ..shapes import Choice, Shape, objects
 from . import read
 
 
@@ -52,17 +52,13 @@ def as_input(
     if isinstance(given, (str, os.PathLike)):
         given = read(given, threshold=threshold, scalars=scalars)
         threshold = scalars = None
-    if hasattr(given, "to_legacy"):  # Open3D's tensor meshes and clouds
-        given = given.to_legacy()
-    pyvista = sys.modules.get("pyvista")  # imported where there is a data set
-    is_data_set = pyvista is not None and isinstance(given, pyvista.DataSet)
-    if is_data_set:
+    grid = objects.grid_of(given)
+    if grid is not None:
         from ..shapes import grids
 
-        if grids.is_grid(given):
-            if faces is not None:
-                raise InvalidInput("faces are given with a grid, which has none; leave them out")
-            return Input(grids.chosen_points(given, Choice(threshold, scalars=scalars)), None)
+        if faces is not None:
+            raise InvalidInput("faces are given with a grid, which has none; leave them out")
+        return Input(grids.chosen_points(grid, Choice(threshold, scalars=scalars)), None)
     for name, value in (("threshold", threshold), ("scalars", scalars)):
         if value is not None:
             raise InvalidParameter(
@@ -70,16 +66,15 @@ def as_input(
             )
     if faces is not None:
         return Input(_points(given), triangles(faces))
-    if is_data_set:
-        from ..shapes import grids
-
-        return Input(given.points, grids.faces_of(given), colours=grids.colours_of(given))
+    parts = objects.parts_of(given)
+    if parts is not None:
+        return Input(parts.points, _faces(parts.faces), colours=parts.colours)
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
-    own = _first_of(given, "faces", "triangles")
-    found = None if own is None or not len(own) else triangles(own)
     space = given.space if isinstance(given, Shape) else None
-    return Input(_points(given), found, space, _colours(given))
+    return Input(
+        _points(given), _faces(_first_of(given, "faces", "triangles")), space, _colours(given)
+    )
 
 
 def triangles(faces: ArrayLike) -> NDArray[np.int64]:
@@ -128,30 +123,26 @@ def nonfinite_message(count: int) -> str:
     return f"{were} left out; with nonfinite 'refuse' this is an error"
 
 
+def _faces(given: Any) -> NDArray[np.int64] | None:
+    return None if given is None or not len(given) else triangles(given)
+
+
 def _points(given: Any) -> Any:
-    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
-        return given
-    points = _first_of(given, "points", "vertices")
-    if points is not None:
-        return points
-    if np.asarray(given, dtype=object).ndim == 0:
+    points = objects.points_of(given)
+    if points is given and np.asarray(given, dtype=object).ndim == 0:
         raise InvalidInput(
             f"points are of type {type(given).__name__}; allowed are an array or a nested list (n, 3), "
-            "the name of a file, a Shape, or a mesh or data set with points or vertices"
+            "the name of a file, a Shape, or a mesh, a table or a data set with points or vertices"
         )
-    return given
+    return points
 
 
 def _colours(given: Any) -> Any:
-    """Those of a Shape, of Open3D's clouds and meshes, and of trimesh's vertices; None of others."""
-    if getattr(getattr(given, "visual", None), "kind", None) == "vertex":
-        return given.visual.vertex_colors
     found = _first_of(given, "colours", "vertex_colors", "colors")
     return None if found is None or not len(found) else found
 
 
 def _first_of(given: Any, *attributes: str) -> Any:
-    """The first of the attributes that there is; of trimesh's the second is dear to ask for."""
     for attribute in attributes:
         if hasattr(given, attribute):
             return getattr(given, attribute)

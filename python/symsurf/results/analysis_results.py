@@ -13,6 +13,7 @@ from .._core import InvalidInput, InvalidParameter, Plane
 from ..base.plain import plain
 from ..reading.inputs import warn_of
 from ..shapes import Shape
+from ..shapes.objects import Remade, remade_like
 from .elements import Axis, Transformation
 from .outputs import plot, save
 from .poses import isaac_axes, nearest_poses, rigid, stepped
@@ -61,6 +62,19 @@ class AnalysisResult(Summarised):
             statistics=made["statistics"],
             seconds=made["seconds"],
         )
+
+    def like(self, given: Any) -> Any:
+        """A copy, with ``arrays``, of the object that the analysis was given: a mesh or a cloud of
+        PyVista, trimesh, Open3D, ITK or meshio, or a table of pandas or polars. Open3D's older classes
+        and ITK's have no room for arrays.
+
+        Raises InvalidInput for another type, or another number of points.
+        """
+        shape = self.shape
+        made = Remade(
+            shape.points, shape.faces, moved=False, arrays=self.arrays, figures=self.statistics
+        )
+        return remade_like(given, len(shape.points), made)
 
     @property
     def summary(self) -> dict[str, str]:

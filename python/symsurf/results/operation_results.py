@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, Plane, operations
 from ..shapes import Shape
+from ..shapes.objects import Remade, remade_like
 from .elements import Axis
 from .outputs import plot, save
 from .summary import Summarised, figures, value_text
@@ -103,6 +104,36 @@ class OperationResult(Summarised):
         """The same of each face."""
         described = operations()[self.operation].face_arrays
         return {array.name: getattr(self, array.name) for array in described}
+
+    def like(self, given: Any) -> Any:
+        """The shape as an object of the type of the one that the operation was given.
+
+        Args:
+            given: that object: a mesh or a cloud of PyVista, trimesh, Open3D, ITK or meshio, or a
+                table of pandas or polars.
+
+        Returns:
+            A new one with the points and faces of ``shape``, the attributes of the points and faces
+            that they come from, and, where the type has room, ``arrays``. Without normals where
+            points are moved or added.
+
+        Raises InvalidInput for another type, or another number of points.
+        """
+        described = operations()[self.operation]
+        is_other = self.is_other or described.adds_points
+        made = Remade(
+            points=self.shape.points,
+            faces=self.shape.faces,
+            moved=is_other or described.moves_points,
+            face_sources=self.face_sources if is_other else None,
+            given_faces=0 if self.given.faces is None else len(self.given.faces),
+            carried=self.carried if is_other or described.carries_values else None,
+            keeps_texture=described.carries_values,
+            arrays=self.arrays,
+            face_arrays=self.face_arrays,
+            figures=self.statistics,
+        )
+        return remade_like(given, len(self.given.points), made)
 
     @property
     def summary(self) -> dict[str, str]:

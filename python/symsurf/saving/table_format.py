@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..results import Correspondences
+from ..shapes.columns import columns_of
 
 
 def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
@@ -46,16 +47,3 @@ def mirror_bytes(result: Correspondences) -> bytes:
     sides = np.where(result.index[points] == points, "m", np.where(distances > 0, "l", "r"))
     rows = zip(points.tolist(), result.index[points].tolist(), sides.tolist(), strict=True)
     return "".join(f"{point} {partner} {side}\n" for point, partner, side in rows).encode()
-
-
-def columns_of(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Arrays (n,) and (n, k) as columns (n,): of three those of x, y and z, else numbered from 0."""
-    columns: dict[str, NDArray[Any]] = {}
-    for name, values in arrays.items():
-        if values.ndim == 1:
-            columns[name] = values
-        else:
-            ends = "xyz" if values.shape[1] == 3 else range(values.shape[1])
-            named = (f"{name}_{end}" for end in ends)
-            columns |= dict(zip(named, values.T, strict=True))
-    return columns

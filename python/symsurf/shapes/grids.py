@@ -133,7 +133,7 @@ def turned_inside_out(mesh: pyvista.DataSet, points: NDArray[np.float64]) -> pyv
             f"the cells of this {type(mesh).__name__} cannot be turned round; give a surface of it, "
             "such as extract_surface()"
         )
-    made.points = points
+    made.SetPoints(pyvista.vtk_points(points))  # which it may share with the mesh
     drop_normals(made)
     return made
 

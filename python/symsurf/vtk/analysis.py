@@ -15,16 +15,9 @@ from .._core import Analysis, InvalidParameter, analyses
 from ..reading.inputs import InputWarning
 from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
+from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
 from .algorithm import THREADS, Algorithm, Property, selected
-from .arrays import (
-    add_values,
-    faces_of,
-    points_of,
-    rows_of,
-    set_vertices,
-    vtk_cells,
-    vtk_points,
-)
+from .arrays import add_values, set_vertices, vtk_cells
 from .names import camel_case
 
 

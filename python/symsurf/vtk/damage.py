@@ -8,8 +8,9 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .. import _core
+from ..shapes.poly_data import points_of
 from .algorithm import Algorithm, Property, selected
-from .arrays import points_of, set_subset
+from .arrays import set_subset
 
 _OWN = {"seed": Property(0, "The same seed gives the same damage on every machine.")}
 

@@ -13,8 +13,9 @@ from .._core import InvalidInput, Plane, methods
 from ..detection import detect
 from ..reading.inputs import InputWarning
 from ..results import Result
+from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
 from .algorithm import THREADS, Algorithm, Property, selected
-from .arrays import add_values, faces_of, points_of, rows_of, set_vertices, vtk_cells, vtk_points
+from .arrays import add_values, set_vertices, vtk_cells
 
 
 class MirrorDetection(Algorithm):

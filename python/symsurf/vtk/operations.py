@@ -23,19 +23,16 @@ from .._core import (
 )
 from ..detection import detect
 from ..results import found_mirror
+from ..shapes.poly_data import Faces, faces_of, points_of, vtk_points
 from .algorithm import THREADS, Algorithm, Property, described
 from .arrays import (
-    Faces,
     add_values,
     blend_rows,
     copy_rows,
     drop_normals,
-    faces_of,
     mirror_of,
-    points_of,
     set_subset,
     vtk_cells,
-    vtk_points,
 )
 from .names import camel_case
 

@@ -9,8 +9,9 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
+from ..shapes.poly_data import points_of
 from .algorithm import Algorithm
-from .arrays import mirror_of, points_of, set_subset
+from .arrays import mirror_of, set_subset
 
 
 class MirrorReflection(Algorithm):

@@ -9,8 +9,9 @@ from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .. import _core
+from ..shapes.poly_data import points_of, vtk_points
 from .algorithm import Algorithm, selected
-from .arrays import add_values, points_of, set_vertices, vtk_cells, vtk_points
+from .arrays import add_values, set_vertices, vtk_cells
 
 
 class MirrorSampleSource(Algorithm):

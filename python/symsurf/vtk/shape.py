@@ -7,7 +7,6 @@ from typing import Any
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray,
     vtkCompositeDataSet,
     vtkDataObject,
     vtkImageData,
@@ -21,7 +20,7 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkThresholdPoints
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 from .._core import InvalidInput
-from .arrays import require_points
+from ..shapes.poly_data import require_points, require_sound_cells
 
 
 def shape_of(
@@ -36,8 +35,7 @@ def shape_of(
     if data is None:
         return None
     if isinstance(data, vtkPolyData):
-        for cells in (data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()):
-            _require_points(cells, data)
+        require_sound_cells(data)
         return data
     if isinstance(data, vtkPointSet):
         return _surface_of(data)
@@ -59,12 +57,9 @@ def _surface_of(data: vtkPointSet) -> vtkPolyData:
         points.GetFieldData().ShallowCopy(data.GetFieldData())
         return points
     if isinstance(data, vtkUnstructuredGrid):
-        _require_points(data.GetCells(), data)
+        corners = vtk_to_numpy(data.GetCells().GetConnectivityArray())
+        require_points(corners, data.GetNumberOfPoints())
     return _made(vtkGeometryFilter(), data)
-
-
-def _require_points(cells: vtkCellArray, data: vtkPointSet) -> None:
-    require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
 
 
 def _points_above(image: Any, algorithm: vtkAlgorithm, threshold: float) -> vtkPolyData:
