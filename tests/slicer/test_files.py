@@ -49,6 +49,13 @@ def test_the_panel_shows_what_the_parameter_node_has():
     assert shown == {name: kinds for name, kinds in nodes.items() if kinds}
 
 
+def test_what_has_a_name_in_the_panel_is_a_parameter():
+    names = {
+        each.text for each in PANEL.iterfind(".//property[@name='SlicerParameterName']/string")
+    }
+    assert "useFaces" in names and names <= set(parameters())
+
+
 def test_every_selector_hears_of_the_scene():
     selectors = {
         w.get("name") for w in PANEL.iter("widget") if w.get("class") == "qMRMLNodeComboBox"

@@ -34,6 +34,14 @@ def test_a_segment_has_its_mirror(in_slicer):
     assert made["unknown"] == "the segment is 'skin'; Segmentation has bone, other"
 
 
+def test_points_that_are_not_finite_are_left_out(in_slicer):
+    made = in_slicer("with_holes")
+    assert made["plane"]["normal"][0] == pytest.approx(1)
+    assert made["plane"]["centre"][0] == pytest.approx(ACROSS, abs=1e-3)
+    assert made["points"] == -3 and made["given"] == 0
+    assert made["cells"] == -16  # six around each point, two of them shared by neighbours
+
+
 def test_the_model_is_coloured_by_its_asymmetry(in_slicer):
     made = in_slicer("coloured")
     assert {"signed", "distance", "vector", "lateral", "matched"} <= set(made["names"])

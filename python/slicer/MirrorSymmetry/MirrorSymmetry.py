@@ -61,6 +61,7 @@ class MirrorSymmetryParameterNode:
     method: str = DEFAULT_METHOD
     methodParameters: str = "{}"
     """JSON: by method and name those that are not the default."""
+    useFaces: bool = True
     plane: vtkMRMLMarkupsPlaneNode
     transform: vtkMRMLLinearTransformNode
     mirror: vtkMRMLModelNode
@@ -289,6 +290,7 @@ class MirrorSymmetryLogic(ScriptedLoadableModuleLogic, SymmetryLogic):
             landmarks=parameterNode.landmarks,
             method=parameterNode.method,
             parameters=parameters,
+            use_faces=parameterNode.useFaces,
             progress=progress,
         )
         if outputs.asymmetry is not None:

@@ -149,6 +149,22 @@ def of_a_segmentation() -> dict[str, Any]:
     }
 
 
+def with_holes() -> dict[str, Any]:
+    """A model of which some points are not finite."""
+    points, triangles = head()
+    points[[1000, 1001, 1500]] = np.nan
+    node, outputs = new("Model", "Scan"), Outputs(plane=new("MarkupsPlane"), asymmetry=new("Model"))
+    node.SetAndObservePolyData(surface(points, triangles))
+    LOGIC.process(node, outputs, use_faces=False)
+    made = outputs.asymmetry.GetPolyData()
+    return {
+        "plane": plane_of(outputs.plane),
+        "points": made.GetNumberOfPoints() - len(points),
+        "cells": made.GetNumberOfCells() - len(triangles),
+        "given": node.GetPolyData().GetNumberOfPoints() - len(points),
+    }
+
+
 def coloured() -> dict[str, Any]:
     """A bump of 3 mm on one side, and the same shape again."""
     node, outputs = model(3.0), Outputs(asymmetry=new("Model"))

@@ -54,6 +54,7 @@ class SymmetryLogic:
         landmarks: slicer.vtkMRMLMarkupsFiducialNode | None = None,
         method: str = DEFAULT_METHOD,
         parameters: Mapping[str, Any] | None = None,
+        use_faces: bool = True,
         progress: Callable[[float], bool | None] | None = None,
     ) -> symsurf.Result:
         """Finds the mirror and fills in the outputs that are asked for.
@@ -65,6 +66,8 @@ class SymmetryLogic:
             landmarks: to pair over the mirror, by their labels where these name sides.
             method: one of ``symsurf.methods()``.
             parameters: of the method, by name.
+            use_faces: False: the vertices alone find the mirror, sooner; for surfaces whose vertices
+                lie evenly, as those of scans do.
             progress: called with the fraction done of the search; returning False cancels.
 
         Raises:
@@ -72,7 +75,8 @@ class SymmetryLogic:
                 no mirror is found.
         """
         surface = world_surface(shape, segment)
-        result = self._detected(surface, method, parameters or {}, progress)
+        options = {"use_faces": use_faces, "progress": progress, **(parameters or {})}
+        result = self._detected(surface, method, options)
         if result.mirror is None:
             raise ValueError(f"{method} finds no mirror in {shape.GetName()}: {result.reason}")
         figures = {"verdict": result.verdict, "score": result.score}
@@ -86,19 +90,14 @@ class SymmetryLogic:
         return result
 
     def _detected(
-        self,
-        surface: vtkPolyData,
-        method: str,
-        parameters: Mapping[str, Any],
-        progress: Callable[[float], bool | None] | None,
+        self, surface: vtkPolyData, method: str, options: Mapping[str, Any]
     ) -> symsurf.Result:
         """Without the pairs of vertices, which no output shows."""
         import symsurf  # installed when it is first asked for
 
         known = symsurf.methods().get(method)
-        pairs = known is not None and any(each.name == "pairs" for each in known.parameters)
-        options = ({"pairs": False} if pairs else {}) | dict(parameters)
-        return symsurf.detect(surface, method, progress=progress, **options)
+        has_pairs = known is not None and any(each.name == "pairs" for each in known.parameters)
+        return symsurf.detect(surface, method, **({"pairs": False} if has_pairs else {}) | options)
 
     def _set_mirror(self, surface: vtkPolyData, result: symsurf.Result, outputs: Outputs) -> None:
         import symsurf

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkGeneralTransform
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 
 import slicer
@@ -31,7 +35,7 @@ def world_surface(node: slicer.vtkMRMLNode, segment: str = "") -> vtkPolyData:
         )
     if surface is None or surface.GetNumberOfPoints() == 0:
         raise ValueError(f"{node.GetName()} has no surface")
-    return _in_world(surface, node)
+    return _in_world(_finite(surface), node)
 
 
 def segments_of(node: slicer.vtkMRMLSegmentationNode) -> dict[str, str]:
@@ -55,6 +59,27 @@ def _surface_of_segment(node: slicer.vtkMRMLSegmentationNode, segment: str) -> v
         raise ValueError(f"{node.GetName()} cannot be turned into surfaces")
     node.GetClosedSurfaceRepresentation(chosen[0], surface)
     return surface
+
+
+def _finite(surface: vtkPolyData) -> vtkPolyData:
+    """Without the points that are not finite, which some scans have, and their cells."""
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    broken = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if not len(broken):
+        return surface
+    copy, cells = vtkPolyData(), vtkIdList()
+    copy.DeepCopy(surface)
+    copy.BuildLinks()
+    for point in broken.tolist():
+        copy.GetPointCells(point, cells)
+        for number in range(cells.GetNumberOfIds()):
+            copy.DeleteCell(cells.GetId(number))
+    copy.RemoveDeletedCells()
+    used = vtkCleanPolyData()  # leaves out points without cells
+    used.PointMergingOff()
+    used.SetInputData(copy)
+    used.Update()
+    return used.GetOutput()
 
 
 def _in_world(surface: vtkPolyData, node: slicer.vtkMRMLTransformableNode) -> vtkPolyData:
