@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
+from conftest import ROOT
 
 ACROSS = 5.0  # where the mirror of the head lies, R = 5 mm; see hosts/scenes.py
 
@@ -96,3 +99,12 @@ def test_a_mirror_that_bends(in_slicer):
     assert made["radii"] == pytest.approx([50, 50], abs=0.1)
     normal, centre = made["plane"]["normal"], made["plane"]["centre"]
     assert abs(normal[0]) > 0.99 and abs(centre[0]) < 1  # it touches the cylinder at R = 0
+
+
+def test_the_example_of_the_page_runs(in_slicer, tmp_path):
+    page = (ROOT / "docs" / "slicer.md").read_text()
+    (script,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    path = tmp_path / "example.py"
+    path.write_text(script)
+    made = in_slicer("example", str(path))
+    assert made == {"MarkupsPlane": 2, "LinearTransform": 2, "Model": 4, "Table": 1}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import runpy
 import sys
 from typing import Any
 
@@ -274,6 +275,15 @@ def curved() -> dict[str, Any]:
         "radii": [float(radii.min()), float(radii.max())],
         "plane": plane_of(outputs.plane),
     }
+
+
+def example(path: str) -> dict[str, Any]:
+    """Runs a script as Slicer's Python console would, in a scene with two models."""
+    slicer.mrmlScene = SCENE
+    model(5, "Swollen"), model(0, "Even")
+    runpy.run_path(path)
+    kinds = ("MarkupsPlane", "LinearTransform", "Model", "Table")
+    return {kind: SCENE.GetNumberOfNodesByClass(f"vtkMRML{kind}Node") for kind in kinds}
 
 
 if __name__ == "__main__":
