@@ -54,7 +54,8 @@ class MirrorSymmetry(ScriptedLoadableModule):
 class MirrorSymmetryParameterNode:
     """What the panel shows, saved with the scene. ``Outputs`` says what the outputs are."""
 
-    shape: Union[vtkMRMLModelNode, vtkMRMLSegmentationNode]  # noqa: UP007  # as the wrapper has it
+    # Without None the wrapper cannot write that there is no node.
+    shape: Union[vtkMRMLModelNode, vtkMRMLSegmentationNode, None] = None  # noqa: UP007
     segment: str
     """The ID of a segment."""
     landmarks: vtkMRMLMarkupsFiducialNode
@@ -204,7 +205,9 @@ class MirrorSymmetryWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
         method = self._parameterNode.method
         values = json.loads(self._parameterNode.methodParameters)
-        self._form.show(symsurf.methods()[method].parameters, values.get(method, {}))
+        # Pairs of vertices are what no output shows.
+        shown = [each for each in symsurf.methods()[method].parameters if each.name != "pairs"]
+        self._form.show(shown, values.get(method, {}))
 
     def _onSegmentChanged(self, index):
         if self._parameterNode and index >= 0:
@@ -228,7 +231,7 @@ def _fill(comboBox, texts, chosen):
     comboBox.clear()
     for data, text in texts.items():
         comboBox.addItem(text, data)
-    comboBox.setCurrentIndex(max(comboBox.findData(chosen), 0))
+    comboBox.currentIndex = max(comboBox.findData(chosen), 0)
     comboBox.blockSignals(blocked)
 
 
@@ -324,6 +327,7 @@ class MirrorSymmetryTest(ScriptedLoadableModuleTest):
         surface.Update()
         node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLModelNode", "Ellipsoid")
         node.SetAndObservePolyData(surface.GetOutput())
+        node.CreateDefaultDisplayNodes()
         rows = slicer.util.arrayFromModelPoints(node)
         rows[:, 0] += 5
         rows[:, 2] += 0.02 * (rows[:, 1] + 5) ** 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import qt
@@ -16,7 +16,7 @@ class ParameterForm:
         self._changed = changed
         self._rows: dict[str, tuple[Any, Callable[[], Any]]] = {}
 
-    def show(self, parameters: tuple[Any, ...], values: Mapping[str, Any]) -> None:
+    def show(self, parameters: Iterable[Any], values: Mapping[str, Any]) -> None:
         """Makes the rows anew: of descriptions, with values by name in place of the defaults."""
         self._rows.clear()
         while self._layout.rowCount():
