@@ -45,8 +45,8 @@ Rows rows_from(py::handle object, const char* what);
 /// Throws InvalidInput naming the shape given, unless that is three numbers.
 VectorArgument vector_from(py::handle object);
 
-/// Whether it is a mesh, a cloud or a table: has points or vertices and is no array itself, or is an
-/// object that `symsurf.shapes.objects` knows.
+/// Whether it is a mesh, a cloud or a table: has points or vertices and is no array itself, or is
+/// an object that `symsurf.shapes.objects` knows.
 bool has_points(py::handle object);
 
 /// The points of such an object, else the object itself.
