@@ -11,14 +11,14 @@ from .._core import InvalidParameter
 from ..report.files import files_page
 from ..saving import write_whole
 from ..saving.output_files import output_files
-from .file_task import PAGE_SUFFIX, FileTask
+from .file_task import PAGE_SUFFIX, PICTURE_SUFFIX, FileTask
 
 OPERATION = "asymmetry"
 
 
 def report_tasks(given: Sequence[FileTask], page: Path) -> list[FileTask]:
     """The tasks, each writing the page of its file: of one file the page itself, of several one
-    each in the folder PAGE_files."""
+    each in the folder PAGE_files, and a picture beside it."""
     if page.suffix.lower() != PAGE_SUFFIX:
         raise InvalidParameter(f"output is {str(page)!r}; allowed is the suffix {PAGE_SUFFIX}")
     files = [task.file for task in given]
@@ -26,7 +26,9 @@ def report_tasks(given: Sequence[FileTask], page: Path) -> list[FileTask]:
         raise InvalidParameter(f"{page} would overwrite an input; allowed is another name")
     pages = {files[0]: [page]}
     if len(files) > 1:
-        pages = output_files(files, page.with_name(f"{page.stem}_files"), lambda _: [PAGE_SUFFIX])
+        pages = output_files(
+            files, page.with_name(f"{page.stem}_files"), lambda _: [PAGE_SUFFIX, PICTURE_SUFFIX]
+        )
     return [replace(task, operation=OPERATION, outputs=tuple(pages[task.file])) for task in given]
 
 

@@ -5,30 +5,34 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from html import escape
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import quote
 
 import numpy as np
 
 from .charts import histogram
-from .html import Html, heading, page, paragraph, ranks_of, table
+from .html import Html, fixed, heading, page, paragraph, ranks_of, table
 
 PERCENTILES = (0, 5, 25, 50, 75, 95, 100)
-# Of the columns of a batch: their names here, and what they are multiplied by. Lengths are shares
-# of the diagonal: shapes differ in size.
+# Of the columns of a batch: their names here, what they are multiplied by, and the digits behind
+# the point. Lengths are shares of the diagonal: shapes differ in size.
 _FIGURES = {
-    "score": ("score", 1),
-    "paired_share": ("paired, %", 100),
-    "mean_of_diagonal": ("mean, % of the diagonal", 100),
-    "rms_of_diagonal": ("rms, % of the diagonal", 100),
-    "median_of_diagonal": ("median, % of the diagonal", 100),
-    "p95_of_diagonal": ("95th percentile, % of the diagonal", 100),
-    "maximum_of_diagonal": ("maximum, % of the diagonal", 100),
-    "signed_mean_of_diagonal": ("signed mean, % of the diagonal", 100),
-    "area_index": ("area index", 1),
-    "volume_index": ("volume index", 1),
+    "score": ("score", 1, 2),
+    "paired_share": ("paired, %", 100, 1),
+    "mean_of_diagonal": ("mean, % of the diagonal", 100, 3),
+    "rms_of_diagonal": ("rms, % of the diagonal", 100, 3),
+    "median_of_diagonal": ("median, % of the diagonal", 100, 3),
+    "p95_of_diagonal": ("95th percentile, % of the diagonal", 100, 3),
+    "maximum_of_diagonal": ("maximum, % of the diagonal", 100, 3),
+    "signed_mean_of_diagonal": ("signed mean, % of the diagonal", 100, 3),
+    "area_index": ("area index", 1, 3),
+    "volume_index": ("volume index", 1, 3),
 }
+FENCE = 1.5
+"""Times the distance between the quartiles: an outlier's rms lies farther above them (Tukey 1977)."""
+FEWEST = 5
+"""Files that have quartiles to speak of."""
 _SHOWN = ("score", "paired_share", "rms_of_diagonal", "p95_of_diagonal", "maximum_of_diagonal")
 
 
@@ -37,7 +41,7 @@ def files_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str
 
     Args:
         rows: of ``symsurf.batch``.
-        links: the page of each file, relative to this.
+        links: the page of each file, relative to this; its picture lies beside it.
     """
     good = [row for row in rows if not row["error"]]
     doubtful = sum(row["verdict"] == "none" for row in good)
@@ -54,6 +58,7 @@ def files_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str
             histogram(rms, label, "files", symmetric=False),
         ]
         names = (
+            "",
             "file",
             "mirror",
             "verdict",
@@ -68,23 +73,45 @@ def files_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str
 
 def _percentile_rows(good: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     made = []
-    for name, (title, factor) in _FIGURES.items():
+    for name, (title, factor, digits) in _FIGURES.items():
         values = factor * _column(good, name)
         if len(values):
             percentiles = np.percentile(values, PERCENTILES).tolist()
-            made.append([title, *(f"{value:.4g}" for value in percentiles), str(len(values))])
+            made.append([title, *(fixed(value, digits) for value in percentiles), str(len(values))])
     return made
 
 
 def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> list[list[str]]:
-    ranks = ranks_of(_column(good, "rms_of_diagonal"))
+    rms = _column(good, "rms_of_diagonal")
+    ranks, limit = ranks_of(rms), _outlier_limit(rms)
     made = []
     for row, rank in zip(good, ranks, strict=True):
-        target = quote(os.fsencode(links[row["file"]]))
-        link = Html(f'<a href="{target}">{escape(Path(row["file"]).name)}</a>')
-        figures = [f"{_FIGURES[key][1] * row[key]:.4g}" if key in row else "" for key in _SHOWN]
-        made.append([link, row["kind"], row["verdict"], *figures, rank])
+        page = links[row["file"]]
+        target, picture = (
+            quote(os.fsencode(path))
+            for path in (page, str(PurePosixPath(page).with_suffix(".png")))
+        )
+        image = (
+            f'<a href="{target}"><img class="thumbnail" loading="lazy" src="{picture}" alt=""></a>'
+        )
+        link = f'<a href="{target}">{escape(Path(row["file"]).name)}</a>'
+        if row["rms_of_diagonal"] > limit:
+            rank = Html(f'<span class="outlier">{rank}, outlier</span>')
+        figures = [_text(row, key) for key in _SHOWN]
+        made.append([Html(image), Html(link), row["kind"], row["verdict"], *figures, rank])
     return made
+
+
+def _text(row: Mapping[str, Any], key: str) -> str:
+    _, factor, digits = _FIGURES[key]
+    return fixed(factor * row[key], digits) if key in row else ""
+
+
+def _outlier_limit(rms: np.ndarray) -> float:
+    if len(rms) < FEWEST:
+        return np.inf
+    low, high = np.percentile(rms, (25, 75))
+    return float(high + FENCE * (high - low))
 
 
 def _column(rows: Sequence[Mapping[str, Any]], name: str) -> np.ndarray:

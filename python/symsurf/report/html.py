@@ -18,11 +18,12 @@ body { font: 15px/1.45 system-ui, sans-serif; color: #222; margin: 0 auto; max-w
 h1 { font-size: 1.5rem; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.1rem; margin: 1.6rem 0 .4rem; }
 p { margin: .3rem 0; }
-.none, .error { color: #a83244; }
+.none, .error, .outlier { color: #a83244; }
+img.thumbnail { width: 128px; height: 96px; object-fit: cover; border-radius: 4px; }
 iframe { width: 100%; height: 620px; border: 1px solid #ddd; border-radius: 4px; }
 table { border-collapse: collapse; }
 th, td { text-align: left; padding: .2rem .9rem .2rem 0; border-bottom: 1px solid #eee;
-  font-weight: normal; vertical-align: top; }
+  font-weight: normal; vertical-align: middle; }
 thead th { border-bottom: 2px solid #ccc; color: #555; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 3rem; }
@@ -65,7 +66,7 @@ def _policy(scripts: Iterable[str]) -> str:
     allowed = " ".join([*hashes, "'unsafe-eval'"]) if hashes else "'none'"
     return (
         f"default-src 'none'; style-src 'unsafe-inline'; script-src {allowed}; "
-        "img-src data: blob:; frame-src 'self' about: blob:; base-uri 'none'; form-action 'none'"
+        "img-src 'self' file: data: blob:; frame-src 'self' about: blob:; base-uri 'none'; form-action 'none'"
     )
 
 
@@ -95,6 +96,11 @@ def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: boo
     )
     thead = f"<thead><tr>{head}</tr></thead>" if names else ""
     return f'<div class="wide"><table>{thead}<tbody>{body}</tbody></table></div>'
+
+
+def fixed(value: float, digits: int) -> str:
+    """With so many digits behind the point; what rounds to nothing is 0, not -0."""
+    return f"{round(value, digits) + 0:.{digits}f}"
 
 
 def ranks_of(values: NDArray[np.float64]) -> list[str]:

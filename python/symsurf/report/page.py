@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
 from ..results.summary import figures
 from .charts import histogram
-from .html import columns, framed, heading, page, paragraph, table
+from .html import columns, fixed, framed, heading, page, paragraph, table
 from .scene import scripts_of, viewer_page
 
 Record = Mapping[str, Any]
@@ -66,19 +67,23 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
 def _sentence(record: Record, kind: str) -> str:
     statistics = record["statistics"]
     matched = f"{100 * statistics['matched_share']:.3g} % of {record['points']} points"
-    rms = f"{100 * statistics['rms_of_diagonal']:.3g} % of the diagonal"
-    return f"Over a {kind} with score {record['score']:.3f}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
+    rms = f"{fixed(100 * statistics['rms_of_diagonal'], 3)} % of the diagonal"
+    return f"Over a {kind} with score {record['score']:.2f}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
 
 
 def _mirror_rows(record: Record) -> list[tuple[str, str]]:
     mirror: dict[str, Any] = record["mirror"]
-    rows = [("method", record["method"]), ("score", f"{record['score']:.4f}")]
+    rows = [("method", record["method"]), ("score", fixed(record["score"], 2))]
     return rows + [(name, _text(value)) for name, value in mirror.items()]
 
 
 def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
+    diagonal = record["statistics"]["diagonal"]
+    digits = max(0, 4 - math.floor(math.log10(diagonal))) if diagonal > 0 else 0
     return [
-        (name.replace("_", " "), _text(value), "" if share is None else f"{100 * share:.4g}")
+        (name.replace("_", " "), _text(value), "")
+        if share is None
+        else (name.replace("_", " "), fixed(value, digits), fixed(100 * share, 3))
         for name, value, share in figures(record["statistics"])
     ]
 
