@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "from_chars.h"
+
 namespace symsurf {
 
 namespace {
@@ -31,7 +33,7 @@ std::string_view without_plus(std::string_view word) {
 bool parse(std::string_view word, double& number) {
   word = without_plus(word);
   const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  const auto [stop, error] = from_chars(word.data(), end, number);
   if (error == std::errc::result_out_of_range) {
     const bool is_small = word.find("e-") != word.npos || word.find("E-") != word.npos;
     number = is_small ? 0 : std::numeric_limits<double>::infinity();

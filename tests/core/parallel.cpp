@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 #include <symsurf/context.h>
+#ifndef _WIN32
 #include <sys/resource.h>
+#endif
 
 #include <atomic>
 #include <cstdlib>
@@ -49,6 +51,8 @@ TEST(Parallel, HandsOnWhatTheBodyThrows) {
                  std::length_error);
 }
 
+#ifndef _WIN32
+
 // In a process of its own, which has no room for their stacks.
 TEST(Parallel, DoesWithFewerThreadsWhereTheSystemGivesNoMore) {
   const auto work = [] {
@@ -61,6 +65,8 @@ TEST(Parallel, DoesWithFewerThreadsWhereTheSystemGivesNoMore) {
   };
   EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
+
+#endif
 
 }  // namespace
 }  // namespace symsurf

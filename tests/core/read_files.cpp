@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
+#ifndef _WIN32
 #include <sys/mman.h>
 #include <sys/resource.h>
+#endif
 
 #include <cstdlib>
 #include <random>
@@ -127,8 +129,7 @@ TEST(ReadFiles, ThatAreNone) {
                     "suffix '.vtk' is none of .ply .obj .off .stl .xyz .csv .txt");
   expect_unreadable("a", "1 2 3", "suffix '' is none of");
   for (const Sample& sample : samples()) expect_unreadable(sample.name, "", "the file is empty");
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      ("symsurf_" + std::to_string(getpid()) + "_folder.ply");
+  const auto folder = temporary_path("folder.ply");
   std::filesystem::create_directory(folder);
   expect_error<InvalidInput>("folder.ply: this is not a file", [&] { read(folder); });
   std::filesystem::remove(folder);
@@ -147,6 +148,8 @@ TEST(ReadFiles, LargerThanTheMemory) {
         [&] { read(file.path()); });
   }
 }
+
+#ifndef _WIN32
 
 // What a process may have can be less than the machine's memory.
 TEST(ReadFiles, LargerThanTheProcessMayBe) {
@@ -168,6 +171,8 @@ TEST(ReadFiles, LargerThanTheProcessMayBe) {
   };
   EXPECT_EXIT(read_beside(), testing::ExitedWithCode(0), "");
 }
+
+#endif
 
 TEST(ReadFiles, WithSuffixesInCapitals) {
   EXPECT_EQ(read_content("A.XYZ", "1 2 3\n").points, rows({{1, 2, 3}}));

@@ -3,22 +3,27 @@
 #include <gtest/gtest.h>
 #include <symsurf/context.h>
 #include <symsurf/io.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 
 #include "expect_error.h"
 
 namespace symsurf {
 
+/// A path in the folder for such, of which other processes have others.
+inline std::filesystem::path temporary_path(const std::string& name) {
+  static const unsigned process = std::random_device()();
+  return std::filesystem::path(testing::TempDir()) /
+         ("symsurf_" + std::to_string(process) + "_" + name);
+}
+
 /// A file with the given content, gone with the object.
 class TemporaryFile {
  public:
-  TemporaryFile(const std::string& name, const std::string& content)
-      : path_(std::filesystem::path(testing::TempDir()) /
-              ("symsurf_" + std::to_string(getpid()) + "_" + name)) {
+  TemporaryFile(const std::string& name, const std::string& content) : path_(temporary_path(name)) {
     std::ofstream(path_, std::ios::binary) << content;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }

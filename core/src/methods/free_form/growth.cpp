@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "base/math.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr Index first_ends = 500;
 constexpr std::size_t most_tested = 2500;
-const double parallel_enough = std::cos(30 * M_PI / 180);
+const double parallel_enough = std::cos(30 * std::numbers::pi / 180);
 constexpr double normal_consistency = 0.8;  // cosine between chord and normals
 constexpr double shortest_chord = 1.2;      // spacings
 
@@ -98,7 +99,7 @@ namespace {
 constexpr double tolerance = 1.3;     // spacings between an image and its partner
 constexpr double fit_radius = 4.0;    // spacings
 constexpr double most_turned = 0.65;  // sine of the angle
-const double steepest = std::cos(30 * M_PI / 180);
+const double steepest = std::cos(30 * std::numbers::pi / 180);
 constexpr char most_tries = 3;
 
 }  // namespace
