@@ -5,13 +5,17 @@ from __future__ import annotations
 import atexit
 import os
 import pickle
-import resource
 import sys
 from importlib import import_module
 from pathlib import Path
 from select import select
 from threading import Lock
 from typing import Any
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
 
 
 class ProcessDied(Exception):
@@ -28,8 +32,8 @@ def call(
     """What the function, of these names, gives or raises there.
 
     The process imports this package, and nothing of the caller's script. It stays for the next call,
-    and ends with this one. In a host that has no Python to run, such as one it is built into, the
-    function runs in this process.
+    and ends with this one. In a host that has no Python to run, such as one it is built into, and on
+    Windows, where memory has no limit to set, the function runs in this process.
 
     Args:
         memory: the most bytes that the process may have; without it those of the machine.
@@ -109,11 +113,21 @@ def _end() -> None:
 
 
 def _python() -> str | None:
+    if resource is None:
+        return None
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     for path in (Path(sys.executable or "/"), Path(sys.exec_prefix, "bin", version)):
         if path.name.startswith("python") and path.is_file():
             return str(path)
     return None
+
+
+def _limit_memory(limit: int, hard: int) -> None:
+    try:
+        resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+    except ValueError:
+        if sys.platform != "darwin":  # which refuses most limits, and keeps none
+            raise
 
 
 def serve(descriptor: int) -> None:
@@ -128,7 +142,7 @@ def serve(descriptor: int) -> None:
             except EOFError:
                 return
             limit = most if memory is None else min(most, memory)
-            resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+            _limit_memory(limit, hard)
             try:
                 value = (False, getattr(import_module(module), function)(*arguments))
             except Exception as error:  # noqa: BLE001 - it is the caller's to judge

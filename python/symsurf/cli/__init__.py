@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status
     except BrokenPipeError:  # the reader, such as head, has seen enough
         _drop_output()
-        return 128 + signal.SIGPIPE
+        return 128 + getattr(signal, "SIGPIPE", 13)  # which Windows has not
     except (InvalidInput, InvalidParameter, ImportError) as error:  # an optional package
         print(f"symsurf: {error}", file=sys.stderr)
         return 2
