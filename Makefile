@@ -1,6 +1,6 @@
-# make setup | demo | wheel | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy |
+# make setup | demo | wheel | wheels | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy |
 # sanitize | fuzz | bench | accuracy | ablation | compare: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo wheel vtk-wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+.PHONY: setup demo wheel wheels vtk-wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
   bench-meshlab accuracy ablation compare
 
 setup:
@@ -14,6 +14,13 @@ demo:
 wheel:
 	@.ci/setup wheel
 	@ls -sh build/dist/*
+
+# Wheels for Python 3.10 to 3.14 on Linux, Windows and macOS, each installed and run where that can be done here;
+# SYSTEMS="linux-x86_64" asks for less.
+wheels:
+	@SYMSURF_WHEELS="$(SYSTEMS)" .ci/setup wheels python_tests
+	@build/venv/bin/python -m pytest tests/wheel
+	@ls -sh build/wheels/dist/*.whl
 
 # The VTK filters as a wheel for PyVista's build of VTK, and its test: needs Python 3.12 or later.
 vtk-wheel:

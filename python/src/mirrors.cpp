@@ -1,6 +1,5 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
-#include <pybind11/typing.h>
 #include <symsurf/mirrors.h>
 
 #include <memory>
@@ -13,9 +12,23 @@
 
 namespace symsurf::python {
 
+// An object of one type, T in the stubs: pybind11's TypeVar compiles with GCC alone.
+class AnyMesh : public py::object {
+  PYBIND11_OBJECT_DEFAULT(AnyMesh, py::object, PyObject_Type)
+  using py::object::object;
+};
+
+}  // namespace symsurf::python
+
+template <>
+struct pybind11::detail::handle_type_name<symsurf::python::AnyMesh> {
+  static constexpr auto name = const_name("T");
+};
+
+namespace symsurf::python {
+
 namespace {
 
-using AnyMesh = py::typing::TypeVar<"T">;
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 // "Plane(normal=(0, 0, 1), offset=-2)": the class and the numbers that define the mirror.

@@ -1,5 +1,6 @@
 """The wheel in an environment that has nothing but it and what it requires: no compiler, no library
-of the system beyond those that every Linux has. Nothing is downloaded."""
+of the system beyond those that every Linux has. Nothing is downloaded. The wheel of `make wheel`, and
+those for Linux on x86-64 of `make wheels`."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ import re
 import subprocess
 import sys
 import tarfile
+import time
 import zipfile
 from pathlib import Path
 
@@ -15,7 +17,9 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 NEEDS = ROOT / "build/wheel/needs"
+MADE = ROOT / "build/wheels"  # of make wheels
 LARGEST = 15e6  # bytes
+LONGEST = 60  # seconds, from nothing to the first mirror
 
 # Those of the C library and of the compiler, which manylinux takes for granted.
 GRANTED = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|util|pthread|gcc_s|stdc\+\+))\.so\.\d+")
@@ -35,20 +39,41 @@ def built(pattern: str) -> Path:
     return file
 
 
-@pytest.fixture(scope="module")
-def wheel() -> Path:
-    return built("*.whl")
+def wheels() -> list[object]:
+    """That of this Python, and those of others."""
+    others = sorted((MADE / "dist").glob("*manylinux*_x86_64.whl"))
+    return [
+        pytest.param(None, id="make wheel"),
+        *(pytest.param(each, id=each.name.split("-")[2]) for each in others),
+    ]
+
+
+@pytest.fixture(scope="module", params=wheels())
+def wheel(request) -> Path:
+    return request.param or built("*.whl")
+
+
+def interpreter(wheel: Path) -> str:
+    """One of the wheel's version, of this machine or of those that its headers came with."""
+    if MADE not in wheel.parents:
+        return sys.executable
+    version = re.sub(r"cp3(\d+)", r"3.\1", wheel.name.split("-")[2])
+    return str(next((MADE / "pythons").glob(f"linux-x86_64/{version}/bin/python{version}")))
+
+
+def environment(folder: Path, wheel: Path) -> Path:
+    """The Python of one without pip, with the wheel and what it needs."""
+    subprocess.run([interpreter(wheel), "-m", "venv", "--without-pip", folder], check=True)
+    python = folder / "bin/python"
+    install = [sys.executable, "-m", "pip", "--python", python, "install", "--no-index"]
+    needs = ["--find-links", NEEDS, "--find-links", MADE / "needs"]
+    subprocess.run([*install, *needs, wheel], check=True, capture_output=True)
+    return python
 
 
 @pytest.fixture(scope="module")
 def python(wheel, tmp_path_factory) -> Path:
-    """The Python of an environment without pip, with the wheel."""
-    environment = tmp_path_factory.mktemp("environment")
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", environment], check=True)
-    made = environment / "bin/python"
-    install = [sys.executable, "-m", "pip", "--python", made, "install", "--no-index"]
-    subprocess.run([*install, "--find-links", NEEDS, wheel], check=True, capture_output=True)
-    return made
+    return environment(tmp_path_factory.mktemp("environment"), wheel)
 
 
 def run(program: Path, *words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -77,6 +102,15 @@ def test_size_and_name(wheel):
     assert "manylinux" in wheel.name
 
 
+def test_first_mirror_from_nothing(wheel, tmp_path):
+    """An environment, the wheel and NumPy in it, a mirror; a mesh too, which needs OpenMesh."""
+    started = time.perf_counter()
+    python = environment(tmp_path, wheel)
+    done = run(python, ROOT / "tests/wheel/first_mirror.py", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert time.perf_counter() - started < LONGEST
+
+
 def test_mirror_is_found(python, tmp_path):
     code = f"{BALL}result = symsurf.detect(points)\nprint(result.verdict, *result.mirror.normal)"
     done = run(python, "-c", code, cwd=tmp_path)
@@ -94,7 +128,9 @@ def test_meshes_work(python, tmp_path):
     assert "found" in done.stdout
 
 
-def test_libraries_are_those_of_the_environment(python, tmp_path):
+def test_libraries_are_those_of_the_environment(wheel, python, tmp_path):
+    if MADE in wheel.parents:
+        pytest.skip("all are within the module")
     code = "import symsurf\nfor line in open('/proc/self/maps'): print(line.split()[-1])"
     mapped = set(run(python, "-c", code, cwd=tmp_path).stdout.split())
     site = python.parents[1] / "lib"
