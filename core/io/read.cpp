@@ -30,8 +30,14 @@ constexpr std::array<Format, 8> formats{{{".ply", read_ply},
                                          {".txt", read_columns},
                                          {".fcsv", read_columns}}};
 
+// On Windows string() is of the code page, which lacks letters.
+std::string utf8(const std::filesystem::path& path) {
+  const auto text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
 const Format& format_of(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string(), known;
+  std::string suffix = utf8(path.extension()), known;
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Format& format : formats) {
@@ -85,9 +91,9 @@ Shape read(const std::filesystem::path& path) {
     if (shape.colours.rows() != shape.points.rows()) shape.colours.resize(0, 3);
     return shape;
   } catch (const InvalidInput& error) {
-    throw InvalidInput(path.string() + ": " + error.what());
+    throw InvalidInput(utf8(path) + ": " + error.what());
   } catch (const std::bad_alloc&) {  // what else is held leaves less than half of the memory
-    throw InvalidInput(path.string() + ": what the file holds does not fit into the memory");
+    throw InvalidInput(utf8(path) + ": what the file holds does not fit into the memory");
   }
 }
 
