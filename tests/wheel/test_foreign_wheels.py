@@ -69,6 +69,8 @@ def first_mirror(*command: object, site: Path, **variables: str) -> str:
 def test_first_mirror_on_windows(wheel, tmp_path):
     if shutil.which("wine") is None:
         pytest.skip("wine is not installed")
+    if version(wheel) in ("3.13", "3.14"):
+        pytest.skip("NumPy 2 calls functions that Debian's wine lacks")
     site = install(wheel, tmp_path / "site", "win_amd64")
     python = MADE / "pythons/windows-x86_64" / version(wheel) / "python.exe"
     prefix = {"WINEPREFIX": str(MADE / "wine"), "WINEDEBUG": "-all"}
