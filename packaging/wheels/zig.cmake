@@ -1,6 +1,7 @@
-# Compiles with Clang of the Python package ziglang, which has the C and C++ libraries of many systems, for SYMSURF_TARGET:
-# x86_64-linux-gnu.2.17, aarch64-linux-gnu.2.17, x86_64-windows-gnu, aarch64-macos.11.0, x86_64-macos.11.0. The programs c++, cc, ar and ranlib
-# for it are in ZIG_PROGRAMS, libraries of headers in LIBRARIES: .ci/wheels makes both.
+# Compiles with Clang of the Python package ziglang, which has the C and C++ libraries of many systems, for
+# SYMSURF_TARGET: x86_64-linux-gnu.2.17, aarch64-linux-gnu.2.17, x86_64-windows-gnu, aarch64-macos.11.0,
+# x86_64-macos.11.0. .ci/wheels makes the programs c++, cc, ar and ranlib for it in ZIG_PROGRAMS, and puts
+# libraries of headers into LIBRARIES.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SYMSURF_TARGET ZIG_PROGRAMS LIBRARIES)
 if(SYMSURF_TARGET MATCHES "windows")
   set(CMAKE_SYSTEM_NAME Windows)

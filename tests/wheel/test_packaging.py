@@ -1,4 +1,5 @@
-"""The recipes for others' package managers: they name this version, and are read by their tools where these are here."""
+"""The recipes for others' package managers, and the workflows: they name this version, and are read by their tools
+where these are here."""
 
 from __future__ import annotations
 
