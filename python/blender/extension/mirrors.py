@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mirrors as objects of the scene."""
+
+import json
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+import symsurf
+
+_KEY = "symsurf_mirror"
+_COLOUR = (0.1, 0.55, 0.6, 0.4)
+# Off the identity, matrices that objects inherit from their parents are by rounding in single precision.
+_SAME = 1e-5
+
+
+def matrix_of(object_):
+    """(4, 4) from the coordinates of an object to those of the scene."""
+    return np.array(object_.matrix_world, dtype=np.float64)
+
+
+def applied(matrix, points):
+    """The points (n, 3) under a matrix (4, 4)."""
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def serves(object_):
+    """Whether an object can stand for a mirror."""
+    return _KEY in object_ or object_.type in ("MESH", "EMPTY")
+
+
+def text_of(object_):
+    """What is known of the mirror that an object stands for, in a few words."""
+    if _KEY not in object_:
+        return "The plane across its Z axis"
+    found = json.loads(object_[_KEY])
+    return f"{found['kind'].capitalize()}, {found['text']}"
+
+
+def draw(context, shape, mirror, name, text, mesh=None):
+    """Adds an object for a mirror, in the scene's coordinates: the shape's child, and not rendered."""
+    vertices, triangles = mirror.mesh() if mesh is None else mesh
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(vertices.tolist(), [], triangles.tolist())
+    data.materials.append(_material())
+    drawn = bpy.data.objects.new(name, data)
+    (shape.users_collection or [context.scene.collection])[0].objects.link(drawn)
+    drawn.parent = shape
+    drawn.matrix_parent_inverse = shape.matrix_world.inverted_safe()
+    drawn.hide_render = True
+    drawn[_KEY] = json.dumps(
+        {"kind": mirror.kind, "numbers": mirror.numbers, "text": text}, default=np.ndarray.tolist
+    )
+    return drawn
+
+
+def draw_found(context, shape, result, others=()):
+    """Draws what a detection found, in place of what was drawn for the shape before."""
+    for child in list(shape.children):
+        if _KEY in child:
+            bpy.data.meshes.remove(child.data)  # and the object with it
+    text = f"score {result.score:.3f}"
+    shape.symsurf_mirror = draw(context, shape, result.mirror, f"Mirror of {shape.name}", text)
+    for number, each in enumerate(others, 2):
+        mesh = each.mirror.mesh(result.points)
+        name = f"Mirror {number} of {shape.name}"
+        draw(context, shape, each.mirror, name, f"score {each.score:.3f}", mesh)
+
+
+def mirror_and_frame(shape):
+    """The mirror that the shape's setting names, None for none, and the matrix (4, 4) that takes the
+    shape's points to where this mirror is.
+
+    Planes are taken to the scene's coordinates. A curved mirror stays as it was found; where it, or
+    the shape with it, was moved since then, the points are taken back.
+    """
+    drawn, world = shape.symsurf_mirror, matrix_of(shape)
+    if drawn is None:
+        return None, world
+    if _KEY not in drawn:
+        x_y_z, middle = np.array(drawn.matrix_world.normalized())[:3, :3], matrix_of(drawn)[:3, 3]
+        normal = x_y_z[:, 2].astype(np.float64)
+        return symsurf.Plane(normal, -normal @ middle), world
+    found = json.loads(drawn[_KEY])
+    numbers = {
+        name: np.array(value) if isinstance(value, list) else value
+        for name, value in found["numbers"].items()
+    }
+    mirror, moved = symsurf.make_mirror(found["kind"], numbers), matrix_of(drawn)
+    if np.abs(moved - np.eye(4)).max() <= _SAME:
+        return mirror, world
+    if mirror.kind == "plane":
+        return moved_plane(mirror, moved), world
+    return mirror, np.linalg.inv(moved) @ world
+
+
+def moved_plane(plane, matrix):
+    """The plane under a matrix (4, 4)."""
+    *normal, offset = np.linalg.inv(matrix).T @ (*plane.normal, plane.offset)
+    length = np.linalg.norm(normal)
+    return symsurf.Plane(np.array(normal) / length, offset / length)
+
+
+def move(shape, mirror, matrix):
+    """Moves what was drawn for the mirror of a shape after its points were moved by a matrix (4, 4) in
+    the mirror's coordinates. A plane comes to lie there exactly."""
+    drawn = shape.symsurf_mirror
+    if drawn is None or _KEY not in drawn:
+        return
+    if mirror.kind != "plane":
+        drawn.matrix_world = Matrix(matrix)
+        return
+    drawn.data.transform(Matrix(matrix @ matrix_of(drawn)))
+    drawn.matrix_world = Matrix()
+    found = json.loads(drawn[_KEY]) | {"numbers": moved_plane(mirror, matrix).numbers}
+    drawn[_KEY] = json.dumps(found, default=np.ndarray.tolist)
+
+
+def _material():
+    """Translucent, also where the view is shaded solid."""
+    name = "symsurf mirror"
+    if (made := bpy.data.materials.get(name)) is None:
+        made = bpy.data.materials.new(name)
+        made.diffuse_color = _COLOUR
+    return made
