@@ -81,7 +81,7 @@ def _align(operator, context, shape, frame, result):
     else:
         shape.matrix_world = Matrix(turned)
     context.view_layer.update()
-    mirrors.move(shape, result.mirror, scale @ result.matrix)
+    mirrors.move(shape, result.mirror, scale @ result.matrix, size * result.shape.points)
 
 
 def move_all(shape, matrix):
@@ -113,7 +113,7 @@ def _set_arrays(mesh, operation, result, triangles):
             of_polygons = array[triangles] & (triangles >= 0)
             set_attribute(mesh, f"{operation.name}_{name}", of_polygons, "FACE")
     (shown,) = [each for each in operation.arrays if each.name == operation.shown] or [None]
-    if shown is not None:
+    if shown is not None and shown.type == "real":
         least = _LEAST * result.statistics["diagonal"] if shown.is_signed else 0
         colours = colours_of(result.arrays[shown.name], shown.is_signed, least)
         set_attribute(mesh, operation.title, colours, "POINT", "FLOAT_COLOR")

@@ -13,6 +13,7 @@ _KEY = "symsurf_mirror"
 _COLOUR = (0.1, 0.55, 0.6, 0.4)
 # Off the identity, matrices that objects inherit from their parents are by rounding in single precision.
 _SAME = 1e-5
+_UPRIGHT = 1e-6  # likewise, off a coordinate axis
 
 
 def matrix_of(object_):
@@ -79,9 +80,7 @@ def mirror_and_frame(shape):
     if drawn is None:
         return None, world
     if _KEY not in drawn:
-        x_y_z, middle = np.array(drawn.matrix_world.normalized())[:3, :3], matrix_of(drawn)[:3, 3]
-        normal = x_y_z[:, 2].astype(np.float64)
-        return symsurf.Plane(normal, -normal @ middle), world
+        return moved_plane(symsurf.Plane((0, 0, 1), 0), matrix_of(drawn)), world
     found = json.loads(drawn[_KEY])
     numbers = {
         name: np.array(value) if isinstance(value, list) else value
@@ -96,25 +95,27 @@ def mirror_and_frame(shape):
 
 
 def moved_plane(plane, matrix):
-    """The plane under a matrix (4, 4)."""
-    *normal, offset = np.linalg.inv(matrix).T @ (*plane.normal, plane.offset)
-    length = np.linalg.norm(normal)
-    return symsurf.Plane(np.array(normal) / length, offset / length)
+    """The plane under a matrix (4, 4), across a coordinate axis where it is so to rounding."""
+    moved = np.linalg.inv(matrix).T @ (*plane.normal, plane.offset)
+    moved /= np.linalg.norm(moved[:3])
+    normal = np.where(np.abs(moved[:3]) < _UPRIGHT, 0, moved[:3])
+    return symsurf.Plane(normal, moved[3])
 
 
-def move(shape, mirror, matrix):
+def move(shape, mirror, matrix, points):
     """Moves what was drawn for the mirror of a shape after its points were moved by a matrix (4, 4) in
-    the mirror's coordinates. A plane comes to lie there exactly."""
+    the mirror's coordinates, to ``points`` (n, 3). A plane comes to lie there exactly."""
     drawn = shape.symsurf_mirror
     if drawn is None or _KEY not in drawn:
         return
-    if mirror.kind != "plane":
-        drawn.matrix_world = Matrix(matrix)
-        return
-    drawn.data.transform(Matrix(matrix @ matrix_of(drawn)))
-    drawn.matrix_world = Matrix()
-    found = json.loads(drawn[_KEY]) | {"numbers": moved_plane(mirror, matrix).numbers}
-    drawn[_KEY] = json.dumps(found, default=np.ndarray.tolist)
+    drawn.matrix_world = Matrix(matrix if mirror.kind != "plane" else np.eye(4))
+    if mirror.kind == "plane":
+        plane = moved_plane(mirror, matrix)
+        found = json.loads(drawn[_KEY]) | {"numbers": plane.numbers}
+        drawn[_KEY] = json.dumps(found, default=np.ndarray.tolist)
+        vertices, triangles = plane.mesh(points)
+        drawn.data.clear_geometry()
+        drawn.data.from_pydata(vertices.tolist(), [], triangles.tolist())
 
 
 def _material():

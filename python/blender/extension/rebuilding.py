@@ -40,10 +40,14 @@ def rebuild(shape, result, points, triangles):
     corners = _corners_of(mesh, result, triangles)
     ends, weights = _edges_of(mesh), weights_of(shape)
     kept = {domain: attributes_of(mesh, domain) for domain in ("POINT", "CORNER", "FACE", "EDGE")}
+    groups = [(group.name, group.lock_weight) for group in shape.vertex_groups]
     active = _active_layers(mesh)
     _set_geometry(mesh, points, corners)
-    for column, group in enumerate(shape.vertex_groups):
-        set_weights(group, np.zeros(len(points)), result.carried(weights[:, column]))
+    shape.vertex_groups.clear()
+    for (name, is_locked), old in zip(groups, weights.T):
+        group = shape.vertex_groups.new(name=name)
+        set_weights(group, np.zeros(len(points)), result.carried(old))
+        group.lock_weight = is_locked
     for name, kind, values in kept["POINT"]:
         set_attribute(mesh, name, result.carried(values), "POINT", kind)
     dominant = corners.loops[np.arange(len(corners.loops)), corners.shares.argmax(axis=1)]
@@ -80,16 +84,18 @@ def _corners_of(mesh, result, triangles):
     new, old = loops[:, :, 0], triangles.loops[origins]
     whole = (shares[:, :, 0] == 1).all(axis=1)
     whole &= (np.sort(new, axis=1) == np.sort(old, axis=1)).all(axis=1)
-    is_image = _is_even(np.argsort(new, axis=1)) != _is_even(np.argsort(old, axis=1))
+    turned = _is_even(np.argsort(new, axis=1)) != _is_even(np.argsort(old, axis=1))
+    is_image = turned.astype(np.int64)
 
-    # Of the polygons, and of their images, those whose triangles are all there.
-    group = 2 * triangles.polygons[origins] + is_image
-    needed = np.repeat(np.bincount(triangles.polygons, minlength=len(totals)), 2)
+    # Of the polygons, and behind them of their images, those whose triangles are all there.
+    count = len(totals)
+    group = triangles.polygons[origins] + count * is_image
+    needed = np.tile(np.bincount(triangles.polygons, minlength=count), 2)
     is_complete = (np.bincount(group[whole], minlength=len(needed)) == needed) & (needed > 0)
     joined = whole & is_complete[group]
     point_of = np.zeros((2, len(mesh.loops)), np.int64)
     point_of[is_image[joined][:, None], loops[joined, :, 0]] = faces[joined]
-    old, turned = np.divmod(np.flatnonzero(is_complete), 2)
+    turned, old = np.divmod(np.flatnonzero(is_complete), count)
     own, place = _ragged(totals[old])
     last = totals[old][own] - 1
     corner = starts[old][own] + np.where(turned[own] == 1, last - place, place)
