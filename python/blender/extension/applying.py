@@ -20,7 +20,11 @@ _NOT_SHOWN = {"face", "weights"}
 MOVED = EnumProperty(
     name="Move",
     items=[
-        ("MESH", "Mesh", "The vertices move, and location, rotation and scale are applied: for X Mirror"),
+        (
+            "MESH",
+            "Mesh",
+            "The vertices move, and location, rotation and scale are applied: for X Mirror",
+        ),
         ("OBJECT", "Object", "The object moves, its mesh stays as it is"),
     ],
     description="What is moved",

@@ -28,7 +28,7 @@ class Job(threading.Thread):
                 warnings.simplefilter("always")
                 self._outcome = self._work(self._report)
             self.warnings = [str(each.message) for each in heard]
-        except BaseException as error:  # raised again where the result is asked for
+        except BaseException as error:  # noqa: BLE001  # raised again where the result is asked for
             self._error = error
 
     def result(self):

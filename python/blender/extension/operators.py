@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators made from symsurf's descriptions: one that finds the mirror, and one an operation."""
 
+from typing import ClassVar
+
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, StringProperty
@@ -22,7 +24,7 @@ _STEP = 0.05  # seconds between looks at the progress
 class _Operator:
     """What operators have in common: beside the window while it is there, and undone as one step."""
 
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options: ClassVar = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context):

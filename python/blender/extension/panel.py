@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tab Symmetry in the sidebar of the 3D view."""
 
+from typing import ClassVar
+
 import bpy
 
 import symsurf
@@ -35,7 +37,7 @@ class SYMSURF_PT_mirror(_Panel, bpy.types.Panel):
 class _Settings(_Panel):
     """An operator, with what it will run with next."""
 
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_options: ClassVar = {"DEFAULT_CLOSED"}
 
     def draw_header_preset(self, context):
         self.layout.operator(self.operator.bl_idname, text="", icon="PLAY", emboss=False)

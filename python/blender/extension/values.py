@@ -4,7 +4,6 @@
 import bpy
 import numpy as np
 
-from .mirrors import applied
 from .meshes import (
     attributes_of,
     positions,
@@ -13,6 +12,7 @@ from .meshes import (
     set_weights,
     weights_of,
 )
+from .mirrors import applied
 
 
 def _with_flipped(names, flips):

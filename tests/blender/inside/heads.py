@@ -11,14 +11,18 @@ PLACE = Matrix.LocRotScale(Vector((3, -2, 1)), Euler((0.3, 0.4, -0.5)), Vector((
 def _points(around, up):
     a = 2 * np.pi / around * np.arange(around)[:, None]
     b = np.linspace(0.4, np.pi - 0.4, up)[None, :]  # wide poles: no vertices are near each other
-    x = np.stack([np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.cos(b) + 0 * a], -1).reshape(-1, 3)
+    x = np.stack([np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.cos(b) + 0 * a], -1).reshape(
+        -1, 3
+    )
 
     def bump(direction, width, height):
         return height * np.exp((x @ (np.array(direction) / np.linalg.norm(direction)) - 1) / width)
 
     radius = 1 + 0.15 * np.sin(2 * x[:, 1] + x[:, 2]) + bump((0, -1, 0.25), 0.02, 0.4)
     for side in (-1, 1):
-        radius += bump((side * 0.9, 0.1, 0.8), 0.03, 0.55) + bump((side * 0.8, -1, -0.3), 0.05, 0.35)
+        radius += bump((side * 0.9, 0.1, 0.8), 0.03, 0.55) + bump(
+            (side * 0.8, -1, -0.3), 0.05, 0.35
+        )
     return (x * radius[:, None] * (1, 1.2, 1.1)).astype(np.float32)
 
 
@@ -34,7 +38,9 @@ def head(around=40, up=24, place=PLACE, name="Head"):
     mirrored = points[partner] * np.float32((-1, 1, 1))
     points = np.where(points[:, :1] < 0, mirrored, points)
     points[partner == np.arange(len(partner)), 0] = 0
-    i, j = (each.ravel() for each in np.meshgrid(np.arange(around), np.arange(up - 1), indexing="ij"))
+    i, j = (
+        each.ravel() for each in np.meshgrid(np.arange(around), np.arange(up - 1), indexing="ij")
+    )
     after = (i + 1) % around
     quads = np.stack([i * up + j, i * up + j + 1, after * up + j + 1, after * up + j], -1)
     poles = [np.arange(around) * up, np.arange(around)[::-1] * up + up - 1]

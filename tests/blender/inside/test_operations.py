@@ -1,5 +1,8 @@
 """What operators do to a mesh whose mirror is known."""
 
+import itertools
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from heads import (
     plane_of,
     polygons,
     set_coordinates,
+    set_uv,
     uv,
     uv_of,
     values,
@@ -99,8 +103,6 @@ def test_symmetrize_moves_what_the_vertex_group_says():
 
 
 def _plane(shape):
-    import json
-
     numbers = json.loads(shape.symsurf_mirror["symsurf_mirror"])["numbers"]
     return np.array(numbers["normal"]), numbers["offset"]
 
@@ -140,7 +142,7 @@ def _is_closed_and_turned_outwards(shape):
     volume = 0.0
     points = coordinates(shape).astype(np.float64)
     for each in polygons(shape):
-        for second, third in zip(each[1:], each[2:]):
+        for second, third in itertools.pairwise(each[1:]):
             volume += np.dot(points[each[0]], np.cross(points[second], points[third])) / 6
     return closed and volume > 0
 
@@ -160,7 +162,7 @@ def test_cut_leaves_a_closed_half():
 
 
 def test_complete_adds_the_other_side():
-    shape, partner = head(place=Matrix())
+    shape, _ = head(place=Matrix())
     points, faces = coordinates(shape), polygons(shape)
     kept = np.flatnonzero(points[:, 0] > -0.45)
     number = np.full(len(points), -1)
@@ -168,8 +170,6 @@ def test_complete_adds_the_other_side():
     left = [each for each in faces if (number[list(each)] >= 0).all()]
     mesh = bpy.data.meshes.new("Broken")
     mesh.from_pydata(points[kept].tolist(), [], [number[list(each)].tolist() for each in left])
-    from heads import set_uv
-
     set_uv(mesh, points[kept])
     seam = mesh.edges[5]
     seam.use_seam = True
@@ -180,7 +180,11 @@ def test_complete_adds_the_other_side():
     new = coordinates(shape)
     assert (new[: len(kept)] == points[kept]).all()
     assert polygons(shape)[: len(left)] == [tuple(number[list(each)].tolist()) for each in left]
-    assert [set(each.vertices) for each in shape.data.edges if each.use_seam and set(each.vertices) == ends]
+    assert [
+        set(each.vertices)
+        for each in shape.data.edges
+        if each.use_seam and set(each.vertices) == ends
+    ]
     assert np.bincount([len(each) for each in polygons(shape)])[4] > 0.9 * 40 * 23
     missing = points[number < 0]
     distances = np.linalg.norm(new[:, None] - missing[None], axis=2).min(axis=0)
@@ -218,7 +222,7 @@ def test_asymmetry_becomes_colours_and_attributes():
 
 
 def test_straighten_unbends():
-    shape, partner = head(place=Matrix())
+    shape, _ = head(place=Matrix())
     points = coordinates(shape).astype(np.float64)
     angle, radius = points[:, 2] / 5, 5 + points[:, 0]  # the mirror x = 0 wound about a cylinder
     bent = np.stack([radius * np.cos(angle), points[:, 1], radius * np.sin(angle)], -1)
@@ -228,7 +232,9 @@ def test_straighten_unbends():
     bpy.ops.symsurf.straighten()
     assert shape.symsurf_mirror != curved
     straight = coordinates(shape)
-    lengths = [np.linalg.norm(each[None] - each[:, None], axis=2) for each in (straight[::9], points[::9])]
+    lengths = [
+        np.linalg.norm(each[None] - each[:, None], axis=2) for each in (straight[::9], points[::9])
+    ]
     assert np.abs(lengths[0] - lengths[1]).max() < 0.05
     assert np.abs(in_scene(shape.symsurf_mirror)).max() < 20
     shape.symsurf_mirror = curved
@@ -270,7 +276,7 @@ class TestTransforms:
         assert np.abs(images[partner] - points).max() < ROUNDING
 
     def test_mirrored_scale_is_refused(self):
-        shape, _ = head(place=Matrix.Scale(-1, 4))
+        head(place=Matrix.Scale(-1, 4))
         with pytest.raises(RuntimeError, match="apply it first"):
             bpy.ops.symsurf.align()
 

@@ -1,9 +1,11 @@
 """Weights, shape keys and colours of one side, carried to the other."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
-from heads import coordinates, head, in_scene, plane_of, values
+from heads import coordinates, head, in_scene, partners, plane_of, values
 
 TINY = 2e-6
 
@@ -32,10 +34,8 @@ def _painted(points):
 @pytest.fixture
 def side():
     """Of the mirror of a head, where its x is above 0: signed distances say which name that has."""
-    shape, partner = head()
+    shape, _ = head()
     bpy.ops.symsurf.detect(method="plane")
-    import json
-
     normal = json.loads(shape.symsurf_mirror["symsurf_mirror"])["numbers"]["normal"]
     return "positive" if np.dot(normal, plane_of()[0]) > 0 else "negative"
 
@@ -47,8 +47,6 @@ def shape(side):
 
 @pytest.fixture
 def partner():
-    from heads import partners
-
     return partners(40, 24)
 
 
@@ -134,5 +132,6 @@ def test_new_vertices_have_weights_between_those_of_the_old(shape, name):
     _add_weights(shape, "up", np.clip(points[:, 2] * 0.3 + 0.5, 0, 1))
     options = {"triangles": "mirrored"} if name == "symmetrize" else {}
     getattr(bpy.ops.symsurf, name)(**options)
-    expected = np.clip(coordinates(shape)[:, 2] * 0.3 + 0.5, 0, 1)
-    assert np.abs(_weights(shape, "up") - expected).max() < 0.02
+    points = coordinates(shape)
+    off = np.abs(_weights(shape, "up") - np.clip(points[:, 2] * 0.3 + 0.5, 0, 1))
+    assert off[np.abs(points[:, 0]) > 1e-5].max() < 0.02  # within a cap they are those of its rim
