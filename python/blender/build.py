@@ -24,7 +24,7 @@ MACHINES = {"x86_64": "x64", "amd64": "x64", "aarch64": "arm64", "arm64": "arm64
 
 def platform_of(tag: str) -> str | None:
     """Blender's name of a wheel's platform, "linux-x64" of "manylinux_2_28_x86_64"; None for others."""
-    found = re.match(r"(manylinux|linux|macosx|win)\w*?_(x86_64|amd64|aarch64|arm64)$", tag)
+    found = re.match(r"(manylinux|linux|macosx|win)[\w.]*?_(x86_64|amd64|aarch64|arm64)$", tag)
     return f"{SYSTEMS[found[1]]}-{MACHINES[found[2]]}" if found else None
 
 

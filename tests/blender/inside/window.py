@@ -1,0 +1,111 @@
+"""What happens in Blender's window: a run that finishes, one that Esc cancels, undo, and the settings of the
+panel. Run by `blender --enable-event-simulate --python window.py -- PICTURES`; prints what it saw as one line
+of JSON."""
+
+import json
+import os
+import sys
+import time
+import traceback
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+PICTURES = sys.argv[sys.argv.index("--") + 1]
+SEEN = {}
+
+
+def _view():
+    """What operators are called with, as from a button in the 3D view."""
+    window = bpy.context.window_manager.windows[0]
+    area = next(each for each in window.screen.areas if each.type == "VIEW_3D")
+    region = next(each for each in area.regions if each.type == "WINDOW")
+    return {"window": window, "area": area, "region": region}
+
+
+def _press(key):
+    window = bpy.context.window_manager.windows[0]
+    x, y = window.width // 2, window.height // 2
+    for value in ("PRESS", "RELEASE"):
+        window.event_simulate(type=key, value=value, x=x, y=y)
+
+
+def _invoke(name, **options):
+    with bpy.context.temp_override(**_view()):
+        return sorted(getattr(bpy.ops.symsurf, name)("INVOKE_DEFAULT", True, **options))
+
+
+def _until(condition, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        yield 0.05
+    if not condition():
+        raise TimeoutError(f"not within {seconds} s")
+
+
+def _steps():
+    from heads import coordinates, dented, head
+
+    for each in list(bpy.data.objects):
+        bpy.data.objects.remove(each)
+    shape, _ = head(200, 100)
+    dented(shape)
+    bpy.ops.ed.undo_push(message="head")
+    bpy.context.window_manager.windows[0].screen.areas.update()
+    space = _view()["area"].spaces.active
+    space.show_region_ui = True
+    yield 1
+
+    # Esc ends a long run, and leaves everything as it was.
+    before = coordinates(shape)
+    SEEN["invoked"] = _invoke("detect", method="perpendicular")
+    yield 0.3
+    _press("ESC")
+    asked = time.monotonic()
+    yield from _until(lambda: not bpy.context.window_manager.windows[0].modal_operators)
+    SEEN["cancelled_after"] = time.monotonic() - asked
+    SEEN["mirror_after_esc"] = shape.symsurf_mirror is not None
+    SEEN["same_after_esc"] = bool((coordinates(shape) == before).all())
+
+    # A run that ends by itself, from a window.
+    _invoke("detect", method="plane")
+    yield from _until(lambda: bpy.data.objects["Head"].symsurf_mirror is not None)
+    _invoke("symmetrize")
+    yield from _until(lambda: not bpy.context.window_manager.windows[0].modal_operators)
+    yield 0.5
+    shape = bpy.data.objects["Head"]
+    SEEN["moved"] = bool((coordinates(shape) != before).any())
+    last = bpy.context.window_manager.operators[-1]
+    SEEN["last_operator"] = last.bl_idname
+
+    # The sidebar's tab, and a setting of it that the next run takes.
+    region = next(each for each in _view()["area"].regions if each.type == "UI")
+    region.active_panel_category = "Symmetry"
+    settings = bpy.context.window_manager.operator_properties_last("symsurf.cut")
+    settings.side = "negative"
+    region.tag_redraw()
+    yield 1
+    with bpy.context.temp_override(**_view()):
+        bpy.ops.screen.screenshot(filepath=os.path.join(PICTURES, "blender-window.png"))
+
+    # Undo takes one step.
+    with bpy.context.temp_override(**_view()):
+        bpy.ops.ed.undo()
+    yield 0.5
+    SEEN["same_after_undo"] = bool((coordinates(bpy.data.objects["Head"]) == before).all())
+
+
+def _run(steps):
+    try:
+        return next(steps)
+    except StopIteration:
+        pass
+    except Exception:  # noqa: BLE001  # whoever started this reads it
+        SEEN["error"] = traceback.format_exc()
+    print(json.dumps(SEEN), flush=True)
+    os._exit("error" in SEEN)
+
+
+STEPS = _steps()
+bpy.app.timers.register(lambda: _run(STEPS), first_interval=1, persistent=True)
