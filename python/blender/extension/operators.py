@@ -172,8 +172,10 @@ class _Operation(_Operator):
 
     def apply(self, context, result):
         applying.apply(self, context, self._shape, self._frame, self._triangles, result)
-        texts = [f"{name} {text}" for name, text in result.summary.items() if name != "operation"]
-        return f"{self.bl_label}: {', '.join(texts[:4])}"
+        words = {name: text for name, text in result.summary.items() if "\n" not in text}
+        del words["operation"]
+        texts = [f"{name} {text}" for name, text in words.items()]
+        return f"{self.bl_label}: {', '.join(texts[:4])}"  # what the status bar has room for
 
     def _parameters(self):
         return {each.name: value_of(self, each) for each in self.operation.parameters}

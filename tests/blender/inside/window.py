@@ -4,11 +4,13 @@ of JSON."""
 
 import json
 import os
+import subprocess
 import sys
 import time
 import traceback
 
 import bpy
+import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -45,14 +47,17 @@ def _until(condition, seconds=60):
 
 
 def _steps():
-    from heads import coordinates, dented, head
+    from heads import coordinates, dented, head, set_coordinates
 
+    bpy.context.preferences.view.show_splash = False
     for each in list(bpy.data.objects):
         bpy.data.objects.remove(each)
     shape, _ = head(200, 100)
     dented(shape)
+    points = coordinates(shape)
+    points += 0.1 * np.exp(-((points - points[3000]) ** 2).sum(1) / 0.1)[:, None] * points
+    set_coordinates(shape, points)
     bpy.ops.ed.undo_push(message="head")
-    bpy.context.window_manager.windows[0].screen.areas.update()
     space = _view()["area"].spaces.active
     space.show_region_ui = True
     yield 1
@@ -79,20 +84,26 @@ def _steps():
     last = bpy.context.window_manager.operators[-1]
     SEEN["last_operator"] = last.bl_idname
 
-    # The sidebar's tab, and a setting of it that the next run takes.
+    # The sidebar's tab, which reads the settings of the next run.
     region = next(each for each in _view()["area"].regions if each.type == "UI")
     region.active_panel_category = "Symmetry"
-    settings = bpy.context.window_manager.operator_properties_last("symsurf.cut")
-    settings.side = "negative"
+    space.shading.color_type = "VERTEX"
+    _invoke("asymmetry")
+    yield from _until(lambda: not bpy.context.window_manager.windows[0].modal_operators)
+    with bpy.context.temp_override(**_view()):
+        bpy.ops.view3d.view_axis(type="FRONT", align_active=True)
+        bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
+        bpy.ops.view3d.view_all()
     region.tag_redraw()
     yield 1
-    with bpy.context.temp_override(**_view()):
-        bpy.ops.screen.screenshot(filepath=os.path.join(PICTURES, "blender-window.png"))
+    # Blender's own screenshots are black where no graphics card draws.
+    subprocess.run(["import", "-window", "root", f"{PICTURES}/blender-window.png"], check=False)
 
-    # Undo takes one step.
-    with bpy.context.temp_override(**_view()):
-        bpy.ops.ed.undo()
-    yield 0.5
+    # Undo takes one step for each.
+    for _ in range(2):
+        with bpy.context.temp_override(**_view()):
+            bpy.ops.ed.undo()
+        yield 0.5
     SEEN["same_after_undo"] = bool((coordinates(bpy.data.objects["Head"]) == before).all())
 
 
