@@ -49,7 +49,7 @@ def take(path):
     scene.render.engine, scene.cycles.device, scene.cycles.samples = "CYCLES", "CPU", 48
     scene.cycles.use_denoising = False
     scene.cycles.seed = 0
-    scene.render.resolution_x, scene.render.resolution_y = 1100, 440
+    scene.render.resolution_x, scene.render.resolution_y = 1100, 400
     scene.render.filepath = str(path)
     scene.render.image_settings.color_mode = "RGB"
     scene.view_settings.view_transform = "Standard"
@@ -80,7 +80,7 @@ def main(extension, folder):
             bpy.ops.symsurf.symmetrize(side="negative")
             shape.location.x += APART
     light = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
-    light.data.energy, light.rotation_euler = 3, (0.7, 0.3, -0.4)
+    light.data.energy, light.rotation_euler = 1.2, (0.7, 0.3, -0.4)
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.type, camera.data.ortho_scale = "ORTHO", 3 * APART
     camera.location = Vector((0, -10, 1.5))
@@ -90,7 +90,8 @@ def main(extension, folder):
     bpy.context.scene.camera = camera
     bpy.context.scene.world = bpy.data.worlds.new("World")
     bpy.context.scene.world.use_nodes = True
-    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
+    background = bpy.context.scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1)
     take(Path(folder).resolve() / "blender-head.png")
 
 

@@ -104,13 +104,15 @@ def moved_plane(plane, matrix):
 
 def move(shape, mirror, matrix, points):
     """Moves what was drawn for the mirror of a shape after its points were moved by a matrix (4, 4) in
-    the mirror's coordinates, to ``points`` (n, 3). A plane comes to lie there exactly."""
+    the mirror's coordinates, to ``points`` (n, 3). A plane comes to lie there exactly, across an axis."""
     drawn = shape.symsurf_mirror
     if drawn is None or _KEY not in drawn:
         return
     drawn.matrix_world = Matrix(matrix if mirror.kind != "plane" else np.eye(4))
     if mirror.kind == "plane":
         plane = moved_plane(mirror, matrix)
+        if plane.normal.sum() < 0:  # positive is where the coordinate is
+            plane = symsurf.Plane(-plane.normal, -plane.offset)
         found = json.loads(drawn[_KEY]) | {"numbers": plane.numbers}
         drawn[_KEY] = json.dumps(found, default=np.ndarray.tolist)
         vertices, triangles = plane.mesh(points)

@@ -63,6 +63,7 @@ def test_align_lays_the_mesh_over_x(detects_first):
     assert polygons(shape) == before[0] and (uv(shape) == before[1]).all()
     if detects_first:
         assert np.abs(in_scene(shape.symsurf_mirror)[:, 0]).max() < ROUNDING
+        assert np.array_equal(_plane(shape)[0], (1, 0, 0))
 
 
 def test_align_moves_the_object_alone():
