@@ -1,6 +1,6 @@
-# make setup | demo | wheel | wheels | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | lint | tidy |
-# sanitize | fuzz | bench | accuracy | ablation | compare: each sets up what it needs first, and only what is missing.
-.PHONY: setup demo wheel wheels vtk-wheel docs paraview meshlab meshlab-gui test lint tidy sanitize fuzz bench \
+# make setup | demo | wheel | wheels | vtk-wheel | docs | paraview | meshlab | meshlab-gui | test | test-hosts | lint |
+# tidy | sanitize | fuzz | bench | accuracy | ablation | compare: each sets up what it needs first, and only what is missing.
+.PHONY: setup demo wheel wheels vtk-wheel docs paraview meshlab meshlab-gui test test-hosts lint tidy sanitize fuzz bench \
   bench-meshlab accuracy ablation compare
 
 setup:
@@ -43,6 +43,12 @@ paraview:
 test:
 	@.ci/setup tests
 	@.ci/suites
+
+# What `make test` leaves aside where it is not installed: Blender's and Slicer's Pythons, Open3D, ITK and more, some
+# 4 GB of packages.
+test-hosts:
+	@.ci/setup python_tests wheel blender slicer objects
+	@build/venv/bin/python -m pytest tests/blender tests/slicer tests/python/test_objects.py
 
 # Format, style and types, in seconds; `make test` runs it too.
 lint:
