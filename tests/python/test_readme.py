@@ -21,7 +21,7 @@ START = (ROOT / "docs/start.md").read_text()
 
 
 # Examples in Python that import these run inside another program.
-HOSTS = r"^(?:import|from) (?:paraview|pymeshlab|slicer)\b"
+HOSTS = r"^(?:import|from) (?:bpy|paraview|pymeshlab|slicer)\b"
 
 
 def examples(language: str, page: str = README) -> list[str]:
