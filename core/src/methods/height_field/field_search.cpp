@@ -15,63 +15,50 @@ namespace symsurf {
 namespace {
 
 constexpr Index peaks_a_scale = 6, best_directions = 3;
-constexpr std::size_t most_examined = 6;  // directions, for partners
 constexpr Index searched_size = 2000;
 constexpr double exact_share = 0.2;  // of the points have exact partners: no chance
 constexpr double peak_cone = 0.03, evidence_cone = 0.005;  // radians
 constexpr double evidence_reach = 1.7;                     // spacings
-constexpr double no_evidence = 5;          // standard deviations that chance reaches
-constexpr double known_scatter = 7;        // from here on the scatter is believed
-constexpr double strong_evidence = 9;      // no need to look further
-constexpr double common_share = 0.3;       // of points with partners: no accident of the sampling
-constexpr double support_margin = 0.03;    // of directions with about as much
-constexpr double rough_surfaces = 0.1155;  // spacings off a plane: noise, or sharp bends
+constexpr double no_evidence = 5;                     // standard deviations that chance reaches
+constexpr double known_scatter = 7;                   // from here on the scatter is believed
+constexpr double strong_evidence = 9;                 // no need to look further
+constexpr double rough_surfaces = 0.1155;             // spacings off a plane: noise, or sharp bends
 constexpr Index smooth_patch = 14, rough_patch = 32;  // neighbours
 constexpr int rounds = 6;
 
 // The direction whose surface has most support, and the partners found along it.
-class Ranking {
+class MostSupported {
  public:
-  Ranking(const SurfacePoints& cloud, const Context& context)
+  MostSupported(const SurfacePoints& cloud, const Context& context)
       : cloud_(cloud), context_(context), surface_(cloud, context, evidence_reach) {}
 
-  // Partners are searched for along those of most support; once they are certain, only along those
-  // of about as much, neighbours of one another.
   void consider(const std::vector<Vector3>& directions) {
-    std::vector<std::pair<double, std::size_t>> support;
-    for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Vector3* most = nullptr;
+    for (const Vector3& direction : directions) {
       context_.check();
-      support.emplace_back(-surface_.support(directions[k]), k);
+      const double support = surface_.support(direction);
+      if (support <= support_) continue;
+      support_ = support;
+      most = &direction;
     }
-    std::sort(support.begin(), support.end());
-    support.resize(std::min(support.size(), most_examined));
-    for (const auto& [negative, k] : support) {
-      if (is_certain() && support.front().first < negative - support_margin) break;
-      examine(directions[k]);
-    }
+    if (most) examine(*most);
   }
-  bool is_certain() const {
-    return best_.significance > strong_evidence && best_.share > common_share;
-  }
-  const PartnerEvidence& best() const { return best_; }
+  const PartnerEvidence& evidence() const { return evidence_; }
 
  private:
   void examine(const Vector3& direction) {
-    const double support = surface_.support(direction);
+    surface_.support(direction);
     context_.check();
-    const PartnerEvidence evidence = partner_evidence(surface_, cloud_, direction, context_);
-    if (support <= support_) return;
-    support_ = support;
-    best_ = evidence;
-    if (best_.significance <= no_evidence) best_.direction = direction;
-    if (best_.significance <= known_scatter)
-      best_.scatter = std::numeric_limits<double>::infinity();
+    evidence_ = partner_evidence(surface_, cloud_, direction, context_);
+    if (evidence_.significance <= no_evidence) evidence_.direction = direction;
+    if (evidence_.significance <= known_scatter)
+      evidence_.scatter = std::numeric_limits<double>::infinity();
   }
 
   const SurfacePoints& cloud_;
   const Context& context_;
   MidSurface surface_;
-  PartnerEvidence best_;
+  PartnerEvidence evidence_;
   double support_ = -1;
 };
 
@@ -108,14 +95,14 @@ FieldEstimate find_height_field(const SurfacePoints& cloud, const Vector3& given
   if (exact.support > exact_share) return exact;
   context.report(0.3);
 
-  Ranking ranking(cloud, context);
-  ranking.consider(directions(peaks));
+  MostSupported most(cloud, context);
+  most.consider(directions(peaks));
   context.report(0.4);
-  if (!given && ranking.best().significance < strong_evidence)
-    ranking.consider(supported_directions(cloud, peaks, context.stage(0.4, 0.7)));
+  if (!given && most.evidence().significance < strong_evidence)
+    most.consider(supported_directions(cloud, peaks, context.stage(0.4, 0.7)));
   context.report(0.7);
 
-  const PartnerEvidence& start = ranking.best();
+  const PartnerEvidence& start = most.evidence();
   statistics["partner_significance"] = start.significance;
   if (start.significance > strong_evidence) {
     const FieldEstimate again =

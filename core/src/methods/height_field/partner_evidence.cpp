@@ -67,7 +67,7 @@ class Offsets {
 PartnerEvidence partner_evidence(const MidSurface& surface, const SurfacePoints& cloud,
                                  const Vector3& direction, const Context& context) {
   const std::vector<MidSurface::Chord> chords = surface.chords();
-  PartnerEvidence best{direction, 0, 0, 0};
+  PartnerEvidence best{direction, 0, 0};
   if (chords.size() < 10) return best;
 
   Offsets offsets(chords);
@@ -101,8 +101,7 @@ PartnerEvidence partner_evidence(const MidSurface& surface, const SurfacePoints&
       if (shift == shifts) {
         const double significance = count.significance();
         if (significance > best.significance)
-          best = {(direction + surface.across() * at).normalized(), significance, scatter,
-                  2 * (count.inside - count.chance()) / static_cast<double>(cloud.size())};
+          best = {(direction + surface.across() * at).normalized(), significance, scatter};
         break;
       }
       if (!(lever > 0)) break;

@@ -9,7 +9,6 @@ struct PartnerEvidence {
   Vector3 direction;        ///< moved to where most partners agree
   double significance = 0;  ///< standard deviations above chance
   double scatter = 0;       ///< of the partners across the direction, an axis
-  double share = 0;         ///< of the points that have such a partner, each by its squareness
 };
 
 /// Tries scatters from a fraction of the spacing up to the surface's reach; at each, a mean shift
