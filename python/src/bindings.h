@@ -14,6 +14,7 @@ void bind_mirrors(py::module_& module);
 void bind_optics(py::module_& module);
 void bind_detection(py::module_& module);
 void bind_sampling(py::module_& module);
+void bind_summary(py::module_& module);
 void bind_reading(py::module_& module);
 void bind_synthesis(py::module_& module);
 void bind_benchmark(py::module_& module);

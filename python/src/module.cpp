@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   bind_optics(module);
   bind_detection(module);
   bind_sampling(module);
+  bind_summary(module);
   bind_reading(module);
   bind_synthesis(module);
   bind_benchmark(module);

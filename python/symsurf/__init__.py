@@ -21,6 +21,7 @@ from ._core import (
     Operation,
     Parameter,
     Plane,
+    PointSummary,
     Quadric,
     ReflectionPoints,
     Sphere,
@@ -32,8 +33,10 @@ from ._core import (
     operations,
 )
 from .detection import detect, detectors, match
+from .detection.chunks import ChunkMatches, detect_chunks, match_chunks
 from .detection.detectors import *  # detect_<method>, one for each in methods()
 from .detection.sampling import downsample, estimate_normals
+from .detection.summaries import summarize
 from .mirror_operations import functions
 from .mirror_operations.bending import bend, straight_mirror
 from .mirror_operations.functions import *  # one for each in operations()
@@ -71,6 +74,7 @@ from .results import (
     Transferred,
     Transformation,
 )
+from .saving.matches import save_matches
 from .shape_analyses import functions as analysing_functions
 from .shape_analyses.functions import *  # one for each in analyses()
 from .shapes import Landmarks, Shape
@@ -86,6 +90,7 @@ __all__ = [
     "Asymmetry",
     "Axis",
     "Cancelled",
+    "ChunkMatches",
     "Cohort",
     "Completed",
     "Correspondences",
@@ -106,6 +111,7 @@ __all__ = [
     "Parameter",
     "PartialSymmetries",
     "Plane",
+    "PointSummary",
     "Quadric",
     "RecurringParts",
     "ReflectionPoints",
@@ -128,11 +134,13 @@ __all__ = [
     "carry_landmarks",
     "cohort",
     "detect",
+    "detect_chunks",
     "downsample",
     "estimate_normals",
     "landmark_pairs",
     "make_mirror",
     "match",
+    "match_chunks",
     "methods",
     "metrics",
     "operations",
@@ -140,7 +148,9 @@ __all__ = [
     "read",
     "read_landmark_sets",
     "read_landmarks",
+    "save_matches",
     "straight_mirror",
+    "summarize",
     "synthetic",
 ]
 __all__ += detectors.__all__

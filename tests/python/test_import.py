@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 HEAVY = (
-    "concurrent.futures", "ctypes.util", "itk", "json", "matplotlib", "meshio", "multiprocessing", "open3d",
+    "concurrent.futures", "ctypes.util", "dask", "itk", "json", "matplotlib", "meshio", "multiprocessing", "open3d",
     "pandas", "polars", "pyvista", "subprocess", "tempfile", "trame_vtk", "trimesh", "urllib.request",
     "vtkmodules",
 )  # fmt: skip

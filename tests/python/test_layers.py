@@ -96,6 +96,12 @@ def test_imports_inside_functions_delay_what_the_package_does_not_wait_for():
 def test_no_other_way_of_importing():
     by_name = {name for name, path in SOURCES.items() if "import_module(" in path.read_text()}
     # An optional package, what another process is asked for, and the modules beside it.
-    names = ("base.optional", "base.own_process", "reading.formats", "shapes.objects")
+    names = (
+        "base.optional",
+        "base.own_process",
+        "reading.formats",
+        "reading.in_chunks",
+        "shapes.objects",
+    )
     assert by_name == {f"symsurf.{name}" for name in names}
     assert not any("__import__" in path.read_text() for path in SOURCES.values())

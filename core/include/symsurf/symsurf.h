@@ -6,5 +6,6 @@
 #include <symsurf/io.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/operations.h>
+#include <symsurf/point_summary.h>
 #include <symsurf/points.h>
 #include <symsurf/synthetic.h>

@@ -17,14 +17,17 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, InvalidParameter, Mirror, analyses, needs_mirror
 from ..base.plain import plain
 from ..detection import Progress, detect
+from ..detection.chunks import detect_chunks
 from ..detection.sampling import downsample
 from ..mirror_operations.operate import operate
 from ..reading import read, suffix_of
+from ..reading.in_chunks import chunks_of, is_chunked
 from ..reading.inputs import InputWarning, nonfinite_message
 from ..report.page import shape_page
 from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
 from ..saving import write_whole
 from ..saving.json_format import mirror_record, record_bytes, summary
+from ..saving.matches import save_matches
 from ..saving.shape_files import save_shape
 from ..shape_analyses.analyse import analyse
 from ..shapes import Shape
@@ -33,6 +36,10 @@ DETECT = "detect"
 SUMMARY_SUFFIX = ".summary.json"
 PICTURE_SUFFIX = ".png"
 PAGE_SUFFIX = ".html"
+MATCHES_SUFFIX = ".matches.npy"
+
+LARGE = 1 << 25
+"""Points, of which the coordinates take 0.8 GB."""
 
 # Of a task: what it is done to, by and for, and what settings have under other names.
 _NO_SETTINGS = {"file", "content", "threads", "outputs", "operation", "parameters"}
@@ -62,6 +69,9 @@ class FileTask:
     """Hand those of the file to the method; a file without any is an error."""
     downsample: float | None = None
     """Work on about one point in so many."""
+    in_chunks: bool | None = None
+    """Read the file in chunks, of which one at a time is in memory; None: where it holds more than
+    ``LARGE`` points, its format allows it, and nothing else is asked for that needs them all."""
     input_format: str | None = None
     """Of the file; without it its suffix tells."""
     content: bytes | None = None
@@ -137,6 +147,9 @@ def _head(task: FileTask) -> Record:
 def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     notices: list[str] = []
     record["notices"] = notices
+    if _is_read_in_chunks(task):
+        _detect_in_chunks(task, record, progress)
+        return
     given = task.file if task.content is None else _Content(task.content, str(task.file))
     shape = read(given, task.input_format, threshold=task.threshold, label=task.label)
     if task.downsample is not None:
@@ -168,13 +181,52 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         notices.append(nonfinite_message(left_out))
     record |= about(found)
     if task.operation == DETECT:
-        _write(task, shape, found, record)
+        _write(task, shape, found, record, points=shape.points)
     else:
         mirror, warning = found_mirror(found, task.require_found)
         if warning:
             notices.append(warning)
         record.pop("candidates")
         _operate(task, shape, mirror, record)
+
+
+def _is_read_in_chunks(task: FileTask) -> bool:
+    needs_all = {
+        "an operation": task.operation != DETECT,
+        "use_normals": task.use_normals,
+        "downsample": task.downsample is not None,
+        "input_format": task.input_format is not None,
+        "threshold": task.threshold is not None,
+        "label": task.label is not None,
+    }
+    for name, is_given in needs_all.items():
+        if is_given and task.in_chunks:
+            raise InvalidParameter(f"in_chunks is given beside {name}; allowed is one of them")
+    if task.in_chunks is not None or any(needs_all.values()):
+        return bool(task.in_chunks)
+    return is_chunked(task.file) and (chunks_of(task.file).count or 0) > LARGE
+
+
+def _detect_in_chunks(task: FileTask, record: Record, progress: Progress | None) -> None:
+    found = detect_chunks(
+        task.file,
+        task.method,
+        seed=task.seed,
+        threads=task.threads,
+        progress=progress,
+        **task.parameters,
+    )
+    thinned = np.asarray(found.points)
+    record["points"] = len(thinned)
+    record["notices"].append(
+        f"read in chunks, and {found.point_count} points thinned to {len(thinned)}"
+    )
+    if left_out := found.statistics.get("nonfinite_points", 0):
+        if task.nonfinite == "refuse":
+            raise InvalidInput(f"{left_out} points are not finite")
+        record["notices"].append(nonfinite_message(left_out))
+    record |= about(found)
+    _write(task, Shape(thinned), found, record, points=task.file)
 
 
 def _needs_mirror(task: FileTask) -> bool:
@@ -209,7 +261,11 @@ def _operate(task: FileTask, shape: Shape, mirror: Mirror | None, record: Record
 
 
 def _write(
-    task: FileTask, shape: Shape, found: Result | OperationResult | AnalysisResult, record: Record
+    task: FileTask,
+    shape: Shape,
+    found: Result | OperationResult | AnalysisResult,
+    record: Record,
+    points: Any = None,
 ) -> None:
     """Raises what nobody foresaw as an error of that file, so that the next ones are done; ``read``
     does the same for what it reads."""
@@ -225,6 +281,8 @@ def _write(
                 record["notices"] += save_shape(output, found, shape, *source)
             elif isinstance(found, Result) and output.name.endswith(SUMMARY_SUFFIX):
                 write_whole(output, record_bytes(record))
+            elif isinstance(found, Result) and output.name.endswith(MATCHES_SUFFIX):
+                save_matches(output, points, found, threads=task.threads)
             else:
                 found.save(output)
     except (InvalidInput, InvalidParameter, ImportError, OSError, MemoryError):

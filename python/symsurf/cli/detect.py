@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
-from ..batching.file_task import SUMMARY_SUFFIX, Record
+from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
 from .batch_options import (
     add_absolute,
@@ -39,7 +39,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=SUMMARY_SUFFIX[1:],
         metavar="LIST",
         help="what --output writes, separated by commas: %(default)s, a small file with the mirror, "
-        f"and, with all points, {', '.join(name[1:] for name in FORMATS)}; default %(default)s",
+        f"and, with all points, {', '.join(name[1:] for name in FORMATS)}; {MATCHES_SUFFIX[1:]}, how the "
+        "mirror fits each point; default %(default)s",
+    )
+    parser.add_argument(
+        "--in-chunks",
+        action="store_const",
+        const=True,
+        help=f"read LAS, LAZ, E57, NPY, PLY, PVTP and VTKHDF in chunks and thin them as they pass; files of "
+        f"more than {LARGE / 1e6:.0f} million points are read so anyway",
     )
     add_batch_options(parser)
     parser.add_argument("--seed", default="0", metavar="N", help="of the methods that draw lots")
@@ -85,6 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
             nonfinite=arguments.nonfinite,
             use_faces=not arguments.ignore_faces,
             use_normals=arguments.use_normals,
+            in_chunks=arguments.in_chunks,
             downsample=None if divisor is None else _divisor(divisor),
             outputs=tuple(outputs.get(task.file, ())),
         )
@@ -105,7 +114,7 @@ def _divisor(text: str) -> float:
 
 def _suffixes(formats: str) -> list[str]:
     suffixes = [f".{name.strip().lstrip('.')}" for name in formats.split(",")]
-    allowed = [SUMMARY_SUFFIX, *FORMATS]
+    allowed = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
     if any(suffix not in allowed for suffix in suffixes):
         names = ", ".join(name[1:] for name in allowed)
         raise InvalidParameter(f"formats is {formats}; allowed are {names}")

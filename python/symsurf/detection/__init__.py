@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from numpy.typing import ArrayLike
 
 from .. import _core
 from ..base.lengths import as_fractions
 from ..reading.inputs import as_input, refuses, warn
 from ..results import Result, mirror_of
-
-Progress = Callable[[float], "bool | None"]
+from .summaries import Progress, summary_in, summary_statistics
 
 
 def detect(
@@ -40,7 +37,7 @@ def detect(
             C-ordered float64 array is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
             ``StructuredGrid`` with such points) the points, or the centres of the cells, that
             ``threshold`` chooses: ``Result.points`` are then these, and pairs are indices into
-            them.
+            them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
         method: one of ``methods()``.
         faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
             spread evenly over the surface find the mirror; score and candidates are those of the
@@ -74,7 +71,8 @@ def detect(
     A point set without symmetry is no error: its result has a low score, and the verdict "none".
     """
     refuse = refuses(nonfinite)
-    shape = as_input(points, faces, threshold, scalars)
+    summary = summary_in(points)
+    shape = as_input(points if summary is None else summary.means, faces, threshold, scalars)
     used = shape.faces if use_faces else None
     if absolute and method in _core.methods():
         described = _core.methods()[method].parameters
@@ -84,6 +82,8 @@ def detect(
     fields = _core.detect(
         shape.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
+    if summary is not None:
+        fields["statistics"] |= summary_statistics(summary)
     warn(fields["statistics"])
     return Result.from_fields(fields | {"faces": shape.faces, "space": shape.space})
 

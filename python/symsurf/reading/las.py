@@ -6,6 +6,7 @@ import struct
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._core import InvalidInput
 from ..shapes import Choice, Shape
@@ -13,6 +14,8 @@ from ..shapes import Choice, Shape
 _HEADER = 227  # bytes of the shortest one
 _COUNT = 247  # where version 1.4 has the number of points, behind that of extended records
 _PACKED = 0xC0  # the bits of a point format that mark LAZ
+_PROJECTION = b"LASF_Projection"  # the user of records about the coordinates' system
+_SYSTEMS = (2112, 34735, 34736, 34737)  # WKT, and GeoTIFF's keys, numbers and texts
 _RECORD = 54  # bytes of the header of a variable length record
 
 
@@ -22,10 +25,33 @@ def read(path: Path, choice: Choice) -> Shape:
     start, length, count, is_packed = layout(path)
     if is_packed:
         raise InvalidInput("its points are packed; with input_format laz they can be read")
-    rows = content[start : start + count * length].reshape(count, length)
-    numbers = np.ascontiguousarray(rows[:, :12]).view("<i4")
-    scales, offsets = np.frombuffer(content[131:179].tobytes(), "<f8").reshape(2, 3)
-    return Shape(numbers * scales + offsets)
+    return Shape(coordinates(path, content[start : start + count * length].reshape(count, length)))
+
+
+def coordinates(path: Path, rows: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """(n, 3) of rows of bytes, a point each."""
+    header = np.fromfile(path, np.uint8, _HEADER)
+    scales, offsets = np.frombuffer(header[131:179].tobytes(), "<f8").reshape(2, 3)
+    return np.ascontiguousarray(rows[:, :12]).view("<i4") * scales + offsets
+
+
+def reference_system(path: Path) -> bytes:
+    """What the variable length records say of the coordinates' system, GeoTIFF's keys or WKT; empty
+    where they say nothing."""
+    with path.open("rb") as file:
+        header = file.read(_HEADER)
+        length, records = (
+            struct.unpack_from("<H", header, 94)[0],
+            struct.unpack_from("<I", header, 100)[0],
+        )
+        file.seek(length)
+        found = []
+        for _ in range(records):
+            user, number, size = struct.unpack("<2x16sHH32x", file.read(_RECORD))
+            content = file.read(size)
+            if user.rstrip(b"\0") == _PROJECTION and number in _SYSTEMS:
+                found.append(content)
+    return b"".join(found)
 
 
 def layout(path: Path) -> tuple[int, int, int, bool]:

@@ -42,7 +42,7 @@ def read(path: Path, choice: Choice) -> Shape:
     if isinstance(reader, vtkDataSetReader):
         reader.ReadAllScalarsOn()
         reader.ReadAllNormalsOn()
-    with _complaints_raised():
+    with complaints_raised():
         reader.Update()
     output = reader.GetOutputDataObject(0)
     if output is None:
@@ -65,7 +65,7 @@ def _space(data: Any, reader: Any) -> str | None:
 
 
 @contextmanager
-def _complaints_raised() -> Iterator[None]:
+def complaints_raised() -> Iterator[None]:
     """What VTK would print of a file is raised as InvalidInput."""
     before, window = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)

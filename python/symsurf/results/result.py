@@ -77,6 +77,13 @@ class Result(Summarised, Generic[Kind_co]):
     """"RAS" or "LPS", the axes of the input where they are known; see ``Shape``."""
 
     @property
+    def point_count(self) -> int:
+        """How many points were given, those that are not finite and those that were thinned too."""
+        if "summarized_points" not in self.statistics:
+            return len(self.points)
+        return self.statistics["summarized_points"] + self.statistics.get("nonfinite_points", 0)
+
+    @property
     def verdict(self) -> str:
         """Either "found" where there is a mirror, "none" where there is none, or where nobody judged."""
         return self.statistics.get("verdict", "none")

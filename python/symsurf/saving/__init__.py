@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -65,8 +65,9 @@ save.register(Correspondences, partial(_save, CORRESPONDENCES_FORMATS))
 save.register(AnalysisResult, partial(_save, ANALYSIS_FORMATS))
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Writes the file whole or not at all: what stood there stays until the new one is complete."""
+def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
+    """Writes the file whole or not at all: what stood there stays until the new one is complete.
+    Blocks are written as they come."""
     file = path.resolve()  # a link stays a link
     if file.exists() and not file.is_file():  # such as a device, which a file would replace
         raise OSError(errno.EINVAL, "This is not a file", str(path))
@@ -74,7 +75,7 @@ def write_whole(path: Path, content: bytes) -> None:
     unfinished = file.with_name(f".symsurf-{os.urandom(8).hex()}.partial")
     try:
         with unfinished.open("xb") as new:
-            new.write(content)
+            new.writelines([content] if isinstance(content, bytes) else content)
         unfinished.replace(file)
     except BaseException as error:
         with suppress(OSError):

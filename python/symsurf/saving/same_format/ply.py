@@ -10,20 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
+from ...reading.ply_types import TYPES
 from ...shapes import Shape
 from ..ply_format import shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
 
-_TYPES = {
-    **dict.fromkeys(("char", "int8"), "i1"),
-    **dict.fromkeys(("uchar", "uint8"), "u1"),
-    **dict.fromkeys(("short", "int16"), "i2"),
-    **dict.fromkeys(("ushort", "uint16"), "u2"),
-    **dict.fromkeys(("int", "int32"), "i4"),
-    **dict.fromkeys(("uint", "uint32"), "u4"),
-    **dict.fromkeys(("float", "float32"), "f4"),
-    **dict.fromkeys(("double", "float64"), "f8"),
-}
 _KINDS = {"f": "f8", "i": "i4", "b": "u1"}
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
 _END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
@@ -90,7 +81,7 @@ def _is_plain(elements: list[_Element], new: NewShape) -> bool:
 
 def _count_held(kind: bytes) -> int:
     """Of how many points a type holds every index."""
-    held = np.dtype(_TYPES[kind.decode()])
+    held = np.dtype(TYPES[kind.decode()])
     return 2 ** (np.finfo(held).nmant + 1) if held.kind == "f" else int(np.iinfo(held).max) + 1
 
 
@@ -195,7 +186,7 @@ def _replace(
 def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: str) -> bytes:
     vertices = elements[0]
     fields = [
-        (f"{i}", order + _TYPES[kind.decode()]) for i, (kind, _) in enumerate(vertices.properties)
+        (f"{i}", order + TYPES[kind.decode()]) for i, (kind, _) in enumerate(vertices.properties)
     ]
     table = np.frombuffer(body, fields, vertices.count)
     kept = _kept(vertices, new)
@@ -224,8 +215,8 @@ def _binary_faces(elements: list[_Element], new: NewShape, order: str) -> bytes:
         return b""
     _, length, corner, _ = elements[1].properties[0]
     row = [
-        ("count", order + _TYPES[length.decode()]),
-        ("corners", order + _TYPES[corner.decode()], (3,)),
+        ("count", order + TYPES[length.decode()]),
+        ("corners", order + TYPES[corner.decode()], (3,)),
     ]
     row += [(name, order + _KINDS[values.dtype.kind]) for name, values in new.face_arrays.items()]
     made = np.empty(len(new.added_faces), row)

@@ -1,0 +1,112 @@
+"""The mirror of more points than memory holds: one pass over them thins them, a second pairs them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import InvalidInput, Mirror, SurfaceMatcher
+from ..results import Result
+from . import Progress, detect
+from .sources import source_of
+from .summaries import CELLS, summarize
+
+_READING = 0.9  # of the time: what is thinned takes a second
+
+
+def detect_chunks(
+    chunks: Any,
+    method: str = "auto",
+    *,
+    cells: int = CELLS,
+    communicator: Any = None,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Progress | None = None,
+    **parameters: Any,
+) -> Result[Mirror]:
+    """Finds the mirror of points of which only some are in memory at any time, in one pass.
+
+    The points are thinned as they pass to the means of at most ``cells`` cells of a grid
+    (``PointSummary``), of which ``detect`` finds the mirror. The result is the same, to the bit, for
+    any chunks of the same points in any order, and for any number of processes and threads.
+
+    Args:
+        chunks: arrays (n, 3), n >= 0, in an iterable or of a function without arguments; an array,
+            such as one that NumPy maps; the name of a file, or names of files (LAS, NPY and binary PLY;
+            with laspy LAZ and COPC, with pye57 E57, with PyVista PVTP and VTKHDF); an array of Dask,
+            whose blocks its workers thin; or a ``PointSummary``.
+        method: one of ``methods()``.
+        cells: the most cells that points are thinned to, in [64, 2^28]; 120 bytes each.
+        communicator: of mpi4py, or anything else with ``allgather``: each process passes its own
+            chunks, and gets the result of all.
+        seed, threads, progress, **parameters: as for ``detect``.
+
+    Returns:
+        What ``detect`` finds of the thinned points, which are ``Result.points``: pairs are indices into
+        them. ``statistics`` has "summarized_points", how many there were, "nonfinite_points" beside
+        them, and "cell_edge", of the grid, in input units.
+
+    Raises:
+        InvalidInput: a chunk of another shape, a coordinate beyond 1e50, a file that cannot be read in
+            chunks, files that name different coordinate reference systems; else as ``detect`` does.
+        InvalidParameter, Cancelled: as ``detect`` does.
+    """
+
+    def reading(fraction: float) -> bool | None:
+        return None if progress is None else progress(_READING * fraction)
+
+    def finding(fraction: float) -> bool | None:
+        return None if progress is None else progress(_READING + (1 - _READING) * fraction)
+
+    summary = summarize(chunks, cells=cells, communicator=communicator, progress=reading)
+    return detect(summary, method, seed=seed, threads=threads, progress=finding, **parameters)
+
+
+class ChunkMatches(NamedTuple):
+    """How the mirror fits the points of a chunk."""
+
+    partners: NDArray[np.int64]
+    """(n,) indices into the thinned points, of the nearest to the image; -1 where none is near."""
+    residuals: NDArray[np.float64]
+    """(n,) distances from the image to the surface about the partner, in input units; NaN without."""
+
+
+def match_chunks(
+    chunks: Any, result: Result, pair_distance: float = 0.05, *, threads: int = 0
+) -> Iterator[ChunkMatches]:
+    """How the mirror of ``detect_chunks`` fits each point, in a second pass over the same points.
+
+    Args:
+        chunks: as for ``detect_chunks``, but for arrays of Dask and summaries; what can be had once
+            alone, such as a generator, is an error.
+        result: of ``detect_chunks``.
+        pair_distance: how far from the image a partner may be, as a fraction of the diagonal of the
+            thinned points.
+        threads: as for ``detect``.
+
+    Yields:
+        The partners and the residuals of a chunk.
+
+    Raises:
+        InvalidInput: a result without a mirror or without its points; other points than in the first
+            pass, told by their number.
+    """
+    source = source_of(chunks)
+    if not source.restarts:
+        raise InvalidInput("the chunks can be had once alone; give a function that makes them")
+    if result.mirror is None or result.points is None:
+        raise InvalidInput("the result has no mirror, or no points")
+    surface = np.asarray(result.points)
+    matcher = SurfaceMatcher(surface, result.mirror)
+    distance = pair_distance * float(np.linalg.norm(np.ptp(surface, axis=0)))
+    expected = result.point_count
+    count = 0
+    for points in source:
+        count += len(points)
+        yield ChunkMatches(*matcher.match(points, distance, threads))
+    if count != expected:
+        raise InvalidInput(f"the chunks have changed: they held {expected} points, and now {count}")
