@@ -86,7 +86,6 @@ TEST(EmptyProcesses, GetTheResultOfTheWholeFromEveryMethod) {
                              method.name + (third == &nothing ? ", no points" : ", no finite one"));
 }
 
-// From 8192 points on `plane` shares its work out.
 TEST(EmptyProcesses, ShareTheWorkOfOthers) {
   const Points points = bumpy_ball(10000), nothing(0, 3), unknown = Points::Constant(20, 3, nan);
   for (int rank = 0; rank < processes; ++rank)

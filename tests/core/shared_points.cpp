@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <string>
 
@@ -18,16 +19,16 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index size = 12000;
+constexpr Index size = 12000, many = 300'000;  // which the root takes, or takes thinned
 
 // A dented ball with noise and a hole: no point has an exact partner. Every other seed has clutter
 // about it, and a few points far off.
-Points scan(unsigned seed) {
+Points scan(unsigned seed, Index count = size) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const Plane mirror(Vector3(normal(random), normal(random), normal(random)), 0.7);
-  Points points(size, 3);
-  for (Index i = 0; i < size; ++i) {
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i) {
     Vector3 u = Vector3(normal(random), normal(random), normal(random)).normalized();
     while (u.y() > 0.9) u = Vector3(normal(random), normal(random), normal(random)).normalized();
     Vector3 x = (1 + 0.3 * std::sin(3 * u.y() + u.z()) + 0.2 * u.y() * u.z()) * u;
@@ -44,8 +45,8 @@ using Owner = int (*)(const Points&, Index, int);
 
 int by_turns(const Points&, Index i, int processes) { return static_cast<int>(i % processes); }
 int by_place(const Points& points, Index i, int processes) {
-  const double low = points.col(1).minCoeff(), high = points.col(1).maxCoeff();
-  return std::min(processes - 1, static_cast<int>((points(i, 1) - low) / (high - low) * processes));
+  const double share = (points(i, 1) + 2) / 4;  // most of a scan lies between -2 and 2
+  return std::clamp(static_cast<int>(share * processes), 0, processes - 1);
 }
 int never_the_first(const Points&, Index i, int processes) {
   return 1 + static_cast<int>(i % (processes - 1));
@@ -154,7 +155,6 @@ TEST_P(SharedPoints, GiveThePlaneOfAFilledBody) {
   EXPECT_EQ(whole.statistics.count("boundary_points"), 1u);
 }
 
-// Methods that are not distributed get the whole, on one process.
 TEST_P(SharedPoints, GiveTheSphereOfTheWhole) {
   found_by_all_alike(scan(4).topRows(1000), GetParam(), "sphere");
 }
@@ -226,8 +226,43 @@ TEST_P(SharedPoints, OnOneLineAreRefused) {
   });
 }
 
+// Thinned on the way to the root, which finds the mirror; pairs are those of all points.
+TEST_P(SharedPoints, ThatAreManyGiveThePlaneOfTheWhole) {
+  Points points = scan(GetParam().processes * 2, many);
+  points(7, 0) = std::numeric_limits<double>::quiet_NaN();
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  const Points all = joined(points, rows);
+  for (const char* method : {"plane", "auto"}) {
+    Options options;
+    options.method = method;
+    const std::vector<Result> results = detected(points, rows, options);
+    const Result& first = results.front();
+    const Plane& found = dynamic_cast<const Plane&>(*first.mirror);
+    const Result whole = detect(all, options, Context({}, 1));
+    const Plane& expected = dynamic_cast<const Plane&>(*whole.mirror);
+    EXPECT_LT(found.normal().cross(expected.normal()).norm(), 1e-3);
+    EXPECT_NEAR(first.score, whole.score, 0.01);
+    EXPECT_EQ(first.verdict(), "found");
+    EXPECT_EQ(first.statistics.at("nonfinite_points"), Value(Index{1}));
+
+    const Result fit = match(all, found, 0.2, Context({}, 1));
+    std::map<Index, Index> partner_of;
+    for (Index row = 0; row < fit.pairs.rows(); ++row)
+      partner_of[fit.pairs(row, 0)] = fit.pairs(row, 1);
+    Index count = 0;
+    for (const Result& result : results) {
+      EXPECT_EQ(result.mirror->numbers(), first.mirror->numbers());
+      EXPECT_EQ(result.statistics, first.statistics);
+      for (Index row = 0; row < result.pairs.rows(); ++row, ++count)
+        ASSERT_EQ(result.pairs(row, 1), partner_of.at(result.pairs(row, 0)));
+    }
+    EXPECT_NEAR(static_cast<double>(count), static_cast<double>(whole.pairs.rows()), 1e-3 * many);
+    EXPECT_EQ(first.statistics.at("unpaired_points"), Value(many - count));
+  }
+}
+
 TEST_P(SharedPoints, StopTogetherWhenOneIsToldTo) {
-  const Points points = scan(6);
+  const Points points = scan(6, many);
   const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
   Options options;
   options.method = "plane";

@@ -34,23 +34,18 @@ struct Shared {
     begins.push_back(points.rows());
   }
 
-  void run(const std::function<void(const Cloud&, const Context&)>& body) const {
+  void run(const std::function<void(PointsView, const Partition&)>& body) const {
     const int processes = static_cast<int>(begins.size()) - 1;
     ProcessThreads(processes).run([&](const Communicator& communicator) {
       const Index begin = begins[communicator.rank()], end = begins[communicator.rank() + 1];
       const PointsView own(points.data() + 3 * begin, end - begin);
-      const Context context({}, 1);
-      Cloud cloud;
-      cloud.points = own;
-      cloud.partition = Partition(own.size(), &communicator);
-      validate(cloud, 4, context);
-      body(cloud, context);
+      body(own, Partition(own.size(), communicator));
     });
   }
 };
 
-Slabs slabs_of(const Cloud& cloud, const Vector3& along, const Context& context) {
-  return Slabs(cloud.points, cloud.partition, along, cloud.frame.centroid, cloud.diagonal, context);
+Slabs slabs_of(PointsView own, const Partition& partition, const Vector3& along) {
+  return Slabs(own, partition, along, Vector3(0.1, 0.2, 0.3), 3, Context({}, 1));
 }
 
 class SharedSlabs : public testing::TestWithParam<int> {};
@@ -62,10 +57,10 @@ TEST_P(SharedSlabs, ShareOutThePoints) {
     const Vector3 along = random.direction();
     std::vector<int> owners(size);
     std::mutex mutex;
-    shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs = slabs_of(cloud, along, context);
+    shared.run([&](PointsView own, const Partition& partition) {
+      const Slabs slabs = slabs_of(own, partition, along);
       const Index now = slabs.points().size();
-      EXPECT_NEAR(static_cast<double>(now), static_cast<double>(cloud.points.size()), 0.02 * size);
+      EXPECT_NEAR(static_cast<double>(now), static_cast<double>(own.size()), 0.02 * size);
       const std::scoped_lock lock(mutex);
       for (Index k = 0; k < now; ++k) {
         ++owners[slabs.number(k)];
@@ -83,9 +78,9 @@ TEST_P(SharedSlabs, AreNoNearerThanTheySay) {
   const Shared shared(random.box(size), GetParam(), random);
   const Vector3 along = random.direction();
   const Points positions = 2 * random.box(50);
-  shared.run([&](const Cloud& cloud, const Context& context) {
-    const Slabs slabs = slabs_of(cloud, along, context);
-    const int here = cloud.partition.processes()->rank();
+  shared.run([&](PointsView own, const Partition& partition) {
+    const Slabs slabs = slabs_of(own, partition, along);
+    const int here = partition.processes().rank();
     for (Index k = 0; k < slabs.points().size(); ++k) {
       EXPECT_EQ(slabs.distance(slabs.points()[k], here), 0);
       for (Index q = 0; q < positions.rows(); ++q) {
@@ -100,13 +95,12 @@ TEST_P(SharedSlabs, SendBackToTheProcessThatHadThePoint) {
   RandomCloud random(2);
   const Shared shared(random.box(size), GetParam(), random);
   const Vector3 along = random.direction();
-  shared.run([&](const Cloud& cloud, const Context& context) {
-    const Slabs slabs = slabs_of(cloud, along, context);
-    std::vector<Index> numbers(cloud.points.size(), -1);
+  shared.run([&](PointsView own, const Partition& partition) {
+    const Slabs slabs = slabs_of(own, partition, along);
+    std::vector<Index> numbers(own.size(), -1);
     slabs.send_back<Index>([&](Index k) { return slabs.number(k); },
                            [&](Index i, Index number) { numbers[i] = number; });
-    for (Index i = 0; i < cloud.points.size(); ++i)
-      EXPECT_EQ(numbers[i], cloud.partition.first() + i);
+    for (Index i = 0; i < own.size(); ++i) EXPECT_EQ(numbers[i], partition.first() + i);
   });
 }
 
@@ -123,13 +117,11 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
       for (const Vector3& along : {Vector3(mirror.normal()), mirror.normal().unitOrthogonal()}) {
         Index row = 0;
         std::vector<Result> results(GetParam());
-        shared.run([&](const Cloud& cloud, const Context& context) {
-          const Slabs slabs = slabs_of(cloud, along, context);
-          Result& result = results[cloud.partition.processes()->rank()];
+        shared.run([&](PointsView own, const Partition& partition) {
+          const Slabs slabs = slabs_of(own, partition, along);
+          Result& result = results[partition.processes().rank()];
           result.mirror = std::make_shared<Plane>(mirror);
-          const ParameterValues values("", {pair_distance(), pairs()},
-                                       {{"pair_distance", limit / cloud.diagonal}});
-          add_pairs(result, cloud, slabs, PointTree(slabs.points()), values, context);
+          add_pairs(result, own, slabs, PointTree(slabs.points()), limit, Context({}, 1));
         });
         for (const Result& result : results) {
           const Index rows = result.pairs.rows();
@@ -146,26 +138,6 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
   }
 }
 
-TEST_P(SharedSlabs, HaveTheNearestPointsOfTheWhole) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    RandomCloud random(seed);
-    const Shared shared(random.box(size), GetParam(), random);
-    const Vector3 along = random.direction();
-    const PointTree tree(shared.points);
-    const NearestPoints whole(shared.points, tree, {});
-    std::vector<Vector3> positions;  // points, and what lies beside the cloud as well
-    for (Index i = 0; i < size; i += 10) positions.emplace_back(shared.points.row(i));
-    for (int k = 0; k < 100; ++k) positions.push_back(1.5 * random.in_box());
-    shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs = slabs_of(cloud, along, context);
-      const PointTree own(slabs.points());
-      const NearestPoints points(slabs, own, context);
-      EXPECT_EQ(points.second_nearest(positions), whole.second_nearest(positions));
-      EXPECT_EQ(points.nearest(positions, 3), whole.nearest(positions, 3));
-    });
-  }
-}
-
 // Whichever way they were.
 TEST_P(SharedSlabs, StayWhereTheyAreSlabsAlready) {
   RandomCloud random(4);
@@ -177,28 +149,17 @@ TEST_P(SharedSlabs, StayWhereTheyAreSlabsAlready) {
             [&](Index a, Index b) { return points.row(a).dot(along) < points.row(b).dot(along); });
   const Shared shared(points(order, Eigen::indexing::all), GetParam(), random);
   for (const double sign : {-1, 1})
-    shared.run([&](const Cloud& cloud, const Context& context) {
-      const Slabs slabs = slabs_of(cloud, sign * along, context);
+    shared.run([&](PointsView own, const Partition& partition) {
+      const Slabs slabs = slabs_of(own, partition, sign * along);
       Index others = 0;
       for (Index k = 0; k < slabs.points().size(); ++k)
-        others += slabs.number(k) < cloud.partition.first() ||
-                  slabs.number(k) >= cloud.partition.first() + cloud.points.size();
+        others += slabs.number(k) < partition.first() ||
+                  slabs.number(k) >= partition.first() + own.size();
       EXPECT_LT(static_cast<double>(others), 0.02 * size);
     });
 }
 
 INSTANTIATE_TEST_SUITE_P(Processes, SharedSlabs, testing::Values(2, 3, 5));
-
-TEST(Slabs, LeaveTheCloudOfOneWhereItLies) {
-  RandomCloud random(3);
-  const Points points = random.box(size);
-  Cloud cloud;
-  cloud.points = points;
-  cloud.partition = Partition(size);
-  const Slabs slabs = slabs_of(cloud, Vector3::UnitX(), {});
-  EXPECT_EQ(slabs.points().data(), points.data());
-  EXPECT_EQ(slabs.number(7), 7);
-}
 
 }  // namespace
 }  // namespace symsurf

@@ -110,13 +110,14 @@ struct Options {
 /// Finds the mirror of a point set. The points are read in place and must stay alive for the call.
 /// Where the context has several processes, the points (maybe none) and normals are this process's,
 /// all of them call this alike, and the mirror is that of the whole. Pairs are those of the own
-/// points, numbered through all processes in the order of their ranks. With `plane` a process needs
-/// memory for its own points only; for other methods the root, rank 0, gets all points and works
-/// alone, so it is the one to cancel. Throws InvalidInput (too few finite points, more than 2^30 in
-/// one process, all points equal or on one line, an extent beyond 1e-50 to 1e50, a coordinate
-/// beyond 1e50, normals that are not one a point, not finite or zero, a face that names a point
-/// which is not there), InvalidParameter (unknown method or parameter, value out of range) and
-/// Cancelled.
+/// points, numbered through all processes in the order of their ranks. The mirror is found by rank
+/// 0, the root, alone, so it is the one to cancel: of all points, or, of more than 262,144 without
+/// normals, of their PointSummary, so that a process needs memory for its own points only. The
+/// methods of the thesis and the baselines get all. Throws InvalidInput (too few finite points,
+/// more than 2^30 in one process, all points equal or on one line, an extent beyond 1e-50 to 1e50,
+/// a coordinate beyond 1e50, normals that are not one a point, not finite or zero, a face that
+/// names a point which is not there), InvalidParameter (unknown method or parameter, value out of
+/// range) and Cancelled.
 Result detect(PointsView points, const Options& options = {}, const Context& context = {});
 
 /// The length of which `detect`, run alike, takes parameters of the unit "diagonal" as fractions:

@@ -21,25 +21,9 @@ constexpr double least_extent = 1e-50, greatest_extent = 1e50;
 // In one process: they, and twice as many, are counted in 32 bits.
 constexpr Index most_points = Index{1} << 30;
 
-// `first`: the number of the first row.
-void require_coordinates(PointsView points, Index first) {
-  for (Index i = 0; i < points.size(); ++i)
-    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
-      throw InvalidInput("point " + std::to_string(first + i) + " is " +
-                         to_string(Value(points[i])) + "; allowed are coordinates up to " +
-                         to_string(Value(greatest_extent)));
-}
-
-void require_numerable(Index own) {
-  if (!is_numerable(own))
-    throw InvalidInput(std::to_string(own) + " points given; at most " +
-                       std::to_string(most_points) + " in one process are allowed");
-}
-
 // `extremes`: the lowest and the highest point along each axis.
-void require_area(PointsView own, const Partition& partition, const std::vector<Vector3>& extremes,
-                  const Vector3& size) {
-  const std::string all = "all " + std::to_string(partition.total()) + " points ";
+void require_area(PointsView points, const std::vector<Vector3>& extremes, const Vector3& size) {
+  const std::string all = "all " + std::to_string(points.size()) + " points ";
   Index longest;
   const double extent = size.maxCoeff(&longest);
   if (!(extent > 0)) throw InvalidInput(all + "are equal");
@@ -49,13 +33,13 @@ void require_area(PointsView own, const Partition& partition, const std::vector<
   const Vector3 start = extremes[2 * longest];
   const Vector3 direction = ((extremes[2 * longest + 1] - start) / extent).normalized();
   const auto is_beside_line = [&](Index i) {
-    const Vector3 x = (own[i] - start) / extent;
+    const Vector3 x = (points[i] - start) / extent;
     return (x - direction.dot(x) * direction).norm() > line_thinness;
   };
   // Mostly one of the first points ends the search.
   Index i = 0;
-  while (i < own.size() && !is_beside_line(i)) ++i;
-  if (partition.sum(Index{i < own.size()}) == 0) throw InvalidInput(all + "lie on one line");
+  while (i < points.size() && !is_beside_line(i)) ++i;
+  if (i == points.size()) throw InvalidInput(all + "lie on one line");
 }
 
 }  // namespace
@@ -67,6 +51,12 @@ void require_count(Index given, Index needed) {
 }
 
 bool is_numerable(Index own) { return own <= most_points; }
+
+void require_numerable(Index own) {
+  if (!is_numerable(own))
+    throw InvalidInput(std::to_string(own) + " points given; at most " +
+                       std::to_string(most_points) + " in one process are allowed");
+}
 
 bool are_finite(PointsView rows) {
   double sum = 0;  // NaN from the first that is not, without branches
@@ -87,7 +77,13 @@ void require_points(PointsView points) {
   require_finite(points, "point");
 }
 
-void require_coordinates(PointsView points) { require_coordinates(points, 0); }
+void require_coordinates(PointsView points, Index first) {
+  for (Index i = 0; i < points.size(); ++i)
+    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
+      throw InvalidInput("point " + std::to_string(first + i) + " is " +
+                         to_string(Value(points[i])) + "; allowed are coordinates up to " +
+                         to_string(Value(greatest_extent)));
+}
 
 void require_extent(PointsView rows, const char* what) {
   Eigen::AlignedBox3d box;
@@ -113,24 +109,18 @@ void require_normals(PointsView points, PointsView normals, Index first) {
 }
 
 void validate(Cloud& cloud, Index minimum_points, const Context& context) {
-  const PointsView own = cloud.points;
-  const Partition partition = cloud.partition.resized(own.size());
-  require_count(partition.total(), minimum_points);
-  partition.require([&] {
-    require_numerable(own.size());
-    require_finite(own, "point", partition.first());
-  });
-  const std::vector<Vector3> extremes = extreme_points(own, partition);
+  const PointsView points = cloud.points;
+  require_count(points.size(), minimum_points);
+  require_numerable(points.size());
+  require_finite(points, "point");
+  const std::vector<Vector3> extremes = extreme_points(points);
   const Vector3 low(extremes[0].x(), extremes[2].y(), extremes[4].z());
   const Vector3 high(extremes[1].x(), extremes[3].y(), extremes[5].z());
-  require_area(own, partition, extremes, high - low);
-  partition.require([&] {
-    require_coordinates(own, partition.first());
-    require_normals(own, cloud.normals, partition.first());
-  });
-  cloud.partition = partition;
+  require_area(points, extremes, high - low);
+  require_coordinates(points);
+  require_normals(points, cloud.normals);
   cloud.diagonal = (high - low).norm();
-  cloud.frame = principal_frame(own, partition, context);
+  cloud.frame = principal_frame(points, context);
 }
 
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "cloud/principal_frame.h"
-#include "distributed/partition.h"
 
 namespace symsurf {
 
-/// A point cloud or mesh on its way to a method. Points, normals and faces are those of this
-/// process; the rest, once validated, is that of all.
+/// A point cloud or mesh on its way to a method.
 struct Cloud {
   PointsView points;
   PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
@@ -22,17 +20,15 @@ struct Cloud {
   PointsView vertices;  ///< of the mesh, where the points are samples of its faces
   std::vector<Plane> vertex_planes;  ///< that map the vertices onto themselves, all of them
   PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
-  Partition partition;
   std::uint64_t seed = 0;
   double tolerance = usual_tolerance;  ///< of the score, in diagonals
   double diagonal = 0;                 ///< of the axis-aligned bounding box
   PrincipalFrame frame;
 };
 
-/// Sets partition, diagonal and frame, and checks what every method relies on: at least
-/// minimum_points points and no more than can be numbered, all finite, not all on one line;
-/// normals, where given, one a point, finite and not zero. Throws InvalidInput, on all processes
-/// the same. Collective.
+/// Sets diagonal and frame, and checks what every method relies on: at least minimum_points points
+/// and no more than can be numbered, all finite, not all on one line; normals, where given, one a
+/// point, finite and not zero. Throws InvalidInput.
 void validate(Cloud& cloud, Index minimum_points, const Context& context);
 
 /// These rows; none where there are none to choose from, as of a cloud without normals.
@@ -42,7 +38,7 @@ Points chosen_rows(PointsView all, const std::vector<Integer>& rows) {
   return all.matrix()(rows, Eigen::indexing::all);
 }
 
-/// A validated cloud in one process.
+/// A validated cloud.
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context);
 
@@ -56,8 +52,8 @@ void require_finite(PointsView rows, const char* what, Index first = 0);
 void require_points(PointsView points);
 
 /// Throws InvalidInput naming the first point with a coordinate beyond 1e50: squares would
-/// overflow.
-void require_coordinates(PointsView points);
+/// overflow. `first`: the number of the first row.
+void require_coordinates(PointsView points, Index first = 0);
 
 /// Throws InvalidInput where the finite rows extend over more than 1e50 along an axis: fourth
 /// powers of lengths would overflow. `what`: "points".
@@ -72,5 +68,8 @@ void require_normals(PointsView points, PointsView normals, Index first = 0);
 
 /// Whether one process can number so many points.
 bool is_numerable(Index own);
+
+/// Throws InvalidInput where it cannot.
+void require_numerable(Index own);
 
 }  // namespace symsurf

@@ -40,8 +40,7 @@ std::vector<Shell> outer_shells(const Cloud& cloud) {
     if (points.size() >= 4 * farthest) keep_farthest();
   }
   keep_farthest();
-  points = cloud.partition.concatenate(points);
-  const bool is_all = static_cast<Index>(points.size()) == cloud.partition.total();
+  const bool is_all = static_cast<Index>(points.size()) == cloud.points.size();
   std::stable_sort(points.begin(), points.end(), farther);
   if (points.size() > farthest) points.resize(farthest);
 

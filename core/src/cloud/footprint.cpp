@@ -26,9 +26,6 @@ std::vector<Index> farthest_points(PointsView points, Index count, const Context
   return chosen;
 }
 
-namespace {
-
-// The lowest and the highest point along each axis: none of no points, else six.
 std::vector<Vector3> extreme_points(PointsView points) {
   std::vector<Vector3> extremes;
   for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
@@ -40,34 +37,13 @@ std::vector<Vector3> extreme_points(PointsView points) {
   return extremes;
 }
 
-}  // namespace
-
-std::vector<Vector3> extreme_points(PointsView own, const Partition& partition) {
-  std::vector<Vector3> extremes;
-  for (const std::vector<Vector3>& part : partition.gather(extreme_points(own))) {
-    if (extremes.empty()) {
-      extremes = part;
-      continue;
-    }
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const int axis = static_cast<int>(k) / 2;
-      const double beyond = part[k][axis] - extremes[k][axis];
-      if (k % 2 == 0 ? beyond < 0 : beyond > 0) extremes[k] = part[k];
-    }
-  }
-  return extremes;
-}
-
 Points footprint_of(const Cloud& cloud) {
-  const PointsView own = cloud.footprint.empty() ? cloud.points : cloud.footprint;
-  const Partition partition = cloud.partition.resized(own.size());
+  const PointsView points = cloud.footprint.empty() ? cloud.points : cloud.footprint;
   constexpr Index enough = 2000;
-  const Index stride = std::max<Index>(1, partition.total() / enough);
+  const Index stride = std::max<Index>(1, points.size() / enough);
   std::vector<Vector3> chosen;
-  for (Index i = partition.first_of_every(stride); i < own.size(); i += stride)
-    chosen.push_back(own[i]);
-  chosen = partition.concatenate(chosen);
-  const std::vector<Vector3> extremes = extreme_points(own, partition);
+  for (Index i = 0; i < points.size(); i += stride) chosen.push_back(points[i]);
+  const std::vector<Vector3> extremes = extreme_points(points);
   chosen.insert(chosen.end(), extremes.begin(), extremes.end());
   return rows_of(chosen);
 }

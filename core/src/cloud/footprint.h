@@ -19,15 +19,13 @@ inline double diagonal_of(PointsView points) {
 /// next one the farthest from those before it. All where there are no more than `count`.
 std::vector<Index> farthest_points(PointsView points, Index count, const Context& context);
 
-/// The lowest and the highest point of all processes along x, y and z: six, or none of no points.
-/// Collective.
-std::vector<Vector3> extreme_points(PointsView own, const Partition& partition);
+/// The lowest and the highest point along x, y and z: six, or none of no points.
+std::vector<Vector3> extreme_points(PointsView points);
 
 /// What mirrors and axes are drawn over: every k-th point of the cloud, and the extreme ones.
-/// Collective.
 Points footprint_of(const Cloud& cloud);
 
-/// Sets what the result's mirrors are drawn over. Collective.
+/// Sets what the result's mirrors are drawn over.
 void set_footprint(Result& result, const Cloud& cloud);
 
 /// Sets a footprint that is there already.

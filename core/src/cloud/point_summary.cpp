@@ -3,6 +3,7 @@
 #include <symsurf/point_summary.h>
 #include <symsurf/points.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -109,13 +110,17 @@ int magnitude_of(double largest) {
       std::ceil((exponent_of(largest) - magnitude_bits / 2) / static_cast<double>(magnitude_bits)));
 }
 
-double largest_finite(PointsView points) {
-  double largest = 0;
+Triple place_of(const Vector3& x, double per_unit) {
+  const Eigen::Vector<std::int64_t, 3> place = (x * per_unit).array().floor().cast<std::int64_t>();
+  return {place.x(), place.y(), place.z()};
+}
+
+// Of the finite ones.
+Eigen::AlignedBox3d box_of(PointsView points) {
+  Eigen::AlignedBox3d box;
   for (Index i = 0; i < points.size(); ++i)
-    if (const double here = points[i].lpNorm<Eigen::Infinity>();
-        points[i].allFinite() && here > largest)
-      largest = here;
-  return largest;
+    if (points[i].allFinite()) box.extend(points[i]);
+  return box;
 }
 
 }  // namespace
@@ -168,10 +173,26 @@ struct PointSummary::Grid {
   // So that an index of a cell does not overflow.
   void make_room(double largest) { coarsen(exponent_of(largest) - index_bits - level); }
 
+  bool have_too_many(PointsView points, int level) const {
+    const double per_unit = std::ldexp(1, -level);
+    TripleIndex places;
+    for (Index i = 0; i < points.size(); ++i)
+      if (points[i].allFinite() && places.add(place_of(points[i], per_unit)) >= limit) return true;
+    return false;
+  }
+
+  // To what these points alone need, from a guess on: keep_limit() would come to it in many steps.
+  void coarsen_for(PointsView points, double extent) {
+    int fine_enough = std::max(exponent_of(extent / std::sqrt(static_cast<double>(limit))), level);
+    while (have_too_many(points, fine_enough)) ++fine_enough;
+    while (fine_enough > level && !have_too_many(points, fine_enough - 1)) --fine_enough;
+    coarsen(fine_enough - level);
+  }
+
   void add(const Vector3& x) {
     const int magnitude = magnitude_of(x.lpNorm<Eigen::Infinity>());
     const double unit = std::ldexp(1, -magnitude_bits * magnitude);
-    SummedCell& cell = by_magnitude[magnitude].at(place_of(x));
+    SummedCell& cell = by_magnitude[magnitude].at(place_of(x, std::ldexp(1, -level)));
     ++cell.count;
     for (int axis = 0; axis < 3; ++axis) cell.sum[axis].add(x[axis] * unit);
     ++count;
@@ -194,12 +215,6 @@ struct PointSummary::Grid {
       cell.sum[axis] = {row[5 + 2 * axis], std::bit_cast<std::uint64_t>(row[6 + 2 * axis])};
     by_magnitude[static_cast<int>(row[3])].at({row[0], row[1], row[2]}).add(cell);
     count += cell.count;
-  }
-
-  Triple place_of(const Vector3& x) const {
-    const Eigen::Vector<std::int64_t, 3> place =
-        (x * std::ldexp(1, -level)).array().floor().cast<std::int64_t>();
-    return {place.x(), place.y(), place.z()};
   }
 
   struct Row {
@@ -238,11 +253,15 @@ PointSummary& PointSummary::operator=(PointSummary other) noexcept {
 PointSummary::~PointSummary() = default;
 
 void PointSummary::add(PointsView points) {
-  const double largest = largest_finite(points);
+  const Eigen::AlignedBox3d box = box_of(points);
+  const double largest =
+      box.isEmpty() ? 0 : box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (largest > greatest)
     throw InvalidInput("a coordinate is " + to_string(Value(largest)) +
                        " in size; allowed is up to 1e50");
   grid_->make_room(largest);
+  if (points.size() > std::max(grid_->limit, grid_->count))
+    grid_->coarsen_for(points, box.sizes().maxCoeff());
   for (Index i = 0; i < points.size(); ++i) {
     if (points[i].allFinite())
       grid_->add(points[i]);

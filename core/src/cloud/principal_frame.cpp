@@ -26,11 +26,6 @@ struct Extent {
   }
 };
 
-std::vector<Vector3> first_of(PointsView points) {
-  if (points.empty()) return {};
-  return {points[0]};
-}
-
 }  // namespace
 
 Vector3 PrincipalFrame::to_frame(const Vector3& x) const {
@@ -39,36 +34,33 @@ Vector3 PrincipalFrame::to_frame(const Vector3& x) const {
 
 Vector3 PrincipalFrame::from_frame(const Vector3& x) const { return centroid + size * (axes * x); }
 
-PrincipalFrame principal_frame(PointsView points, const Partition& partition,
-                               const Context& context) {
-  const double count = static_cast<double>(partition.total());
+PrincipalFrame principal_frame(PointsView points, const Context& context) {
+  const double count = static_cast<double>(points.size());
   PrincipalFrame frame;
   // About the first point: far-off clouds keep their digits.
-  const Vector3 first = partition.concatenate(first_of(points)).front();
+  const Vector3 first = points[0];
   frame.centroid =
-      first + partition.sum(parallel_sum(context, points.size(), grain, Vector3(0, 0, 0),
-                                         [&](Index begin, Index end) {
-                                           Vector3 sum = Vector3::Zero();
-                                           for (Index i = begin; i < end; ++i)
-                                             sum += points[i] - first;
-                                           return sum;
-                                         })) /
-                  count;
-  Matrix3 scatter = Matrix3::Zero();
-  scatter = partition.sum(
-      parallel_sum(context, points.size(), grain, scatter, [&](Index begin, Index end) {
+      first +
+      parallel_sum(context, points.size(), grain, Vector3(0, 0, 0), [&](Index begin, Index end) {
+        Vector3 sum = Vector3::Zero();
+        for (Index i = begin; i < end; ++i) sum += points[i] - first;
+        return sum;
+      }) / count;
+  const Matrix3 zero = Matrix3::Zero();
+  const Matrix3 scatter =
+      parallel_sum(context, points.size(), grain, zero, [&](Index begin, Index end) {
         Matrix3 sum = Matrix3::Zero();
         for (Index i = begin; i < end; ++i) {
           const Vector3 x = points[i] - frame.centroid;
           sum += x * x.transpose();
         }
         return sum;
-      }));
+      });
   const SymmetricEigen<3> eigen = eigen_of(scatter);
   frame.axes = eigen.vectors.rowwise().reverse();
   frame.variance = eigen.values.reverse() / count;
 
-  const Extent extent = partition.sum(
+  const Extent extent =
       parallel_sum(context, points.size(), grain, Extent{}, [&](Index begin, Index end) {
         Extent part;
         for (Index i = begin; i < end; ++i) {
@@ -78,7 +70,7 @@ PrincipalFrame principal_frame(PointsView points, const Partition& partition,
           part.skewness += x.cwiseProduct(x).cwiseProduct(x);
         }
         return part;
-      }));
+      });
   frame.size = (extent.high - extent.low).norm();
   frame.low = extent.low;
   frame.high = extent.high;

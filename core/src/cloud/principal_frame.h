@@ -4,8 +4,6 @@
 #include <symsurf/mirrors.h>
 #include <symsurf/points.h>
 
-#include "distributed/partition.h"
-
 namespace symsurf {
 
 /// The coordinate frame in which methods compute (principal component analysis): the centroid at 0,
@@ -23,8 +21,8 @@ struct PrincipalFrame {
   Vector3 from_frame(const Vector3& x) const;
 };
 
-/// Of the points of all processes, which must be finite. A cloud of equal points gets a size of 0.
-PrincipalFrame principal_frame(PointsView own, const Partition& partition, const Context& context);
+/// Of at least one point; all must be finite. A cloud of equal points gets a size of 0.
+PrincipalFrame principal_frame(PointsView points, const Context& context);
 
 class PlaneStep;
 

@@ -13,7 +13,7 @@ struct OnSurface {
   const Surfel* surfel;
 };
 
-/// The points nearest but one to them, in the principal frame. Collective.
+/// The points nearest but one to them, in the principal frame.
 std::vector<Vector3> neighbours_of(const std::vector<OnSurface>& samples,
                                    const PrincipalFrame& frame, const NearestPoints& points);
 

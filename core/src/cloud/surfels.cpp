@@ -119,7 +119,7 @@ Surfels::Surfels(const Cloud& cloud, Index count, std::optional<OccupiedVoxels> 
     : count_(count), uncluttered_(std::move(uncluttered)) {
   // More than one point a cell: alone it determines no patch.
   const double wanted =
-      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.partition.total()));
+      std::min(static_cast<double>(count_), 0.7 * static_cast<double>(cloud.points.size()));
   choose_cell(cloud, wanted, guess, context.stage(0, 0.5));
   std::vector<Patch> patches = patches_of(cloud, context.stage(0.5, 1));
   // Without the clutter, cells are smaller, and what is clutter is seen better.
@@ -153,8 +153,6 @@ void Surfels::choose_cell(const Cloud& cloud, double wanted, double guess, const
       const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
       if (!is_clutter(x)) grid_.occupy(grid_.cell_of(x));
     }
-    for (const OccupiedVoxels::Words& part : cloud.partition.gather(grid_.words()))
-      grid_.occupy(part);
     grid_.number_them();
     const double occupied = static_cast<double>(grid_.count());
     context.report((k + 1.0) / guesses);
@@ -173,14 +171,13 @@ std::vector<Surfels::Patch> Surfels::patches_of(const Cloud& cloud, const Contex
     Patch& patch = patches[grid_.number(c)];
     patch.cell = c;
     patch.moments.add(x - grid_.low());
-    patch.sample({cloud.partition.first() + i, (x - grid_.middle(c)).squaredNorm()}, x);
+    patch.sample({i, (x - grid_.middle(c)).squaredNorm()}, x);
     if (i % points_a_task == 0)
       context.report(static_cast<double>(i) / static_cast<double>(cloud.points.size()));
   }
 
   std::erase_if(patches, [](const Patch& patch) { return patch.moments.count() == 0; });
-  return cloud.partition.reduce(std::move(patches),
-                                [&](const auto& parts) { return merged(parts); });
+  return patches;
 }
 
 // Whether there was any.
@@ -229,19 +226,6 @@ void Surfels::make_surfels(const std::vector<Patch>& patches) {
                         grid_.low() + around.mean(),
                         covariance});
   }
-}
-
-// One patch a cell.
-std::vector<Surfels::Patch> Surfels::merged(const std::vector<std::vector<Patch>>& parts) const {
-  std::vector<Patch> patches(grid_.count());
-  for (const std::vector<Patch>& part : parts)
-    for (const Patch& other : part) {
-      Patch& patch = patches[grid_.number(other.cell)];
-      patch.cell = other.cell;
-      patch.moments += other.moments;
-      patch.sample(other.nearest, other.sampled);
-    }
-  return patches;
 }
 
 const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Vector3& x) {

@@ -70,7 +70,6 @@ class Surfels {
   bool is_clutter(const Vector3& x) const { return uncluttered_ && uncluttered_->number_at(x) < 0; }
   void choose_cell(const Cloud& cloud, double wanted, double guess, const Context& context);
   std::vector<Patch> patches_of(const Cloud& cloud, const Context& context) const;
-  std::vector<Patch> merged(const std::vector<std::vector<Patch>>& parts) const;
   bool drop_clutter(std::vector<Patch>& patches);
   void make_surfels(const std::vector<Patch>& patches);
 

@@ -104,10 +104,9 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance, cons
   const auto start = std::chrono::steady_clock::now();
   Cloud cloud;
   cloud.points = points;
-  cloud.partition = Partition(points.size());
   cloud.tolerance = values.real("tolerance");
   Result result =
-      *run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
+      run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
   result.parameters = {{"pair_distance", pair_distance}, {"tolerance", tolerance}};
   judge(result, true, usual_minimum_score);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

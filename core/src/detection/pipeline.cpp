@@ -18,24 +18,31 @@ bool may_hide_exact_mirror(const Result& of_boundary, const Cloud& body) {
   return of_boundary.score > by_chance && !is_exact(of_boundary) && body.points.size() <= few;
 }
 
-// What depends on the pairs of the input's points.
-void report_pairs(Result& result, const MethodImplementation& method, const Partition& input) {
-  const Index pairs = input.sum(Index{result.pairs.rows()});
-  if (method.reports_unpaired_points) result.statistics["unpaired_points"] = input.total() - pairs;
-  if (method.reports_mean_residual)
-    result.statistics["mean_residual"] =
-        pairs > 0 ? input.sum(result.residuals.sum()) / static_cast<double>(pairs) : 0.0;
-}
-
 }  // namespace
 
-std::optional<Result> run_pipeline(const MethodImplementation& method,
-                                   const ParameterValues& values, Cloud cloud,
-                                   bool refuse_nonfinite, const Context& context) {
+void report_pairs(Result& result, const MethodImplementation& finder, Index paired, Index total,
+                  double residuals) {
+  if (finder.reports_unpaired_points) result.statistics["unpaired_points"] = total - paired;
+  if (finder.reports_mean_residual)
+    result.statistics["mean_residual"] = paired > 0 ? residuals / static_cast<double>(paired) : 0.0;
+}
+
+Finder finder_of(const Result& result, const MethodImplementation& method,
+                 const ParameterValues& values) {
+  const bool is_own = result.method == method.name || result.method.empty();
+  const MethodImplementation& finder = is_own ? method : implementation(result.method);
+  if (values.all().contains("pairs") && !values.boolean("pairs")) return {finder, {}};
+  const ParameterValues defaults(finder.name, finder.parameters, {});
+  const ParameterValues& used = is_own ? values : defaults;
+  if (!used.all().contains("pair_distance")) return {finder, 0.0};
+  return {finder, used.real("pair_distance")};
+}
+
+Result run_pipeline(const MethodImplementation& method, const ParameterValues& values, Cloud cloud,
+                    bool refuse_nonfinite, const Context& context) {
   const Context before_run = context.stage(0, 0), after_run = context.stage(1, 1);
-  const Partition input = cloud.partition;
-  Preprocessing policy = method.preprocessing;
-  if (input.processes()) policy.merge_duplicates = false;  // those of others are not known
+  const Index total = cloud.points.size();
+  const Preprocessing policy = method.preprocessing;
   require_corners(cloud.faces, cloud.points.size());
   if (!policy.sample_faces) cloud.faces = {};
 
@@ -44,7 +51,6 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
   Cloud before_last;
   for (const auto& stage : stages) {
     const Cloud before = cloud;
-    if (input.processes() && stage->needs_whole(cloud, before_run)) return std::nullopt;
     const bool changed = stage->apply(cloud, before_run);
     if (changed) {
       applied.push_back(stage.get());
@@ -54,7 +60,7 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
     if (changed || stage == stages.front())
       validate(cloud, needed, before_run);
     else
-      require_count(cloud.partition.total(), needed);
+      require_count(cloud.points.size(), needed);
   }
   context.report(0);
 
@@ -68,19 +74,14 @@ std::optional<Result> run_pipeline(const MethodImplementation& method,
       applied.pop_back();
     }
   }
-  // "auto" runs other methods, with their defaults.
-  const bool is_own = result.method == method.name || result.method.empty();
-  const MethodImplementation& finder = is_own ? method : implementation(result.method);
-  const bool wants_pairs = !values.all().contains("pairs") || values.boolean("pairs");
-  PairDistance pair_distance;
-  if (wants_pairs && result.mirror && (policy.sample_faces || policy.extract_boundary)) {
-    const ParameterValues defaults(finder.name, finder.parameters, {});
-    pair_distance = (is_own ? values : defaults).real("pair_distance");
-  }
+  const Finder finder = finder_of(result, method, values);
+  const bool pairs_anew = result.mirror && (policy.sample_faces || policy.extract_boundary);
+  const PairDistance pair_distance = pairs_anew ? finder.pair_distance : std::nullopt;
   set_footprint(result, cloud);
   for (auto stage = applied.rbegin(); stage != applied.rend(); ++stage)
     (*stage)->map_back(result, pair_distance, after_run);
-  if (wants_pairs && result.mirror) report_pairs(result, finder, input);
+  if (finder.pair_distance && result.mirror)
+    report_pairs(result, finder.method, result.pairs.rows(), total, result.residuals.sum());
   drop_nonfinite(result.statistics);
   for (Result& candidate : result.candidates) drop_nonfinite(candidate.statistics);
   return result;

@@ -2,29 +2,28 @@
 
 #include <symsurf/context.h>
 
-#include <numeric>
 #include <string>
+#include <vector>
 
 namespace symsurf {
 
-Partition::Partition(Index own, const Communicator* processes)
-    : processes_(processes), total_(own) {
-  if (!processes) return;
-  const std::vector<Index> counts = concatenate(std::vector<Index>{own});
-  const auto mine = counts.begin() + processes->rank();
-  first_ = std::accumulate(counts.begin(), mine, Index{0});
-  total_ = std::accumulate(mine, counts.end(), first_);
+Partition::Partition(Index own, const Communicator& processes) : processes_(processes) {
+  const auto counts = all_gather(processes, std::vector{own});
+  for (int rank = 0; rank < processes.size(); ++rank) {
+    if (rank < processes.rank()) first_ += counts[rank].front();
+    total_ += counts[rank].front();
+  }
 }
 
 void Partition::require(const std::function<void()>& check) const {
-  if (!processes_) return check();
   std::string message;
   try {
     check();
   } catch (const InvalidInput& error) {
     message = error.what();
   }
-  for (const std::vector<char>& text : gather(std::vector<char>(message.begin(), message.end())))
+  for (const std::vector<char>& text :
+       all_gather(processes_, std::vector(message.begin(), message.end())))
     if (!text.empty()) throw InvalidInput(std::string(text.begin(), text.end()));
 }
 

@@ -9,13 +9,7 @@ namespace symsurf {
 
 Slabs::Slabs(PointsView own, const Partition& partition, const Vector3& along,
              const Vector3& centre, double diagonal, const Context& context)
-    : partition_(partition),
-      along_(along),
-      centre_(centre),
-      rounding_(1e-12 * diagonal),
-      points_(own) {
-  if (!partition.processes()) return;
-  rank_ = partition.processes()->rank();
+    : partition_(partition), along_(along), centre_(centre), rounding_(1e-12 * diagonal) {
   cut(own);
   redistribute(own, context);
 }
@@ -35,8 +29,8 @@ void Slabs::cut(PointsView own) {
   const Index stride = std::max<Index>(1, partition_.total() / sample_size);
   std::vector<double> heights;
   for (Index i = partition_.first_of_every(stride); i < own.size(); i += stride)
-    heights.push_back(height(own[i]));
-  const auto sampled = partition_.gather(heights);
+    if (own[i].allFinite()) heights.push_back(height(own[i]));
+  const auto sampled = all_gather(partition_.processes(), heights);
   heights.clear();
   double rising = 0;
   for (std::size_t process = 0; process < sampled.size(); ++process) {
@@ -57,7 +51,7 @@ void Slabs::cut(PointsView own) {
 }
 
 void Slabs::redistribute(PointsView own, const Context& context) {
-  const Communicator& processes = *partition_.processes();
+  const Communicator& processes = partition_.processes();
   sent_.resize(processes.size());
   interruptible_for(context, own.size(), [&](Index i) {
     const auto slab = std::upper_bound(cuts_.begin(), cuts_.end(), height(own[i]));
@@ -67,11 +61,10 @@ void Slabs::redistribute(PointsView own, const Context& context) {
   std::vector<Index> counts;
   for (int process = 0; process < processes.size(); ++process) counts.push_back(sent(process));
   received_ = {0};
-  for (const std::vector<Index>& theirs : partition_.gather(counts))
+  for (const std::vector<Index>& theirs : all_gather(partition_.processes(), counts))
     received_.push_back(received_.back() + theirs[processes.rank()]);
   moved_.resize(received_.back(), 3);
   numbers_.resize(received_.back());
-  points_ = PointsView(moved_);
 
   struct Moved {
     Vector3 point;

@@ -11,8 +11,7 @@
 namespace symsurf {
 
 /// A point set redistributed over its processes by space: one slab each, of about as many points.
-/// Slabs across a mirror hold most points with their partners. In one process the single slab is
-/// the point set where it lies.
+/// Slabs across a mirror hold most points with their partners.
 class Slabs {
  public:
   /// Along a unit vector or against it, whichever moves fewer points. `centre` and `diagonal`: of
@@ -24,20 +23,18 @@ class Slabs {
   Slabs& operator=(const Slabs&) = delete;
 
   /// Of this process's slab, in the order of their numbers.
-  PointsView points() const { return points_; }
+  PointsView points() const { return moved_; }
 
   /// The index of a point of the slab among those of all processes before redistribution.
-  Index number(Index i) const { return numbers_.empty() ? i : numbers_[i]; }
+  Index number(Index i) const { return numbers_[i]; }
 
   /// A lower bound of the distance from x to the points of that process's slab.
   double distance(const Vector3& x, int process) const;
-  /// The same of this process's slab.
-  double distance(const Vector3& x) const { return distance(x, rank_); }
 
   const Partition& partition() const { return partition_; }
 
   /// Sends item(k) of each point k of the slab to the process that had it, as its point i, and
-  /// calls take(i, item) there. Collective, of several processes.
+  /// calls take(i, item) there. Collective.
   template <typename T, typename Item, typename Take>
   void send_back(const Item& item, const Take& take) const;
 
@@ -49,11 +46,9 @@ class Slabs {
   void redistribute(PointsView own, const Context& context);
 
   Partition partition_;
-  int rank_ = 0;
   Vector3 along_, centre_;
   double rounding_;           // of a height
   std::vector<double> cuts_;  // the lower ends of all slabs but the first
-  PointsView points_;
   Points moved_;
   std::vector<Index> numbers_;
   std::vector<std::vector<std::int32_t>> sent_;  // the points this process had, by their new one
@@ -63,7 +58,7 @@ class Slabs {
 template <typename T, typename Item, typename Take>
 void Slabs::send_back(const Item& item, const Take& take) const {
   all_to_all<T>(
-      *partition_.processes(), [&](int process) { return received(process); },
+      partition_.processes(), [&](int process) { return received(process); },
       [&](int process) { return sent(process); },
       [&](int process, Index k) { return item(received_[process] + k); },
       [&](int process, Index k, const T& theirs) { take(sent_[process][k], theirs); });

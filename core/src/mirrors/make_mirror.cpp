@@ -41,7 +41,7 @@ std::shared_ptr<Mirror> fitted_sphere(PointsView points, const PrincipalFrame& f
 std::shared_ptr<Mirror> mirror_through(PointsView points, double tolerance) {
   if (!points.matrix().allFinite()) throw InvalidInput("the points of a mirror must be finite");
   if (points.size() < 3) return nullptr;
-  const PrincipalFrame frame = principal_frame(points, Partition(points.size()), Context());
+  const PrincipalFrame frame = principal_frame(points, Context());
   const double limit = tolerance * frame.size;
   if (!(std::sqrt(frame.variance[1]) > limit)) return nullptr;
   const Vector3 normal = frame.axes.col(2);

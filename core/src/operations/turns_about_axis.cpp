@@ -179,7 +179,6 @@ std::optional<double> covering_turn(PointsView points, TrianglesView faces,
   Cloud cloud;
   cloud.points = points;
   cloud.faces = faces;
-  cloud.partition = Partition(points.size());
   SurfaceSamples samples;
   if (!faces.empty()) samples.apply(cloud, context);
   validate(cloud, 1, context);

@@ -38,13 +38,13 @@ constexpr double vicinity = 0.08;  // of the cloud's size: what density is compa
 
 Points sampled_of(const Cloud& cloud, Index wanted, const Context& context) {
   const double share =
-      std::min(1.0, static_cast<double>(wanted) / static_cast<double>(cloud.partition.total()));
+      std::min(1.0, static_cast<double>(wanted) / static_cast<double>(cloud.points.size()));
   std::vector<Vector3> chosen;
   interruptible_for(context, cloud.points.size(), [&](Index i) {
     const Vector3 x = cloud.points[i];
     if (is_chosen(hash_of(x), share)) chosen.push_back(x);
   });
-  return rows_of(cloud.partition.concatenate(chosen));
+  return rows_of(chosen);
 }
 
 // Some of the cloud's points, and their neighbourhoods.
@@ -197,10 +197,6 @@ std::vector<Index> boundary_of(const Cloud& cloud, const Context& context) {
     if (is_boundary[v]) boundary.push_back(tree.order()[positions[v]]);
   std::sort(boundary.begin(), boundary.end());
   return boundary;
-}
-
-bool BoundaryExtraction::needs_whole(const Cloud& cloud, const Context& context) const {
-  return is_volumetric(cloud, context);
 }
 
 bool BoundaryExtraction::apply(Cloud& cloud, const Context& context) {

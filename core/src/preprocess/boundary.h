@@ -8,7 +8,6 @@
 namespace symsurf {
 
 /// Whether the points fill bodies, as the voxels of a mask do, rather than lie on surfaces.
-/// Collective.
 bool is_volumetric(const Cloud& cloud, const Context& context);
 
 /// The points of a volumetric cloud that have others on one side only, ascending.
@@ -25,7 +24,6 @@ class BoundaryExtraction : public Stage {
       : minimum_points_(minimum_points), keep_interior_(keep_interior), values_(values) {}
 
   /// Of a volumetric cloud.
-  bool needs_whole(const Cloud& cloud, const Context& context) const override;
   bool apply(Cloud& cloud, const Context& context) override;
   void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 

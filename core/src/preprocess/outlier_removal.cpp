@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -20,11 +21,10 @@ constexpr double least_part = 0.05, least_share = 0.85, most_extent = 0.5;
 // The cells over a cloud that hold its body, or touch it.
 class Body {
  public:
-  Body(PointsView own, const Partition& partition, const PrincipalFrame& frame,
-       const Context& context)
+  Body(PointsView points, const PrincipalFrame& frame, const Context& context)
       : frame_(frame), grid_(frame.low, frame.high, edge) {
-    Counts counts = counts_of(own, partition, context);
-    count_duplicates_once(own, partition, counts);
+    Counts counts = counts_of(points, context);
+    count_duplicates_once(points, counts);
     total_ = counts.sum();
     holding_.assign(counts.size(), false);
     VoxelGrid::Cell low = grid_.cell_of(frame.high), high = grid_.cell_of(frame.low);
@@ -55,36 +55,35 @@ class Body {
 
   Index voxel_of(const Vector3& x) const { return grid_.index(grid_.cell_of(frame_.to_frame(x))); }
 
-  Counts counts_of(PointsView own, const Partition& partition, const Context& context) const {
+  Counts counts_of(PointsView points, const Context& context) const {
     constexpr Index grain = 1 << 16;
     const Counts none = Counts::Zero(grid_.size());
-    return partition.sum(
-        parallel_sum(context, own.size(), grain, none, [&](Index begin, Index end) {
-          Counts counts = none;
-          for (Index i = begin; i < end; ++i) ++counts[voxel_of(own[i])];
-          return counts;
-        }));
+    return parallel_sum(context, points.size(), grain, none, [&](Index begin, Index end) {
+      Counts counts = none;
+      for (Index i = begin; i < end; ++i) ++counts[voxel_of(points[i])];
+      return counts;
+    });
   }
 
   // Pixels without depth, written as the origin, are often more than any part of the body.
-  void count_duplicates_once(PointsView own, const Partition& partition, Counts& counts) const {
+  void count_duplicates_once(PointsView points, Counts& counts) const {
     const double many = least_part * static_cast<double>(counts.sum());
     for (Index k = 0; k < counts.size(); ++k) {
       if (static_cast<double>(counts[k]) < many || counts[k] < 2) continue;
       Index around = 0;
       grid_.for_each_touching(k, [&](Index other) { around += counts[other]; });
-      if (around == counts[k] && are_equal_in(own, k, partition)) counts[k] = 1;
+      if (around == counts[k] && are_equal_in(points, k)) counts[k] = 1;
     }
   }
 
-  bool are_equal_in(PointsView own, Index voxel, const Partition& partition) const {
-    std::vector<Vector3> distinct;
-    for (Index i = 0; i < own.size() && distinct.size() < 2; ++i)
-      if (voxel_of(own[i]) == voxel && (distinct.empty() || own[i] != distinct.front()))
-        distinct.push_back(own[i]);
-    distinct = partition.concatenate(distinct);
-    return std::all_of(distinct.begin(), distinct.end(),
-                       [&](const Vector3& x) { return x == distinct.front(); });
+  bool are_equal_in(PointsView points, Index voxel) const {
+    std::optional<Vector3> first;
+    for (Index i = 0; i < points.size(); ++i) {
+      if (voxel_of(points[i]) != voxel) continue;
+      if (!first) first = points[i];
+      if (points[i] != *first) return false;
+    }
+    return true;
   }
 
   // The cells of all connected parts with more points than outliers have, and than would come
@@ -126,7 +125,7 @@ bool fills_area(const PrincipalFrame& frame) {
 }  // namespace
 
 bool OutlierRemoval::apply(Cloud& cloud, const Context& context) {
-  const bool merge = cloud.partition.sum(Index{has_many_duplicates(cloud.points, context)}) > 0;
+  const bool merge = has_many_duplicates(cloud.points, context);
   const DistinctPoints distinct = merge ? distinct_points(cloud.points, context) : DistinctPoints();
   const Points positions = merge ? chosen_rows(cloud.points, distinct.first) : Points(0, 3);
   const PointsView points = merge ? PointsView(positions) : cloud.points;
@@ -145,9 +144,8 @@ bool OutlierRemoval::apply(Cloud& cloud, const Context& context) {
 // Of these points of the cloud, ascending.
 std::vector<Index> OutlierRemoval::outliers_of(PointsView points, const Cloud& cloud,
                                                const Context& context) const {
-  const Partition whole = cloud.partition.resized(points.size());
-  const bool merged = whole.total() < cloud.partition.total();
-  Body body(points, whole, merged ? principal_frame(points, whole, context) : cloud.frame, context);
+  const bool merged = points.size() < cloud.points.size();
+  Body body(points, merged ? principal_frame(points, context) : cloud.frame, context);
   const double share = least_share * static_cast<double>(body.total());
   const Index least = std::max(minimum_points_, static_cast<Index>(std::ceil(share)));
   std::vector<Index> own;
@@ -161,10 +159,9 @@ std::vector<Index> OutlierRemoval::outliers_of(PointsView points, const Cloud& c
       if (is_known || !body.holds(points[i])) own.push_back(i);
     });
     const Points left = without(points, own);
-    const Partition partition = whole.resized(left.rows());
-    const PrincipalFrame frame = principal_frame(left, partition, context);
+    const PrincipalFrame frame = principal_frame(left, context);
     if (!fills_area(frame)) return known;
-    body = Body(left, partition, frame, context);
+    body = Body(left, frame, context);
   }
   return own;
 }

@@ -16,7 +16,6 @@ struct Preprocessing {
   bool remove_outliers = true, sample_faces = true, merge_duplicates = true,
        extract_boundary = true;
   bool order_points = false;  ///< by position: where the method takes the first of equals
-  bool distributed = false;   ///< the method runs on a distributed cloud; others get all points
   /// Whether the boundary of this volumetric cloud is not extracted after all. Null: never.
   bool (*keep_interior)(const Cloud&, const ParameterValues&, const Context&) = nullptr;
 
@@ -32,11 +31,8 @@ class Stage {
  public:
   virtual ~Stage() = default;
 
-  /// Whether the stage takes a cloud that is in one process only. Collective.
-  virtual bool needs_whole(const Cloud&, const Context&) const { return false; }
-
   /// Makes the cloud what the next stage gets, to be validated anew; false: nothing to change. The
-  /// cloud's new rows live as long as the stage. Collective.
+  /// cloud's new rows live as long as the stage.
   virtual bool apply(Cloud& cloud, const Context& context) = 0;
 
   /// Makes the result of the changed cloud that of the cloud given.

@@ -17,8 +17,6 @@ namespace symsurf {
 
 bool RowRemoval::remove(Cloud& cloud, const std::vector<Index>& own) {
   removed_ = own;
-  for (Index& i : removed_) i += cloud.partition.first();
-  removed_ = cloud.partition.concatenate(removed_);
   if (removed_.empty()) return false;
   faces_ = without(cloud.faces, own, cloud.points.size());
   cloud.faces = faces_;
@@ -80,14 +78,12 @@ bool NonfiniteRemoval::apply(Cloud& cloud, const Context&) {
   if (!refuse_ && is_numerable(own.size()) && !are_finite(own))
     for (Index i = 0; i < own.size(); ++i)
       if (!own[i].allFinite()) nonfinite.push_back(i);
-  const Partition& partition = cloud.partition;
-  const Index count = partition.sum(static_cast<Index>(nonfinite.size()));
-  if (count == 0) return false;
-  partition.require([&] { require_normals(own, cloud.normals, partition.first()); });
-  const Index left = partition.total() - count;
+  if (nonfinite.empty()) return false;
+  require_normals(own, cloud.normals);
+  const Index left = own.size() - static_cast<Index>(nonfinite.size());
   const Index needed = needed_points(cloud, minimum_points_);
   if (left < needed)
-    throw InvalidInput(std::to_string(left) + " of " + std::to_string(partition.total()) +
+    throw InvalidInput(std::to_string(left) + " of " + std::to_string(own.size()) +
                        " points given are finite; at least " + std::to_string(needed) +
                        (needed == 1 ? " is needed" : " are needed"));
   return remove(cloud, nonfinite);

@@ -25,7 +25,7 @@ class RowRemoval : public Stage {
 
  private:
   const char* statistic_;
-  std::vector<Index> removed_;  // of all processes, ascending
+  std::vector<Index> removed_;  // ascending
   Triangles faces_;
 };
 

@@ -44,17 +44,16 @@ std::uint64_t key_of(const Vector3& x, std::size_t split) {
 }
 
 std::vector<Drawn> drawn_points(const Cloud& cloud, const Surfels& surface, std::size_t split) {
-  const double share = std::min(
-      1.0, static_cast<double>(most_points) / static_cast<double>(cloud.partition.total()));
+  const double share =
+      std::min(1.0, static_cast<double>(most_points) / static_cast<double>(cloud.points.size()));
   const auto most_key = static_cast<std::uint64_t>(share * 0x1p63);
-  std::vector<Drawn> own;
+  std::vector<Drawn> all;
   for (Index i = 0; i < cloud.points.size(); ++i) {
     const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
     if (const std::uint64_t key = key_of(x, split);
         key >> 1 <= most_key && surface.containing(x) >= 0)
-      own.push_back({key, x});
+      all.push_back({key, x});
   }
-  std::vector<Drawn> all = cloud.partition.concatenate(own);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -15,8 +15,7 @@ struct ThinnedHalf {
 };
 
 /// A cloud split at random into halves. How well one says what the other says is the most that a
-/// mirror image can. Copies of a point are one point, clutter is left out. The same on all
-/// processes; collective.
+/// mirror image can. Copies of a point are one point, clutter is left out.
 struct CloudHalves {
   /// `surface`: what lies in none of its cells is clutter. `split`: which of several.
   CloudHalves(const Cloud& cloud, const Surfels& surface, std::size_t split);

@@ -37,7 +37,7 @@ class DistributedMatching {
         mirror_(mirror),
         limit_(limit),
         context_(context),
-        processes_(*slabs.partition().processes()),
+        processes_(slabs.partition().processes()),
         found_(find_partners(slabs.points(), *tree_, mirror, limit, context)) {
     for_each_pair(processes_, [&](int other) { consult(other); });
     tree_.reset();
@@ -123,20 +123,20 @@ class DistributedMatching {
 };
 
 // All points that this process had get a row; -1 for the partner of one that has none.
-void send_back(Result& result, const Cloud& cloud, const Slabs& slabs,
+void send_back(Result& result, PointsView own, Index first, const Slabs& slabs,
                const DistributedMatching& matching) {
-  const Index size = cloud.points.size();
+  const Index size = own.size();
   // The largest first, into the space that the tree left.
   result.surface_points.resize(size, 3);
   result.pairs.resize(size, 2);
   result.residuals.resize(size);
-  slabs.send_back<Partner>(
-      [&](Index k) { return matching[k]; },
-      [&](Index i, const Partner& partner) {
-        result.surface_points.row(i) = (cloud.points[i] + partner.point).transpose() / 2;
-        result.pairs.row(i) << cloud.partition.first() + i, partner.neighbour.index;
-        result.residuals[i] = std::sqrt(partner.neighbour.squared_distance);
-      });
+  slabs.send_back<Partner>([&](Index k) { return matching[k]; },
+                           [&](Index i, const Partner& partner) {
+                             result.surface_points.row(i) =
+                                 (own[i] + partner.point).transpose() / 2;
+                             result.pairs.row(i) << first + i, partner.neighbour.index;
+                             result.residuals[i] = std::sqrt(partner.neighbour.squared_distance);
+                           });
 }
 
 void drop_unpaired(Result& result) {
@@ -150,13 +150,9 @@ void drop_unpaired(Result& result) {
 
 }  // namespace
 
-void add_pairs(Result& result, const Cloud& cloud, const Slabs& slabs, PointTree&& tree,
-               const ParameterValues& values, const Context& context) {
-  if (!slabs.partition().processes())
-    return add_pairs(result, cloud, std::move(tree), values, context);
-  if (!values.boolean("pairs")) return;
-  const double limit = values.real("pair_distance") * cloud.diagonal;
-  send_back(result, cloud, slabs,
+void add_pairs(Result& result, PointsView own, const Slabs& slabs, PointTree&& tree, double limit,
+               const Context& context) {
+  send_back(result, own, slabs.partition().first(), slabs,
             DistributedMatching(slabs, std::move(tree), *result.mirror, limit, context));
   drop_unpaired(result);
 }

@@ -110,7 +110,7 @@ MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const 
       points_(points),
       tolerance_{cloud.tolerance, far_off * cloud.tolerance},
       coarse_(cloud, sample_count, context.stage(0, 0.5)) {
-  const Index splits = std::clamp<Index>(many / cloud.partition.total(), 1, most_splits);
+  const Index splits = std::clamp<Index>(many / cloud.points.size(), 1, most_splits);
   for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, coarse_, k);
   radius_ = radius_for(splits_.front());
   // A surface is no mirror of the noise on its two sides.

@@ -56,7 +56,7 @@ struct PointFit {
 /// as all do of a mesh that the mirror maps onto itself.
 class MirrorScore {
  public:
-  /// The cloud and its points must outlive the score. Collective, as all that follows.
+  /// The cloud and its points must outlive the score.
   MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }

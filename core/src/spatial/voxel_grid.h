@@ -166,18 +166,10 @@ class VoxelGrid {
 /// 1989).
 class OccupiedVoxels : public VoxelGrid {
  public:
-  using Words = std::vector<std::uint64_t>;
-
   OccupiedVoxels() = default;
   explicit OccupiedVoxels(const VoxelGrid& grid) : VoxelGrid(grid), words_(size() / bits + 1) {}
 
   void occupy(const Cell& c) { words_[index(c) / bits] |= bit(index(c)); }
-
-  /// The same voxels as another of the same grid.
-  void occupy(const Words& words) {
-    for (std::size_t w = 0; w < words.size(); ++w) words_[w] |= words[w];
-  }
-  const Words& words() const { return words_; }
 
   /// To be called when all are occupied, and before any is asked for.
   void number_them() {
@@ -222,7 +214,7 @@ class OccupiedVoxels : public VoxelGrid {
     return words_[index / bits] & bit(index) ? before(index) : -1;
   }
 
-  Words words_;
+  std::vector<std::uint64_t> words_;
   std::vector<std::int32_t> before_;  // each word
   Index count_ = 0;
 };

@@ -142,7 +142,6 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   cloud.points = points;
   cloud.faces = options.faces;
   cloud.colours = options.colours;
-  cloud.partition = Partition(points.size());
   NonfiniteRemoval removal(analysis.minimum_points, options.refuse_nonfinite);
   const Context before = context.stage(0, 0);  // no progress worth telling
   std::vector<Index> kept;

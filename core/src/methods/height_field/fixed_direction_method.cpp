@@ -94,7 +94,7 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   add_pairs(result, cloud, std::move(tree), values, context.stage(0.8, 0.9));
   result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 0.95));
   const double working_share =
-      static_cast<double>(work.size()) / static_cast<double>(cloud.partition.total());
+      static_cast<double>(work.size()) / static_cast<double>(cloud.points.size());
   keep_consistent_pairs(result, work.spacing * std::sqrt(working_share) * frame.size,
                         context.stage(0.95, 1));
   return result;

@@ -56,7 +56,7 @@ Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Su
       points_(points),
       coarse_(coarse),
       fine_(fine),
-      spacing_(coarse.spacing_of(cloud.partition.total())) {
+      spacing_(coarse.spacing_of(cloud.points.size())) {
   for (Index k = 0; k < fine.size(); ++k) {
     const Vector3& x = fine[k].sampled;
     if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});

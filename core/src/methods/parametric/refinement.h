@@ -31,7 +31,7 @@ inline constexpr Index samples_a_patch = 12;
 /// mirrored and meet the nearest of all points.
 class Refinement {
  public:
-  /// The surfels give the normals, at each position the flattest. Collective, as all that follows.
+  /// The surfels give the normals, at each position the flattest.
   Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
              const Surfels& fine);
 

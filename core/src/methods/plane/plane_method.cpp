@@ -4,18 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "base/eigenvectors.h"
 #include "base/nelder_mead.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
 #include "cloud/surface_points.h"
-#include "distributed/slabs.h"
 #include "methods/parametric/hypotheses.h"
 #include "methods/parametric/refinement.h"
 #include "methods/parametric/shapes.h"
 #include "methods/plane/plane_candidates.h"
 #include "methods/registry.h"
-#include "score/distributed_matching.h"
 #include "score/matching.h"
 #include "score/mirror_score.h"
 #include "spatial/nearest_points.h"
@@ -132,12 +129,6 @@ class FullCloud {
   const MirrorScore& score_;
 };
 
-// Where the cloud extends most along the mirror: slabs across it hold points with their partners.
-Vector3 along_mirror(const UnitPlane& plane, const PrincipalFrame& frame) {
-  const Matrix3 onto = Matrix3::Identity() - plane.normal * plane.normal.transpose();
-  return frame.axes * eigen_of(Matrix3(onto * frame.variance.asDiagonal() * onto)).vectors.col(2);
-}
-
 // Of planes that score alike, as those of a box do, the one across the longer extent comes first,
 // whatever the order of the points.
 void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) {
@@ -217,11 +208,8 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const std::vector<PlaneCandidate> promising =
       promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
-  const Slabs slabs(cloud.points, cloud.partition,
-                    along_mirror(promising.front().shape, cloud.frame), cloud.frame.centroid,
-                    cloud.diagonal, context.stage(0.25, 0.3));
-  PointTree tree(slabs.points(), context.stage(0.3, 0.4));
-  const NearestPoints points(slabs, tree, context);
+  PointTree tree(cloud.points, context.stage(0.25, 0.4));
+  const NearestPoints points(cloud.points, tree, context);
   const Refinement refinement(cloud, points, coarse, fine);
   const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
   const auto ranked = [&](std::vector<UnitPlane> planes) {
@@ -263,7 +251,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
-  add_pairs(best, cloud, slabs, std::move(tree), values, context.stage(0.55, 1));
+  add_pairs(best, cloud, std::move(tree), values, context.stage(0.55, 1));
   return best;
 }
 
@@ -280,7 +268,6 @@ MethodImplementation plane_method() {
       pair_distance(),
   };
   method.automatic = true;
-  method.preprocessing = {.distributed = true};
   method.reports_unpaired_points = true;
   method.reports_mean_residual = true;
   method.run = run_plane;

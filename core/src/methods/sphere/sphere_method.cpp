@@ -47,7 +47,6 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   if (static_cast<double>(unpaired.rows()) < least) return {};
   Cloud rest = cloud;
   rest.points = unpaired;
-  rest.partition = Partition(unpaired.rows());
   rest.normals = {};
   const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
   const PointTree tree(rest.points, context.stage(0.2, 0.2));

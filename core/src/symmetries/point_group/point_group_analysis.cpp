@@ -155,7 +155,6 @@ void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
   Cloud cloud;
   cloud.points = points;
   cloud.faces = faces;
-  cloud.partition = Partition(points.size());
   run_pipeline(searching, {}, cloud, refuse_nonfinite, context);
 }
 
