@@ -115,100 +115,32 @@ void explore(const SearchCloud& cloud, std::vector<Growth> trials, double others
 
 constexpr int last_rounds = 8;
 constexpr std::size_t most_refined = 3;
-constexpr double least_rank = 0.7;  // of the best; others are not refined
+constexpr double worth_refining = 0.7;  // support, of the best
 
-// Of mirrors with about the same support the curved one comes first: planes have their own method.
-double rank(const GrownSurface& surface) { return (is_flat(surface) ? 0.85 : 1) * surface.support; }
-bool ranks_higher(const GrownSurface& a, const GrownSurface& b) { return rank(a) > rank(b); }
-
-// How closely the points that a surface carries fit their partners, in the mean.
-double precision(const SearchCloud& cloud, const GrownSurface& surface) {
-  return surface.support * static_cast<double>(cloud.size()) /
-         static_cast<double>(surface.carried.size());
+bool has_more_support(const GrownSurface& a, const GrownSurface& b) {
+  return a.support > b.support;
 }
 
-// The side of the surface a point is on: 1, -1 or 0 for a point that the surface does not carry.
-std::vector<signed char> sides(const SearchCloud& cloud, const GrownSurface& surface) {
-  std::vector<signed char> side(cloud.size(), 0);
-  for (std::size_t k = 0; k < surface.points.size(); ++k)
-    side[surface.points[k]] = surface.carried[k].distance > 0 ? 1 : -1;
-  return side;
-}
-
-// The sum of agreeing less disagreeing sides between neighbours, one in each surface.
-int correspondence(const SearchCloud& cloud, const std::vector<signed char>& a,
-                   const std::vector<signed char>& b) {
-  int votes = 0;
-  for (Index i = 0; i < cloud.size(); ++i) {
-    if (a[i] == 0) continue;
-    for (int k = 0; k < SearchCloud::ring; ++k) votes += a[i] * b[cloud.neighbours(i, k)];
-  }
-  return votes;
-}
-
-// Adds what `piece` carries and `whole` does not; false when that is too little.
-bool add(const SearchCloud& cloud, const GrownSurface& piece, GrownSurface& whole) {
-  const std::vector<signed char> mine = sides(cloud, whole), other = sides(cloud, piece);
-  std::vector<std::size_t> gained;
-  for (std::size_t k = 0; k < piece.points.size(); ++k)
-    if (mine[piece.points[k]] == 0) gained.push_back(k);
-  if (static_cast<double>(gained.size()) < 0.03 * static_cast<double>(cloud.size()) ||
-      2 * gained.size() < piece.points.size())
-    return false;
-  const double turn = correspondence(cloud, mine, other) < 0 ? -1 : 1;
-  for (const std::size_t k : gained) {
-    Carried c = piece.carried[k];
-    c.normal *= turn;
-    c.distance *= turn;
-    whole.carried.push_back(c);
-    whole.points.push_back(piece.points[k]);
-    whole.partners.push_back(piece.partners[k]);
-  }
-  return true;
-}
-
-GrownSurface whole_from(const SearchCloud& cloud, const std::vector<GrownSurface>& surfaces,
-                        std::size_t first) {
-  GrownSurface whole = surfaces[first];
-  bool grown = false;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (k == first || surfaces[k].exact != whole.exact) continue;
-    if (precision(cloud, surfaces[k]) < 0.8 * precision(cloud, surfaces[first])) continue;
-    grown = add(cloud, surfaces[k], whole) || grown;
-  }
-  if (grown) whole.mirror = nullptr;
-  return whole;
-}
-
-// Joins surfaces that are pieces of one mirror, parted by a crease, a hole or a gap: each mirrors
-// points that the others do not. Gives whole mirrors, the one of the most support first (planes
-// behind curved mirrors of about as much).
-std::vector<GrownSurface> assemble(const SearchCloud& cloud, std::vector<GrownSurface> surfaces,
-                                   const Context& context) {
-  std::stable_sort(surfaces.begin(), surfaces.end(), ranks_higher);
-  std::vector<GrownSurface> wholes;
+// Refines the best to the end. The one of the most support comes first.
+void refine_best(const SearchCloud& cloud, std::vector<GrownSurface>& surfaces,
+                 const Context& context) {
+  std::stable_sort(surfaces.begin(), surfaces.end(), has_more_support);
+  const double least = surfaces.empty() ? 0 : worth_refining * surfaces[0].support;
   for (std::size_t k = 0; k < std::min(surfaces.size(), most_refined); ++k) {
     context.report(static_cast<double>(k) / most_refined);
-    if (rank(surfaces[k]) < least_rank * rank(surfaces[0])) break;
-    const bool laid = surfaces[k].support >= 1;
-    if (laid || (surfaces[k].bent && !surfaces[k].exact)) {
-      wholes.push_back(surfaces[k]);
-      continue;
-    }
-    GrownSurface whole = whole_from(cloud, surfaces, k);
-    refine(cloud, last_rounds, whole);
-    wholes.push_back(whole.mirror && whole.support > surfaces[k].support ? std::move(whole)
-                                                                         : surfaces[k]);
+    const GrownSurface& surface = surfaces[k];
+    if (surface.support < least) break;
+    const bool laid = surface.support >= 1;
+    if (laid || (surface.bent && !surface.exact)) continue;
+    GrownSurface refined = surface;
+    refine(cloud, last_rounds, refined);
+    if (refined.mirror && refined.support > surface.support) surfaces[k] = std::move(refined);
   }
-  for (std::size_t k = wholes.size(); k < surfaces.size(); ++k)
-    wholes.push_back(std::move(surfaces[k]));
-  std::stable_sort(wholes.begin(), wholes.end(), ranks_higher);
-  return wholes;
+  std::stable_sort(surfaces.begin(), surfaces.end(), has_more_support);
 }
 
 constexpr std::size_t few_trials = 6;
 constexpr double close_as_exact = 0.9;  // on bodies whose sides have points of their own: 0.8
-constexpr double enough_exact = 0.3;  // support on exact partners, from which on no planes are bent
 
 double best_closeness(const std::vector<Growth>& trials) {
   return trials.empty() ? 0 : trials.front().closeness();
@@ -243,12 +175,8 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   const double others = most_support(bent);
   explore(search.cloud, std::move(along), others, search.surfaces, context.stage(0.75, 0.8));
   explore(search.cloud, std::move(across), others, search.surfaces, context.stage(0.8, 0.85));
-  const bool found = std::any_of(
-      search.surfaces.begin(), search.surfaces.end(),
-      [](const GrownSurface& surface) { return surface.exact && surface.support > enough_exact; });
-  if (exact && !found && !laid) bend_planes(cloud, search.cloud, bent, context.stage(0.85, 0.9));
   std::move(bent.begin(), bent.end(), std::back_inserter(search.surfaces));
-  search.surfaces = assemble(search.cloud, std::move(search.surfaces), context.stage(0.9, 1));
+  refine_best(search.cloud, search.surfaces, context.stage(0.85, 1));
   return search;
 }
 
