@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import resource
 import subprocess
 import sys
@@ -85,7 +86,9 @@ def dask_seconds(count: int, workers: int) -> float:
         meta=np.empty((0, 3)),
     )
     with (
-        distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1, dashboard_address=None
+        ) as cluster,
         distributed.Client(cluster),
     ):
         symsurf.detect_chunks(blocks[:CHUNK], "plane")  # the workers are there, and have imported
@@ -95,10 +98,11 @@ def dask_seconds(count: int, workers: int) -> float:
 
 
 def measured(kind: str, count: int) -> dict[str, float]:
-    """In a process of its own, whose peak of memory is that of this run alone."""
+    """In a process of its own, whose peak of memory is that of this run alone. Chunks are made on one
+    thread: those of BLAS would wait on the other processor."""
     done = subprocess.run(
         [sys.executable, __file__, "--run", kind, str(count)],
-        check=True, capture_output=True, text=True,
+        check=True, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
     return json.loads(done.stdout)
 

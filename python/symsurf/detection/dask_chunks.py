@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import dask
@@ -10,14 +12,18 @@ import numpy as np
 from .._core import InvalidInput, PointSummary
 
 _BRANCHES = 8  # summaries that one task merges
+_POINTS = (
+    1 << 23
+)  # that one task thins, of as many blocks: a summary has a quarter of a million cells
 
 
 def summary_of(array: Any, cells: int) -> PointSummary:
     """Raises InvalidInput for an array that is not (n, 3)."""
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidInput(f"the array of Dask is {array.shape}; allowed is (n, 3)")
-    blocks = array.rechunk({1: -1}).to_delayed().ravel()
-    parts = [dask.delayed(_thinned)(block, cells) for block in blocks]
+    array = array.rechunk({1: -1})
+    blocks = array.to_delayed().ravel()
+    parts = [dask.delayed(_thinned)(group, cells) for group in _groups(blocks, array.chunks[0])]
     while len(parts) > 1:
         parts = [
             dask.delayed(_merged)(parts[begin : begin + _BRANCHES], cells)
@@ -26,9 +32,23 @@ def summary_of(array: Any, cells: int) -> PointSummary:
     return dask.compute(*parts)[0]
 
 
-def _thinned(block: Any, cells: int) -> PointSummary:
+def _groups(blocks: Any, sizes: Sequence[float]) -> list[list[Any]]:
+    """Blocks that follow each other; each alone where nobody knows how many points it has."""
+    groups: list[list[Any]] = []
+    held = math.inf
+    for block, size in zip(blocks, sizes):
+        if not held + size <= _POINTS:
+            groups.append([])
+            held = 0
+        groups[-1].append(block)
+        held += size
+    return groups
+
+
+def _thinned(blocks: list[Any], cells: int) -> PointSummary:
     summary = PointSummary(cells)
-    summary.add(np.asarray(block, dtype=np.float64))
+    for block in blocks:
+        summary.add(np.asarray(block, dtype=np.float64))
     return summary
 
 
