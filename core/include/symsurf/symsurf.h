@@ -6,5 +6,6 @@
 #include <symsurf/io.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/operations.h>
+#include <symsurf/placement.h>
 #include <symsurf/points.h>
 #include <symsurf/synthetic.h>
