@@ -2,6 +2,7 @@
 #include "parameter_dialog.h"
 
 #include <symsurf/context.h>
+#include <symsurf/placement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,11 +109,12 @@ Parameter threads_parameter() {
 }
 
 void add_parameters(RichParameterList& dialog, const std::vector<Parameter>& described,
-                    double diagonal, bool advanced) {
+                    double diagonal) {
   for (const Parameter& parameter : described) {
     const QString name = QString::fromStdString(parameter.name);
     const QString shown = label(parameter), tip = tooltip(parameter);
     const Value& value = parameter.default_value;
+    const bool advanced = placement(parameter.name).is_advanced;
     switch (parameter.type) {
       case ParameterType::Boolean:
         dialog.addParam(RichBool(name, std::get<bool>(value), shown, tip, advanced));

@@ -14,9 +14,9 @@ Parameter only_selected_parameter();
 Parameter threads_parameter();
 
 /// Appends an entry for each described parameter, in order. Those in units of the diagonal become
-/// percentages of `diagonal`. `advanced` ones MeshLab folds away.
+/// percentages of `diagonal`. Advanced ones MeshLab folds away.
 void add_parameters(RichParameterList& dialog, const std::vector<Parameter>& described,
-                    double diagonal, bool advanced = false);
+                    double diagonal);
 
 /// What the dialog says about the described parameters, in the core's types and units; the core
 /// checks the ranges. MeshLab carries numbers as 32-bit floats, so a number is read as the shortest

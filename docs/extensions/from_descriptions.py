@@ -189,7 +189,7 @@ def _said(described: ElementTree.Element) -> str:
     choices = [choice.get("value") for choice in described.iter("String")]
     if not choices:
         return text
-    return text.split(f" {choices[0]}: ")[0] + f" One of {', '.join(choices)}."
+    return text.split(f" - {choices[0]}: ")[0] + f" One of {', '.join(choices)}."
 
 
 def meshlab() -> str:

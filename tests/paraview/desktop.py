@@ -76,6 +76,20 @@ class Desktop:
             self.wait_until(lambda now, before=before: not np.array_equal(now, before))
             self.settle(rest=0.5)
 
+    def click(self, x: int, y: int) -> None:
+        self._do("xdotool", "mousemove", str(x), str(y), "click", "1")
+
+    def drag(self, start: tuple[int, int], end: tuple[int, int]) -> None:
+        middle = ((start[0] + end[0]) // 2, (start[1] + end[1]) // 2)
+        for place, *words in (
+            (start, "mousedown", "1"),
+            (middle,),
+            (end,),
+            (end, "sleep", "0.5", "mouseup", "1"),
+        ):
+            x, y = map(str, place)
+            self._do("xdotool", "mousemove", x, y, "sleep", "0.3", *words)
+
     def wait_until(self, shown: Callable[[np.ndarray], bool], patience: float = 60) -> np.ndarray:
         """Waits until `shown` says so of the whole screen's picture; that picture."""
 

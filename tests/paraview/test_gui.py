@@ -13,6 +13,8 @@ import symsurf
 
 # The render view lies to the right of the panels and below the toolbars.
 VIEW = (slice(240, 800), slice(320, 1260))
+HELP_BUTTON = (269, 452)
+HELP_PAGE = (slice(200, 800), slice(300, 960))
 
 
 def colourful(pixels: np.ndarray) -> np.ndarray:
@@ -82,6 +84,23 @@ def test_menu_apply_and_the_asymmetry_is_drawn_about_0(
         for found, half in ((dent, 0), (counterpart, 1)):
             assert 1000 < len(found) < 0.1 * redder.size
             assert (found // (redder.shape[1] // 2) == half).mean() > 0.9
+
+
+def test_the_button_for_help_shows_the_filters_page(
+    environment: dict[str, str], plugin: Path, tmp_path: Path
+) -> None:
+    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
+    shape_file = write_shape(tmp_path / "shape.obj")
+    with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
+        desktop.key("alt+a")
+        desktop.settle()
+        desktop.key(*menu_keys("Mirror Detection"))
+        desktop.settle()
+        desktop.click(*HELP_BUTTON)
+        desktop.wait_until(lambda now: (now[HELP_PAGE] == 255).all(axis=-1).mean() > 0.5)
+        # Tables have long straight lines, ParaView's own front page has none.
+        page = desktop.settle()[HELP_PAGE].max(axis=-1) < 160
+        assert (page.mean(axis=1) > 0.9).sum() > 5
 
 
 def test_picture_of_the_mirror(

@@ -106,4 +106,7 @@ def test_colours_of_the_asymmetry_lie_about_0(
         assert 0 < seen["p99"] < seen["largest"]
         end = max(end, seen["p99"])  # it grows, as ParaView's own ranges do
         assert seen["colours"] == pytest.approx([-end, end], rel=1e-6)
+        assert min(seen["of 0"]) > 0.85 and np.ptp(seen["of 0"]) < 0.02  # white
+    assert answer["legend"] == "Signed asymmetry"
+    assert np.ptp(answer["nan"]) == 0  # grey
     assert answer["own"]["colours"] == [0, 1]

@@ -20,23 +20,29 @@ std::vector<Choice> choices_from(const Descriptions& descriptions) {
   return choices;
 }
 
+// "Mirror alignment" -> "Alignment".
+std::string own_group(const Operation& operation) {
+  return vtk_name(operation.title.substr(operation.title.rfind(' ') + 1));
+}
+
 std::vector<Described> all_described() {
   std::vector<Described> all{
       {"vtkMirrorDetection", "vtkSharedShapeAlgorithm", "Method", "How the mirror is sought.",
-       choices_from(methods())},
+       "Search", choices_from(methods())},
       {"vtkMirrorSampleSource", "vtkShapeAlgorithm", "Generator", "How the points are made.",
-       choices_from(generators())},
-      {"vtkPointDamage", "vtkShapeAlgorithm", "Damage", "What is done to the points.",
+       "Sample", choices_from(generators())},
+      {"vtkPointDamage", "vtkShapeAlgorithm", "Damage", "What is done to the points.", "Damage",
        choices_from(damages())},
-      {"vtkMirrorReflection", "vtkShapeAlgorithm", "", "", {}},
+      {"vtkMirrorReflection", "vtkShapeAlgorithm", "", "", "", {}},
       {"vtkSymmetryAnalysis", "vtkSharedShapeAlgorithm", "Analysis", "Which symmetries are sought.",
-       choices_from(analyses())},
+       "Analysis", choices_from(analyses())},
   };
   for (const Operation& operation : operations())
     all.push_back({"vtk" + filter_name(operation),
                    "vtkMirrorOperation",
                    "",
                    "",
+                   own_group(operation),
                    {{"", operation.summary, operation.parameters}},
                    &operation});
   return all;

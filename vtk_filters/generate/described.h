@@ -24,6 +24,7 @@ struct Described {
   std::string superclass;  ///< of its parameters, or of itself where it has none
   std::string selector;    ///< the property that chooses: "Method"; none for a class of one choice
   std::string selector_doc;
+  std::string group;            ///< heading of its own parameters in ParaView's panel: "Search"
   std::vector<Choice> choices;  ///< the first is the default
   /// Of the filter that runs it: the whole class is made, not only its parameters.
   const Operation* operation = nullptr;

@@ -1,5 +1,7 @@
 #include <symsurf/detect.h>
+#include <symsurf/placement.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <stdexcept>
@@ -82,11 +84,12 @@ Kind kind_of(const Parameter& parameter) {
 }
 
 std::string property(const std::string& name, const Kind& kind, const std::string& doc,
-                     const std::string& hints) {
+                     const std::string& hints, bool is_advanced = false) {
   return "      <" + std::string(kind.element) + attribute("name", name) +
          attribute("command", "Set" + name) +
          attribute("number_of_elements", std::to_string(kind.elements)) +
-         attribute("default_values", kind.default_values) + ">\n" + kind.domain +
+         attribute("default_values", kind.default_values) +
+         (is_advanced ? attribute("panel_visibility", "advanced") : "") + ">\n" + kind.domain +
          "        <Documentation>" + escaped(doc) + "</Documentation>\n" + hints + "      </" +
          kind.element + ">\n";
 }
@@ -99,15 +102,32 @@ std::string choice_property(const std::string& name, const std::vector<std::stri
 std::string selector_property(const Described& d) {
   std::vector<std::string> names;
   for (const Choice& choice : d.choices) names.push_back(choice.name);
-  return choice_property(d.selector, names, selector_documentation(d, " "));
+  // ParaView shows lines that begin with a hyphen as a list.
+  std::string doc = selector_documentation(d, "\n- ");
+  doc.insert(doc.find("\n- "), "\n");
+  return choice_property(d.selector, names, doc);
 }
 
-// Shown while the choice that it belongs to is chosen.
-std::string shown_for(const Described& d, const Choice& choice) {
-  return "        <Hints>\n          <PropertyWidgetDecorator"
-         " type=\"GenericDecorator\" mode=\"visibility\"" +
-         attribute("property", d.selector) + attribute("value", choice.name) +
-         "/>\n        </Hints>\n";
+std::string decorator(const std::string& property, const std::string& value) {
+  return "          <PropertyWidgetDecorator type=\"GenericDecorator\" mode=\"visibility\"" +
+         attribute("property", property) + attribute("value", value) + "/>\n";
+}
+
+// Shown while the choice that it belongs to is chosen, and while it counts.
+std::string shown_for(const Described& d, const Choice& choice, const Placement& place) {
+  std::string text;
+  if (!d.selector.empty()) text += decorator(d.selector, choice.name);
+  if (!place.condition.empty())
+    text += decorator(vtk_name(choice.name) + vtk_name(std::string(place.condition)),
+                      std::string(place.value));
+  return text.empty() ? "" : "        <Hints>\n" + text + "        </Hints>\n";
+}
+
+std::string parameter_property(const Described& d, const Choice& choice,
+                               const Parameter& parameter) {
+  const Placement& place = placement(parameter.name);
+  return property(property_name(choice, parameter), kind_of(parameter), documentation(parameter),
+                  shown_for(d, choice, place), place.is_advanced);
 }
 
 // One of the input's point arrays, or None, which ParaView hands on as it is.
@@ -121,14 +141,44 @@ std::string mask_property() {
                   "");
 }
 
+std::string property_group(const std::string& label, const std::vector<std::string>& names) {
+  std::string text = "      <PropertyGroup" + attribute("label", label) + ">\n";
+  for (const std::string& name : names)
+    text += "        <Property" + attribute("name", name) + "/>\n";
+  return text + "      </PropertyGroup>\n";
+}
+
+// Headings and what stands below each; the filter's own comes first.
+std::string property_groups(const Described& d) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups{{d.group, {}}};
+  if (!d.selector.empty()) groups[0].second.push_back(d.selector);
+  const auto add = [&](const std::string& group, const std::string& name) {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& each) { return each.first == group; });
+    if (found == groups.end())
+      groups.push_back({group, {name}});
+    else
+      found->second.push_back(name);
+  };
+  for (const Choice& choice : d.choices)
+    for (const Parameter& parameter : choice.parameters) {
+      const std::string group(placement(parameter.name).group);
+      add(group.empty() ? d.group : group, property_name(choice, parameter));
+    }
+  if (d.operation && d.operation->takes_mask) add(d.group, "MaskArray");
+  std::string text;
+  for (const auto& [label, names] : groups)
+    if (!names.empty()) text += property_group(label, names);
+  return text;
+}
+
 std::string properties(const Described& d) {
   std::string text = d.selector.empty() ? "" : selector_property(d);
   for (const Choice& choice : d.choices)
     for (const Parameter& parameter : choice.parameters)
-      text += property(property_name(choice, parameter), kind_of(parameter),
-                       documentation(parameter), d.selector.empty() ? "" : shown_for(d, choice));
+      text += parameter_property(d, choice, parameter);
   if (d.operation && d.operation->takes_mask) text += mask_property();
-  return text;
+  return text + property_groups(d);
 }
 
 std::string found_mirror_properties() {
@@ -138,7 +188,7 @@ std::string found_mirror_properties() {
   return choice_property("Method", names,
                          "How the mirror is found where none is connected. Mirror Detection has "
                          "the methods' parameters.") +
-         property("RequireFound", kind_of(require_found), documentation(require_found), "");
+         property("RequireFound", kind_of(require_found), documentation(require_found), "", true);
 }
 
 // What vtkShapeAlgorithm takes, and how it takes an image.
@@ -191,6 +241,10 @@ const char* const shape_input =
                                    name="vtkImageData vtkRectilinearGrid"/>
         </Hints>
       </DoubleVectorProperty>
+      <PropertyGroup label="Image">
+        <Property name="ImageScalars"/>
+        <Property name="ImageThreshold"/>
+      </PropertyGroup>
 )";
 
 // "Mirror asymmetry" -> "Mirror Asymmetry", as ParaView writes its menus.
@@ -207,13 +261,21 @@ std::string output_ports(const Operation& operation) {
          "      <OutputPort index=\"1\" name=\"Patch\"/>\n";
 }
 
+// "Signed asymmetry"
+std::string legend_title(const Operation& operation, const PointArray& array) {
+  std::string text = array.name + operation.title.substr(operation.title.rfind(' '));
+  text[0] = static_cast<char>(std::toupper(text[0]));
+  return text;
+}
+
 // For vtkSMColourRangesProxy.
 std::string colour_ranges(const Operation& operation) {
   std::string text;
   for (const PointArray& array : operation.arrays)
     if (array.is_signed)
       text += "        <ColourRange" + attribute("array", array_name(operation, array.name)) +
-              attribute("limit", "P99") + attribute("signed", "1") + "/>\n";
+              attribute("limit", "P99") + attribute("signed", "1") +
+              attribute("title", legend_title(operation, array)) + "/>\n";
   return text;
 }
 

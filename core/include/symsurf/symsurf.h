@@ -6,6 +6,7 @@
 #include <symsurf/io.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/operations.h>
+#include <symsurf/placement.h>
 #include <symsurf/point_summary.h>
 #include <symsurf/points.h>
 #include <symsurf/synthetic.h>

@@ -19,6 +19,11 @@ def colours():
     return [points[0], points[-4]]
 
 
+def colour_of_0():
+    points = np.reshape(simple.GetColorTransferFunction(NAME).RGBPoints, (-1, 4))
+    return [float(np.interp(0, points[:, 0], points[:, i])) for i in (1, 2, 3)]
+
+
 def shown(depth):
     """The range of the colours once a shape with such a dent is shown, and what it follows."""
     dented.Function = dented.Function.replace(shown.depth, depth)
@@ -27,7 +32,12 @@ def shown(depth):
     simple.Render(view)
     made = fetched(asymmetry)
     largest = float(np.nanmax(np.abs(point_array(made, NAME))))
-    return {"colours": colours(), "p99": field(made)["P99"][0], "largest": largest}
+    return {
+        "colours": colours(),
+        "of 0": colour_of_0(),
+        "p99": field(made)["P99"][0],
+        "largest": largest,
+    }
 
 
 shown.depth = "0.2"
@@ -37,5 +47,7 @@ table = simple.GetColorTransferFunction(NAME)
 table.RescaleTransferFunction(0, 1)  # as a user may
 answers["own"] = shown("0.4")
 representation = simple.GetRepresentation(asymmetry, view)
+answers["nan"] = list(table.NanColor)
+answers["legend"] = simple.GetScalarBar(table, view).Title
 answers["array"] = list(representation.ColorArrayName)
 answer(answers)

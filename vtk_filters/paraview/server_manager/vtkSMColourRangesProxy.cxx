@@ -10,7 +10,11 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMTransferFunctionProxy.h"
 
@@ -36,6 +40,20 @@ double limit_of(vtkPVDataInformation* data, const char* array, const char* limit
   return percentile > rounding * largest ? std::min(percentile, largest) : largest;
 }
 
+// The legend that the active view will show for the colours; a title that somebody gave it stays.
+void set_legend_title(vtkSMTransferFunctionManager* manager, vtkSMProxy* colours,
+                      vtkSMSessionProxyManager* proxies, const char* title) {
+  vtkSMProxySelectionModel* active = proxies->GetSelectionModel("ActiveView");
+  auto* view = vtkSMRenderViewProxy::SafeDownCast(active ? active->GetCurrentProxy() : nullptr);
+  vtkSMProxy* legend = view ? manager->GetScalarBarRepresentation(colours, view) : nullptr;
+  if (!legend || !legend->GetProperty("Title")->IsValueDefault()) return;
+  vtkSMPropertyHelper(legend, "Title").Set(title);
+  vtkSMPropertyHelper(legend, "ComponentTitle").Set("");
+  vtkSMPropertyHelper(legend, "Visibility").Set(0);
+  vtkSMPropertyHelper(legend, "Enabled").Set(0);
+  legend->UpdateVTKObjects();
+}
+
 }  // namespace
 
 void vtkSMColourRangesProxy::PostUpdateData(bool using_cache) {
@@ -55,7 +73,8 @@ void vtkSMColourRangesProxy::SetColours(vtkPVXMLElement* hint) {
   if (limit == 0) return;
 
   vtkNew<vtkSMTransferFunctionManager> manager;
-  vtkSMProxy* colours = manager->GetColorTransferFunction(array, this->GetSessionProxyManager());
+  vtkSMSessionProxyManager* proxies = this->GetSessionProxyManager();
+  vtkSMProxy* colours = manager->GetColorTransferFunction(array, proxies);
   vtkSMPropertyHelper rescaling(colours, "AutomaticRescaleRangeMode");
   if (vtkSMPropertyHelper(colours, "ScalarRangeInitialized").GetAsInt()) {
     const vtkSMPropertyHelper points(colours, "RGBPoints");  // a value and its colour each
@@ -66,8 +85,11 @@ void vtkSMColourRangesProxy::SetColours(vtkPVXMLElement* hint) {
       return;
     limit = std::max(limit, most);
   } else {
+    // White in the middle, whatever the user's settings colour other arrays by.
+    if (is_signed) vtkSMTransferFunctionProxy::ApplyPreset(colours, "Cool to Warm", false);
     const double grey[] = {0.6, 0.6, 0.6};  // yellow, ParaView's own, cries out where nothing is
     vtkSMPropertyHelper(colours, "NanColor").Set(grey, 3);
+    set_legend_title(manager, colours, proxies, hint->GetAttribute("title"));
   }
   rescaling.Set(vtkSMTransferFunctionManager::NEVER);
   colours->UpdateVTKObjects();

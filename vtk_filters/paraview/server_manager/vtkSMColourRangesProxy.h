@@ -2,13 +2,14 @@
  * @class vtkSMColourRangesProxy
  * @brief A filter's proxy that chooses the range of the colours of its arrays.
  *
- * Each hint of the proxy, `<ColourRange array="..." port="..." limit="..." signed="..."/>`, gives a
- * point array of an output port a colour map from 0 to m, or from -m to m where it is signed,
- * whenever the filter has run. m is the value of the field data array that `limit` names, a
- * percentile of the sizes, so that outliers do not take all the colours; the largest size where
- * that is rounding against it, or is not there. Values that are NaN are grey. ParaView does not
- * rescale the map to the data's range by itself; where the user has changed that, or the range, it
- * stays as the user wants it.
+ * Each hint of the proxy, `<ColourRange array="..." port="..." limit="..." signed="..."
+ * title="..."/>`, gives a point array of an output port a colour map from 0 to m, or one from -m to
+ * m that is white at 0 where it is signed, whenever the filter has run. m is the value of the field
+ * data array that `limit` names, a percentile of the sizes, so that outliers do not take all the
+ * colours; the largest size where that is rounding against it, or is not there. Values that are NaN
+ * are grey, and the legend in the active view has the title. ParaView does not rescale the map to
+ * the data's range by itself; where the user has changed that, or the range, it stays as the user
+ * wants it.
  */
 #ifndef vtkSMColourRangesProxy_h
 #define vtkSMColourRangesProxy_h
