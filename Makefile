@@ -74,10 +74,11 @@ fuzz:
 	@.ci/fuzz $(SECONDS)
 
 bench:
-	@.ci/setup benchmarks paraview python
+	@.ci/setup benchmarks paraview python python_tests
 	@cmake --build build/benchmarks --target bench
 	@tests/benchmarks/vtk/run.sh
 	@build/venv/bin/python tests/benchmarks/batch.py
+	@build/venv/bin/python tests/benchmarks/chunks.py --powers 6 7 --workers 7
 
 # A quarter of an hour on two cores; OPTIONS=--all runs five times as many trials, OPTIONS="--cases
 # fixed --seeds 2" asks for less, OPTIONS=--help tells what there is.

@@ -132,6 +132,8 @@ def test_what_has_no_image_near_has_no_partner(points, found):
 def test_errors(points, found):
     with pytest.raises(InvalidInput, match=r"chunk 1 has shape \(5, 2\)"):
         symsurf.detect_chunks([points, points[:5, :2]])
+    with pytest.raises(InvalidInput, match="chunk 0 holds no rows of three numbers"):
+        symsurf.detect_chunks({"x": 1, "y": 2})
     with pytest.raises(InvalidInput, match="of type int"):
         symsurf.detect_chunks(7)
     with pytest.raises(InvalidInput, match="1e50"):
@@ -146,6 +148,10 @@ def test_errors(points, found):
         list(symsurf.match_chunks(iter([points]), found))
     with pytest.raises(InvalidInput, match=f"{COUNT} points, and now {COUNT - 5}"):
         list(symsurf.match_chunks([points[5:]], found))
+    moved = points.copy()
+    moved[7, 1] += 1e-9
+    with pytest.raises(InvalidInput, match="their points lie elsewhere"):
+        list(symsurf.match_chunks([moved], found))
 
 
 def test_progress_goes_up_and_cancels(points):
@@ -298,6 +304,8 @@ def test_dask_whichever_worker_dies(points, found):
     blocks = array.from_array(points, chunks=(9000, 2))
     assert same(symsurf.detect_chunks(blocks, "plane"), found)
     assert same(symsurf.detect(blocks, "plane"), found)
+    matches = np.concatenate([each.residuals for each in symsurf.match_chunks(blocks, found)])
+    assert np.array_equal(matches, next(symsurf.match_chunks([points], found)).residuals)
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as all_,
         distributed.Client(all_) as client,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import InvalidInput, Mirror, SurfaceMatcher
+from .._core import InvalidInput, Mirror, PointSummary, SurfaceMatcher
 from ..results import Result
 from . import Progress, detect
 from .sources import source_of
@@ -48,7 +48,7 @@ def detect_chunks(
     Returns:
         What ``detect`` finds of the thinned points, which are ``Result.points``: pairs are indices into
         them. ``statistics`` has "summarized_points", how many there were, "nonfinite_points" beside
-        them, and "cell_edge", of the grid, in input units.
+        them, "cells", and "cell_edge", of the grid, in input units.
 
     Raises:
         InvalidInput: a chunk of another shape, a coordinate beyond 1e50, a file that cannot be read in
@@ -81,8 +81,8 @@ def match_chunks(
     """How the mirror of ``detect_chunks`` fits each point, in a second pass over the same points.
 
     Args:
-        chunks: as for ``detect_chunks``, but for arrays of Dask and summaries; what can be had once
-            alone, such as a generator, is an error.
+        chunks: as for ``detect_chunks``, but for summaries; what can be had once alone, such as a
+            generator, is an error. Blocks of Dask are computed one after the other.
         result: of ``detect_chunks``.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal of the
             thinned points.
@@ -93,7 +93,7 @@ def match_chunks(
 
     Raises:
         InvalidInput: a result without a mirror or without its points; other points than in the first
-            pass, told by their number.
+            pass, which is known, and raised, when all have been seen.
     """
     source = source_of(chunks)
     if not source.restarts:
@@ -103,10 +103,14 @@ def match_chunks(
     surface = np.asarray(result.points)
     matcher = SurfaceMatcher(surface, result.mirror)
     distance = pair_distance * float(np.linalg.norm(np.ptp(surface, axis=0)))
-    expected = result.point_count
-    count = 0
+    again = PointSummary(result.statistics.get("cells", CELLS))
     for points in source:
-        count += len(points)
+        again.add(points)
         yield ChunkMatches(*matcher.match(points, distance, threads))
-    if count != expected:
-        raise InvalidInput(f"the chunks have changed: they held {expected} points, and now {count}")
+    count = again.count + again.nonfinite
+    if count != result.point_count:
+        raise InvalidInput(
+            f"the chunks have changed: they held {result.point_count} points, and now {count}"
+        )
+    if "cells" in result.statistics and not np.array_equal(again.means, surface):
+        raise InvalidInput("the chunks have changed: their points lie elsewhere")

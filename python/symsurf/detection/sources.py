@@ -30,7 +30,12 @@ class Source:
     def __iter__(self) -> Iterator[NDArray[np.float64]]:
         """A copy of each, (n, 3): whoever makes the chunks may use the same memory again."""
         for number, chunk in enumerate(self.start()):
-            points = np.array(points_of(chunk), dtype=np.float64, order="C")
+            try:
+                points = np.array(points_of(chunk), dtype=np.float64, order="C")
+            except (TypeError, ValueError) as error:
+                raise InvalidInput(
+                    f"chunk {number} holds no rows of three numbers: {error}"
+                ) from error
             if points.size == 0:
                 points = np.empty((0, 3))
             if points.ndim != 2 or points.shape[1] != 3:
@@ -48,6 +53,8 @@ def source_of(chunks: Any) -> Source:
         return _files([Path(name) for name in chunks])
     if isinstance(chunks, np.ndarray):
         return Source(lambda: _slices(chunks), len(chunks) if chunks.ndim else None)
+    if is_dask_array(chunks):
+        return Source(lambda: (block.compute() for block in chunks.rechunk({1: -1}).blocks))
     if callable(chunks):
         return Source(lambda: iter(chunks()))
     if isinstance(chunks, Iterable):
@@ -56,6 +63,10 @@ def source_of(chunks: Any) -> Source:
         f"chunks are of type {type(chunks).__name__}; allowed are arrays (n, 3) in an iterable or of a "
         "function, an array, the name of a file, or names of files"
     )
+
+
+def is_dask_array(given: Any) -> bool:
+    return hasattr(given, "rechunk")
 
 
 def _is_path(given: Any) -> bool:

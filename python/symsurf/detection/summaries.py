@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .._core import Cancelled, PointSummary
-from .sources import source_of
+from .sources import is_dask_array, source_of
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -77,7 +77,7 @@ def summary_in(points: Any, cells: int = CELLS) -> PointSummary | None:
     """Of an array of Dask, or what is one already; None of all else."""
     if isinstance(points, PointSummary):
         return points
-    if not hasattr(points, "to_delayed"):
+    if not is_dask_array(points):
         return None
     from .dask_chunks import summary_of
 
@@ -86,5 +86,9 @@ def summary_in(points: Any, cells: int = CELLS) -> PointSummary | None:
 
 def summary_statistics(summary: PointSummary) -> dict[str, Any]:
     """What the statistics of a result say of the points that were thinned."""
-    statistics = {"summarized_points": summary.count, "cell_edge": summary.edge}
+    statistics = {
+        "summarized_points": summary.count,
+        "cells": summary.cells,
+        "cell_edge": summary.edge,
+    }
     return statistics | ({"nonfinite_points": summary.nonfinite} if summary.nonfinite else {})
