@@ -75,7 +75,8 @@ TEST(Dependencies, TheCoreUsesNoFrontEndAndNoLibraryButItsOwn) {
   EXPECT_GT(includes.size(), 500u);
   for (const Include& include : includes)
     if (include.in_brackets)
-      EXPECT_TRUE(is_allowed_library(include.header.generic_string()) || asks_the_system(include.file))
+      EXPECT_TRUE(is_allowed_library(include.header.generic_string()) ||
+                  asks_the_system(include.file))
           << include.file << " includes " << include.header;
     else
       EXPECT_TRUE(fs::exists(source_root / include.header) ||
