@@ -13,6 +13,8 @@ constexpr double exact_miss = 0.25;  // spacings
 // about the mirror than a surface would that goes only where partners are.
 constexpr double least_exact = 0.8;
 constexpr double flat_enough = 0.995;
+constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
+constexpr double least_component = 0.15;                   // of the largest
 constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
 
 struct Smoothing {
@@ -39,6 +41,38 @@ Points feet_of(const std::vector<Carried>& carried) {
   Points feet(static_cast<Index>(carried.size()), 3);
   for (Index i = 0; i < feet.rows(); ++i) feet.row(i) = carried[i].foot.transpose();
   return feet;
+}
+
+// Small connected components beside a large one are pairs by chance.
+void drop_small_components(const SearchCloud& cloud, std::vector<Carried>& carried) {
+  if (carried.empty()) return;
+  const Points feet = feet_of(carried);
+  const PointTree tree(feet);
+  std::vector<std::int32_t> component(carried.size(), -1);
+  std::vector<Index> sizes, open;
+  for (Index first = 0; first < feet.rows(); ++first) {
+    if (component[first] >= 0) continue;
+    const auto label = static_cast<std::int32_t>(sizes.size());
+    sizes.push_back(0);
+    component[first] = label;
+    open.push_back(first);
+    while (!open.empty()) {
+      const Index i = open.back();
+      open.pop_back();
+      ++sizes[label];
+      tree.within(feet.row(i), together * cloud.spacing, [&](Index other, double) {
+        if (component[other] >= 0) return;
+        if (std::abs(carried[other].normal.dot(carried[i].normal)) < together_normals) return;
+        component[other] = label;
+        open.push_back(other);
+      });
+    }
+  }
+  const auto least =
+      least_component * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+  std::size_t k = 0;
+  std::erase_if(carried,
+                [&](const Carried&) { return static_cast<double>(sizes[component[k++]]) < least; });
 }
 
 // Patches about one spacing apart, each fitted to the data around it.
@@ -156,6 +190,7 @@ void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
         surface.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
                       : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !surface.mirror;
+    if (!surface.exact) drop_small_components(cloud, surface.carried);
     surface.mirror = fitted(cloud, surface.carried,
                             fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!surface.mirror) return;
