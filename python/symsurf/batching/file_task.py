@@ -40,6 +40,7 @@ MATCHES_SUFFIX = ".matches.npy"
 
 LARGE = 1 << 25
 """Points, of which the coordinates take 0.8 GB."""
+_LEAST_BYTES = 1  # of a file for each of its points: LAZ packs them to a few
 
 # Of a task: what it is done to, by and for, and what settings have under other names.
 _NO_SETTINGS = {"file", "content", "threads", "outputs", "operation", "parameters"}
@@ -204,7 +205,18 @@ def _is_read_in_chunks(task: FileTask) -> bool:
             raise InvalidParameter(f"in_chunks is given beside {name}; allowed is one of them")
     if task.in_chunks is not None or any(needs_all.values()):
         return bool(task.in_chunks)
-    return is_chunked(task.file) and (chunks_of(task.file).count or 0) > LARGE
+    return task.content is None and _is_large(task.file)
+
+
+def _is_large(file: Path) -> bool:
+    """Whether it holds so many points, and can be read in chunks. What is wrong with it is told by
+    whoever reads it."""
+    try:
+        if not is_chunked(file) or file.stat().st_size < LARGE * _LEAST_BYTES:
+            return False
+        return (chunks_of(file).count or 0) > LARGE
+    except (InvalidInput, OSError, ValueError):
+        return False
 
 
 def _detect_in_chunks(task: FileTask, record: Record, progress: Progress | None) -> None:

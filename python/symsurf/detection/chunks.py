@@ -43,7 +43,8 @@ def detect_chunks(
         cells: the most cells that points are thinned to, in [64, 2^28]; 120 bytes each.
         communicator: of mpi4py, or anything else with ``allgather``: each process passes its own
             chunks, and gets the result of all.
-        seed, threads, progress, **parameters: as for ``detect``.
+        seed, threads, progress: as for ``detect``.
+        **parameters: the method's own, as for ``detect``.
 
     Returns:
         What ``detect`` finds of the thinned points, which are ``Result.points``: pairs are indices into
