@@ -20,13 +20,15 @@ auto field(Field ReflectionPoints::*member) {
 }
 
 std::shared_ptr<ReflectionPoints> reflected(const Mirror& mirror, const py::object& source,
-                                            const VectorArgument& eye) {
+                                            const VectorArgument& eye, const py::object& threads,
+                                            const py::object& progress) {
   // One source is a row.
   const py::object rows = has_points(source)
                               ? points_of(source)
                               : py::module_::import("numpy").attr("atleast_2d")(source);
   const auto sources = rows_from(rows, "sources");
-  return interruptible([&](const Context& context) {
+  const Context context = context_from(progress, threads);
+  return without_gil([&] {
     return std::make_shared<ReflectionPoints>(
         reflection_points(mirror, sources, eye.vector, context));
   });
@@ -56,13 +58,15 @@ void bind_optics(py::module_& module) {
 
   auto mirror = module.attr("Mirror").cast<py::class_<Mirror, std::shared_ptr<Mirror>>>();
   mirror.def(
-      "reflection_points", &reflected, py::arg("source"), py::arg("eye"),
+      "reflection_points", &reflected, py::arg("source"), py::arg("eye"), py::kw_only(),
+      py::arg("threads") = 0, py::arg("progress") = py::none(),
       "All points of the mirror at which light is reflected from a source s to the eye e, not to\n"
       "be mixed up with images: by Fermat's principle those x at which the path |s - x| + |x - e|\n"
       "is stationary, to 1e-10 of it, with s and e on the same side of the tangent plane\n"
       "(Mitchell and Hanrahan 1992). Both sides reflect; what stands in the way is not looked "
       "at.\n\n"
       "source: (3,), or (n, 3) for many; eye: (3,), in the unit of the mirror.\n"
+      "threads: 0 for all; progress: called with 0 to 1, cancels where it returns False.\n"
       "Planes, spheres and cylinders are solved in closed form, quadrics by a search in one\n"
       "dimension (after Miguel et al.), other mirrors by Newton's steps from a grid over their\n"
       "footprint. Where a whole curve reflects, points in one plane through both ends stand for "
@@ -73,7 +77,7 @@ void bind_optics(py::module_& module) {
       "the Hessian of the path length on the mirror; on a plane 1 / (d1 + d2)^2.\n"
       "Raises InvalidInput for other shapes, numbers that are not finite, and a SurfaceMirror "
       "made\n"
-      "by hand.");
+      "by hand; InvalidParameter; Cancelled.");
 }
 
 }  // namespace symsurf::python

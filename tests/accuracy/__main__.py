@@ -22,6 +22,7 @@ from . import (
     judged_scores,
     judged_verdicts,
     kinds,
+    light,
     nearly_symmetric,
     operations,
     partial,
@@ -41,7 +42,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, operations, partial, point_groups,
+           halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
            pots, recurring, scores, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

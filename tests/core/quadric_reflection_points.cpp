@@ -55,7 +55,7 @@ void expect_complete(const ReflectionPoints& found, const Implicit& surface, con
 
 TEST(ReflectionPoints, OfQuadricsAreAllThatNewtonReaches) {
   Index count = 0;
-  for (int kind = 0; kind < 8; ++kind)
+  for (int kind = 0; kind < 10; ++kind)
     for (std::uint64_t seed = 0; seed < 25; ++seed) {
       RandomCloud random(100 * kind + seed);
       const Quadric quadric = random_quadric(random, kind);
@@ -119,7 +119,7 @@ TEST(ReflectionPoints, OfSpheresAndCylindersAreThoseOfTheirQuadrics) {
 
 TEST(ReflectionPoints, IrradianceIsThatOfAThinBundleOfRays) {
   Index count = 0;
-  for (int kind = 0; kind < 8; ++kind)
+  for (int kind = 0; kind < 10; ++kind)
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       RandomCloud random(1000 * kind + seed);
       const Quadric quadric = random_quadric(random, kind);

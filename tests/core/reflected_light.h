@@ -34,7 +34,7 @@ inline void expect_reflected(const Vector3& x, const Vector3& normal, const Vect
   EXPECT_GT(u.dot(normal) * v.dot(normal), 0) << what;
 }
 
-/// Of one of eight kinds, moved at random.
+/// Of one of ten kinds, moved at random.
 inline Quadric random_quadric(RandomCloud& random, int kind) {
   const auto at_least = [&] { return random.uniform(0.3, 2); };
   const double a = at_least(), b = at_least(), c = at_least();
@@ -67,6 +67,14 @@ inline Quadric random_quadric(RandomCloud& random, int kind) {
     case 6:
       curves = {a, a, c};
       break;  // of revolution
+    case 7:
+      curves = {a, 0, 0};
+      linear.z() = -1;
+      constant = 0;
+      break;  // parabolic cylinder
+    case 8:
+      curves = {a, -b, 0};
+      break;  // hyperbolic cylinder
     default:
       curves = {a, a, 0};
       linear.z() = -1;

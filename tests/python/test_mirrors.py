@@ -106,6 +106,18 @@ def test_every_kind_reflects_light(mirror):
     np.testing.assert_array_equal(first.positions, found.positions[found.sources == 0])
 
 
+def test_light_reports_progress_and_is_cancelled():
+    sphere, sources = symsurf.Sphere((0, 0, 0), 1), np.random.default_rng(0).normal(size=(2000, 3))
+    seen = []
+    for threads in (1, 2):
+        sphere.reflection_points(sources, (1, 2, 3), threads=threads, progress=seen.append)
+    assert seen and min(seen) >= 0 and max(seen) <= 1
+    with pytest.raises(symsurf.Cancelled):
+        sphere.reflection_points(sources, (1, 2, 3), progress=lambda fraction: False)
+    with pytest.raises(symsurf.InvalidParameter):
+        sphere.reflection_points(sources, (1, 2, 3), threads=-1)
+
+
 def test_light_is_refused_where_it_is_no_point():
     sphere = symsurf.Sphere((0, 0, 0), 1)
     for source, eye in [((1, 2), (1, 2, 3)), ((1, 2, 3), (1, 2)), ((np.nan, 0, 0), (1, 2, 3)),

@@ -93,13 +93,14 @@ std::vector<Eigen::Vector2d> circle_reflection(const Eigen::Vector2d& source,
 /// There the surface's normal n lies in one plane with source and eye. That holds on a curve, the
 /// intersection of the mirror with a second quadric (Miguel et al.). A plane through source and
 /// eye with the normal m holds two points of it: those of the mirror on the line where n . m = 0,
-/// which is linear in the point. So the angle of the plane numbers the curve, and the law of
-/// reflection, with w the tangent in the plane,
+/// which is linear in the point. So the angle of the plane numbers the curve. The law of
+/// reflection, with w the tangent in the plane and s and e seen from the point x as unit vectors,
 ///
-///   (s - x) . w (e - x) . n + (e - x) . w (s - x) . n = 0,
+///   s . w e . n + e . w s . n = 0,
 ///
-/// is searched for its changes of sign. A plane through both ends that mirrors the quadric holds a
-/// conic of the curve, which is searched likewise, by the angle of a line through the eye.
+/// is halved until the cubic of its values and slopes rises, falls or keeps off zero. A plane
+/// through both ends that mirrors the quadric holds a conic of the curve, which is searched
+/// likewise, by the angle of a line through the eye.
 class QuadricReflection {
  public:
   QuadricReflection(const Quadric& quadric, const Vector3& eye);
