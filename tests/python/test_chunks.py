@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -325,6 +326,8 @@ def test_dask_whichever_worker_dies(points, found):
 
 def test_processes_of_mpi(points, found, tmp_path):
     pytest.importorskip("mpi4py", reason="needs mpi4py: pip install mpi4py")
+    if shutil.which("mpirun") is None:
+        pytest.skip("no mpirun")
     np.save(tmp_path / "points.npy", points)
     program = tmp_path / "program.py"
     program.write_text(
