@@ -261,6 +261,16 @@ TEST_P(SharedPoints, ThatAreManyGiveThePlaneOfTheWhole) {
   }
 }
 
+TEST_P(SharedPoints, ThatAreManyMayBeInfinite) {
+  Points points = scan(4, many);
+  points(9, 2) = std::numeric_limits<double>::infinity();
+  const auto rows = shared_out(points, GetParam().processes, GetParam().owner);
+  for (const Result& result : detected(points, rows, {.method = "plane"})) {
+    EXPECT_EQ(result.verdict(), "found");
+    EXPECT_EQ(result.statistics.at("nonfinite_points"), Value(Index{1}));
+  }
+}
+
 TEST_P(SharedPoints, StopTogetherWhenOneIsToldTo) {
   const Points points = scan(6, many);
   const auto rows = shared_out(points, GetParam().processes, GetParam().owner);

@@ -79,7 +79,7 @@ void require_points(PointsView points) {
 
 void require_coordinates(PointsView points, Index first) {
   for (Index i = 0; i < points.size(); ++i)
-    if (points[i].cwiseAbs().maxCoeff() > greatest_extent)
+    if (points[i].allFinite() && points[i].cwiseAbs().maxCoeff() > greatest_extent)
       throw InvalidInput("point " + std::to_string(first + i) + " is " +
                          to_string(Value(points[i])) + "; allowed are coordinates up to " +
                          to_string(Value(greatest_extent)));

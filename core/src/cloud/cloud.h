@@ -51,7 +51,7 @@ void require_finite(PointsView rows, const char* what, Index first = 0);
 /// Throws InvalidInput for no points, or naming the first that is not finite.
 void require_points(PointsView points);
 
-/// Throws InvalidInput naming the first point with a coordinate beyond 1e50: squares would
+/// Throws InvalidInput naming the first finite point with a coordinate beyond 1e50: squares would
 /// overflow. `first`: the number of the first row.
 void require_coordinates(PointsView points, Index first = 0);
 
