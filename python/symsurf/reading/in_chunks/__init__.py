@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,5 +65,13 @@ def chunks_of(path: Path) -> FileChunks:
             )
     try:
         return import_module(f"{__name__}.{module}").chunks_of(path)
-    except (InvalidInput, OSError, ValueError) as error:
+    except (InvalidInput, OSError, ValueError, LookupError, struct.error) as error:
         raise InvalidInput(f"{path}: {error}") from error
+
+
+def mapped_rows(path: Path, row: np.dtype, start: int, count: int) -> Iterator[NDArray[Any]]:
+    """So many rows of a file from a byte on, some at a time, in place. Each part is mapped anew: what
+    was read of a mapping counts as memory of the process."""
+    for begin in range(0, count, ROWS):
+        size = min(ROWS, count - begin)
+        yield np.memmap(path, row, "r", start + begin * row.itemsize, (size,))

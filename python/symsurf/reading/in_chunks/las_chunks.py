@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..._core import InvalidInput
 from .. import las
-from . import ROWS, FileChunks
+from . import FileChunks, mapped_rows
 
 
 def chunks_of(path: Path) -> FileChunks:
@@ -19,10 +19,7 @@ def chunks_of(path: Path) -> FileChunks:
         raise InvalidInput("its points are packed; as .laz they can be read")
 
     def rows() -> Iterator[NDArray[np.float64]]:
-        for begin in range(0, count, ROWS):
-            size = min(ROWS, count - begin)
-            # Mapped anew: what was read of a mapping counts as memory of the process.
-            content = np.memmap(path, np.uint8, "r", start + begin * length, (size, length))
-            yield las.coordinates(path, content)
+        for part in mapped_rows(path, np.dtype((np.uint8, (length,))), start, count):
+            yield las.coordinates(path, part)
 
     return FileChunks(count, rows, las.reference_system(path))

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
-from ..ply_types import TYPES
-from . import ROWS, FileChunks
+from ..ply_header import END, TYPES, Element, elements_of
+from . import FileChunks, mapped_rows
 
 _LONGEST_HEADER = 1 << 16  # bytes
 
@@ -18,27 +18,29 @@ _LONGEST_HEADER = 1 << 16  # bytes
 def chunks_of(path: Path) -> FileChunks:
     with path.open("rb") as file:
         head = file.read(_LONGEST_HEADER)
-    header, separator, _ = head.partition(b"end_header")
-    if not header.startswith(b"ply") or not separator:
+    end = END.search(head)
+    if not head.startswith(b"ply") or end is None:
         raise InvalidInput("this is no PLY file: its header does not end")
-    start = head.index(b"\n", len(header)) + 1
-    lines = [line.split() for line in header.splitlines()]
-    count, row = _vertices(lines, _byte_order(lines))
-    if path.stat().st_size < start + count * row.itemsize:
-        raise InvalidInput(f"the file is truncated: it holds fewer than its {count} vertices")
+    lines = head[: end.start()].splitlines()
+    vertices = next(iter(elements_of(lines)), None)
+    if vertices is None or vertices.name != b"vertex":
+        raise InvalidInput("the vertices are not the first element; in chunks they have to be")
+    row = _row(vertices, _byte_order(lines))
+    if path.stat().st_size < end.end() + vertices.count * row.itemsize:
+        raise InvalidInput(
+            f"the file is truncated: it holds fewer than its {vertices.count} vertices"
+        )
 
     def rows() -> Iterator[NDArray[np.float64]]:
-        for begin in range(0, count, ROWS):
-            size = min(ROWS, count - begin)
-            # Mapped anew: what was read of a mapping counts as memory of the process.
-            vertices = np.memmap(path, row, "r", start + begin * row.itemsize, (size,))
-            yield np.stack([vertices[axis] for axis in "xyz"], axis=1).astype(np.float64)
+        for part in mapped_rows(path, row, end.end(), vertices.count):
+            yield np.stack([part[axis] for axis in "xyz"], axis=1).astype(np.float64)
 
-    return FileChunks(count, rows)
+    return FileChunks(vertices.count, rows)
 
 
-def _byte_order(lines: list[list[bytes]]) -> str:
-    encoding = next((words[1] for words in lines if words[:1] == [b"format"]), b"missing").decode()
+def _byte_order(lines: list[bytes]) -> str:
+    formats = [words[1] for words in map(bytes.split, lines) if words[:1] == [b"format"]]
+    encoding = formats[0].decode() if formats else "missing"
     orders = {"binary_little_endian": "<", "binary_big_endian": ">"}
     if encoding not in orders:
         raise InvalidInput(
@@ -47,20 +49,12 @@ def _byte_order(lines: list[list[bytes]]) -> str:
     return orders[encoding]
 
 
-def _vertices(lines: list[list[bytes]], order: str) -> tuple[int, np.dtype]:
-    """How many there are, and what stands of each. Raises InvalidInput unless they come first, with
-    x, y and z, and without lists."""
-    elements = [number for number, words in enumerate(lines) if words[:1] == [b"element"]]
-    if not elements or lines[elements[0]][1] != b"vertex":
-        raise InvalidInput("the vertices are not the first element; in chunks they have to be")
-    end = elements[1] if len(elements) > 1 else len(lines)
-    properties = [words[1:] for words in lines[elements[0] : end] if words[:1] == [b"property"]]
-    types = [TYPES.get(words[0].decode()) for words in properties]
+def _row(vertices: Element, order: str) -> np.dtype:
+    """What stands of each. Raises InvalidInput unless that is of one size, with x, y and z."""
+    types = [TYPES.get(words[0].decode()) for words in vertices.properties]
     if None in types:
         raise InvalidInput("the vertices have a list, or a property of an unknown type")
-    row = np.dtype(
-        [(words[-1].decode(), f"{order}{type}") for words, type in zip(properties, types)]
-    )
-    if not {"x", "y", "z"} <= {*(row.names or ())}:
+    names = [words[-1].decode() for words in vertices.properties]
+    if not {"x", "y", "z"} <= {*names}:
         raise InvalidInput("the vertices lack x, y or z")
-    return int(lines[elements[0]][2]), row
+    return np.dtype([(name, f"{order}{type}") for name, type in zip(names, types)])

@@ -2,41 +2,28 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
-from ...reading.ply_types import TYPES
+from ...reading.ply_header import END, TYPES, Element, elements_of
 from ...shapes import Shape
 from ..ply_format import shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
 
 _KINDS = {"f": "f8", "i": "i4", "b": "u1"}
 _NAMES = {"f": b"double", "i": b"int", "b": b"uchar"}  # of the properties that are added
-_END = re.compile(rb"^[ \t]*end_header(?:[ \t].*)?\r?\n", re.MULTILINE)
 _CHANGED = "the file was changed after it was read"
 
 
-@dataclass
-class _Element:
-    name: bytes
-    count: int
-    line: int
-    """In the header."""
-    properties: list[list[bytes]]
-    """The words of each after "property"."""
-
-
 def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
-    end = _END.search(content)
+    end = END.search(content)
     if end is None:
         raise InvalidInput(_CHANGED)
     lines = content[: end.start()].splitlines()
-    elements = _elements(lines)
+    elements = elements_of(lines)
     if not _is_plain(elements, new):
         plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays, new.face_arrays)
         return Rewritten(plain, ["nothing of the file is kept but points and faces"])
@@ -52,18 +39,7 @@ def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     return Rewritten(header + b"\nend_header\n" + body, lost)
 
 
-def _elements(lines: list[bytes]) -> list[_Element]:
-    elements: list[_Element] = []
-    for number, line in enumerate(lines):
-        words = line.split()
-        if words[:1] == [b"element"]:
-            elements.append(_Element(words[1], int(words[2]), number, []))
-        elif words[:1] == [b"property"]:
-            elements[-1].properties.append(words[1:])
-    return elements
-
-
-def _is_plain(elements: list[_Element], new: NewShape) -> bool:
+def _is_plain(elements: list[Element], new: NewShape) -> bool:
     """Whether the vertices come first, each of one size with a name a property, and faces that are
     added have a place."""
     vertices, *rest = elements
@@ -85,7 +61,7 @@ def _count_held(kind: bytes) -> int:
     return 2 ** (np.finfo(held).nmant + 1) if held.kind == "f" else int(np.iinfo(held).max) + 1
 
 
-def _kept(element: _Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
+def _kept(element: Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
     """The properties of the vertices that stay, with their columns."""
     left_out = {name.encode() for name in new.columns()}
     if not new.keeps_normals:
@@ -93,7 +69,7 @@ def _kept(element: _Element, new: NewShape) -> list[tuple[int, list[bytes]]]:
     return [(i, words) for i, words in enumerate(element.properties) if words[1] not in left_out]
 
 
-def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list[bytes]:
+def _header(lines: list[bytes], elements: list[Element], new: NewShape) -> list[bytes]:
     vertices = elements[0]
     first, last = vertices.line, vertices.line + 1
     while last < len(lines) and lines[last].split()[:1] != [b"element"]:
@@ -132,7 +108,7 @@ def _header(lines: list[bytes], elements: list[_Element], new: NewShape) -> list
     return [*before, count, *inside, *properties, *added, *after]
 
 
-def _text_body(body: bytes, elements: list[_Element], new: NewShape) -> bytes:
+def _text_body(body: bytes, elements: list[Element], new: NewShape) -> bytes:
     vertices = elements[0]
     rows: list[list[bytes]] = []
     position = 0
@@ -183,7 +159,7 @@ def _replace(
             row[column] = number
 
 
-def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: str) -> bytes:
+def _binary_body(body: bytes, elements: list[Element], new: NewShape, order: str) -> bytes:
     vertices = elements[0]
     fields = [
         (f"{i}", order + TYPES[kind.decode()]) for i, (kind, _) in enumerate(vertices.properties)
@@ -210,7 +186,7 @@ def _binary_body(body: bytes, elements: list[_Element], new: NewShape, order: st
     return made.tobytes() + rest + _binary_faces(elements, new, order)
 
 
-def _binary_faces(elements: list[_Element], new: NewShape, order: str) -> bytes:
+def _binary_faces(elements: list[Element], new: NewShape, order: str) -> bytes:
     if not len(new.added_faces):
         return b""
     _, length, corner, _ = elements[1].properties[0]
