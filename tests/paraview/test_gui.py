@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -47,12 +48,18 @@ def write_shape(path: Path, dent: float = 0) -> Path:
     return path
 
 
+@contextmanager
+def paraview(environment: dict[str, str], plugin: Path, file: Path) -> Iterator[Desktop]:
+    """Its window with the plugin, and a file that is not yet applied."""
+    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
+    with screen(environment) as seen, Desktop(seen, str(file)) as desktop:
+        yield desktop
+
+
 def test_menu_apply_and_the_mirror_is_drawn(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:
-    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
-    shape_file = write_shape(tmp_path / "shape.obj")
-    with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
+    with paraview(environment, plugin, write_shape(tmp_path / "shape.obj")) as desktop:
         empty = desktop.settle()[VIEW]
         desktop.key("alt+a")
         desktop.wait_until(lambda now: (np.abs(now[VIEW] - empty).max(-1) > 20).mean() > 0.02)
@@ -67,9 +74,7 @@ def test_menu_apply_and_the_mirror_is_drawn(
 def test_menu_apply_and_the_asymmetry_is_drawn_about_0(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:
-    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
-    shape_file = write_shape(tmp_path / "shape.obj", dent=0.3)
-    with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
+    with paraview(environment, plugin, write_shape(tmp_path / "shape.obj", dent=0.3)) as desktop:
         desktop.key("alt+a")
         desktop.settle()
         desktop.key(*menu_keys("Mirror Asymmetry"))
@@ -89,9 +94,7 @@ def test_menu_apply_and_the_asymmetry_is_drawn_about_0(
 def test_the_button_for_help_shows_the_filters_page(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:
-    environment = environment | {"PV_PLUGIN_PATH": str(plugin.parent)}
-    shape_file = write_shape(tmp_path / "shape.obj")
-    with screen(environment) as seen, Desktop(seen, str(shape_file)) as desktop:
+    with paraview(environment, plugin, write_shape(tmp_path / "shape.obj")) as desktop:
         desktop.key("alt+a")
         desktop.settle()
         desktop.key(*menu_keys("Mirror Detection"))
