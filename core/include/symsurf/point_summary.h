@@ -21,7 +21,7 @@ class PointSummary {
  public:
   static constexpr Index usual_cells = 1 << 18;  ///< 30 MB; a surface of 500 x 500 cells
 
-  /// Throws InvalidParameter for cells beyond [1, 2^28].
+  /// Throws InvalidParameter for cells beyond [64, 2^28].
   explicit PointSummary(Index cells = usual_cells);
   PointSummary(const PointSummary& other);
   PointSummary(PointSummary&&) noexcept;
@@ -76,8 +76,8 @@ class SurfaceMatcher {
   Matches match(PointsView points, double distance, const Context& context = {}) const;
 
  private:
-  struct Surface;
-  std::unique_ptr<Surface> surface_;
+  struct Target;
+  std::unique_ptr<Target> target_;
 };
 
 }  // namespace symsurf

@@ -14,8 +14,8 @@
 
 namespace symsurf {
 
-struct SurfaceMatcher::Surface {
-  SurfacePoints points;
+struct SurfaceMatcher::Target {
+  SurfacePoints surface;
   const Mirror& mirror;
 };
 
@@ -23,7 +23,7 @@ SurfaceMatcher::SurfaceMatcher(Points surface, const Mirror& mirror, const Conte
   if (surface.rows() < 3)
     throw InvalidInput("the surface has " + std::to_string(surface.rows()) +
                        " points; at least 3 are needed");
-  surface_.reset(new Surface{SurfacePoints(std::move(surface), context), mirror});
+  target_.reset(new Target{SurfacePoints(std::move(surface), context), mirror});
 }
 
 SurfaceMatcher::SurfaceMatcher(SurfaceMatcher&&) noexcept = default;
@@ -33,12 +33,12 @@ SurfaceMatcher::Matches SurfaceMatcher::match(PointsView points, double distance
                                               const Context& context) const {
   constexpr Index grain = 1024;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const SurfacePoints& surface = surface_->points;
+  const SurfacePoints& surface = target_->surface;
   Matches matches{Eigen::VectorX<Index>::Constant(points.size(), -1),
                   Eigen::VectorXd::Constant(points.size(), nan)};
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const Vector3 image = surface_->mirror.reflect(points[i]);
+      const Vector3 image = target_->mirror.reflect(points[i]);
       const Index partner = surface.tree.nearest(image, distance * distance).index;
       if (partner < 0) continue;
       matches.partners[i] = partner;
