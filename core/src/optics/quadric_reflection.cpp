@@ -160,8 +160,8 @@ class Search {
            a.to_eye.dot(b.to_eye) > smooth;
   }
 
-  // Whether the cubic of both values and slopes rises or falls throughout, or keeps off 0: by its
-  // Bernstein coefficients.
+  // Whether the cubic of both values and slopes rises or falls throughout, or stays away from 0: by
+  // its Bernstein coefficients.
   static bool is_clear(const Sample& a, const Sample& b) {
     const double third = (b.at - a.at) / 3, sign = a.law < 0 ? -1 : 1;
     const Eigen::Vector4d c =

@@ -98,7 +98,7 @@ std::vector<Eigen::Vector2d> circle_reflection(const Eigen::Vector2d& source,
 ///
 ///   s . w e . n + e . w s . n = 0,
 ///
-/// is halved until the cubic of its values and slopes rises, falls or keeps off zero. A plane
+/// is halved until the cubic of its values and slopes rises, falls or stays away from 0. A plane
 /// through both ends that mirrors the quadric holds a conic of the curve, which is searched
 /// likewise, by the angle of a line through the eye.
 class QuadricReflection {

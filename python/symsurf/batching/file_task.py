@@ -209,13 +209,13 @@ def _is_read_in_chunks(task: FileTask) -> bool:
 
 
 def _is_large(file: Path) -> bool:
-    """Whether it holds so many points, and can be read in chunks. What is wrong with it is told by
-    whoever reads it."""
+    """Whether it holds so many points, and can be read in chunks. Its reader says what is wrong with
+    it."""
     try:
         if not is_chunked(file) or file.stat().st_size < LARGE * _LEAST_BYTES:
             return False
         return (chunks_of(file).count or 0) > LARGE
-    except (InvalidInput, OSError, ValueError):
+    except (InvalidInput, OSError):
         return False
 
 

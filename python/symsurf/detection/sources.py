@@ -28,7 +28,7 @@ class Source:
     """Whether they can be had a second time."""
 
     def __iter__(self) -> Iterator[NDArray[np.float64]]:
-        """A copy of each, (n, 3): whoever makes the chunks may use the same memory again."""
+        """A copy of each, (n, 3), as the next one may lie in the same memory."""
         for number, chunk in enumerate(self.start()):
             try:
                 points = np.array(points_of(chunk), dtype=np.float64, order="C")
