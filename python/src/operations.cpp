@@ -59,6 +59,7 @@ void bind_operations(py::module_& module) {
                     "Whether 0 belongs in the middle of a colour map.")
       .def_readonly("names_points", &PointArray::names_points,
                     "Whether the values are indices of points, -1 for none.")
+      .def_readonly("names_faces", &PointArray::names_faces, "Likewise of faces.")
       .def("__repr__", [](const PointArray& array) { return "<PointArray " + array.name + ">"; });
 
   py::class_<Operation>(module, "Operation", "The description of what is done with a mirror.")

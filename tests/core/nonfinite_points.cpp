@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "bumpy_ball.h"
 #include "expect_error.h"
 #include "mirrored_ball.h"
 #include "random_cloud.h"
@@ -114,6 +115,91 @@ TEST(NonfinitePoints, TooFewAreFinite) {
   points.setConstant(infinity);
   expect_error<InvalidInput>("0 of 50 points given are finite; at least 1 is needed",
                              [&] { match(points, Plane(Vector3::UnitX(), 0)); });
+}
+
+// The mesh with points that are not finite between its own, and with a face of these behind each.
+Triangles between(const Triangles& faces, const std::vector<Index>& rows) {
+  Triangles all(2 * faces.rows(), 3);
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (int c = 0; c < 3; ++c) all(2 * f, c) = all(2 * f + 1, c) = rows[faces(f, c)];
+    all(2 * f + 1, f % 3) = 3;
+  }
+  return all;
+}
+
+bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+struct Pair {
+  const OperationResult& with;
+  const OperationResult& without;
+  const std::vector<Index>& rows;
+  Index left_out;
+
+  Index row(Index i) const {
+    const auto kept = static_cast<Index>(rows.size());
+    return i < kept ? rows[i] : i + left_out;
+  }
+
+  void expect_same_array(const PointArray& array) const {
+    SCOPED_TRACE(array.name);
+    const Eigen::MatrixXd &one = with.arrays.at(array.name), &other = without.arrays.at(array.name);
+    const bool same_shape = !without.is_other_shape();
+    ASSERT_EQ(one.rows(), with.points.rows());
+    for (Index i = 0; i < other.rows(); ++i)
+      for (Index k = 0; k < other.cols(); ++k) {
+        double expected = other(i, k);
+        if (same_shape && expected >= 0 && array.names_points)
+          expected = static_cast<double>(row(static_cast<Index>(expected)));
+        if (expected >= 0 && array.names_faces) expected *= 2;
+        ASSERT_TRUE(is_same(one(same_shape ? row(i) : i, k), expected)) << i;
+      }
+    if (!same_shape) return;
+    const double absent = array.type == ParameterType::Real         ? std::nan("")
+                          : array.names_points || array.names_faces ? -1
+                                                                    : 0;
+    for (Index i = 3; i < rows.back(); i += 7) ASSERT_TRUE(is_same(one(i, 0), absent)) << i;
+  }
+
+  void expect_same_points() const {
+    if (without.is_other_shape()) {
+      EXPECT_EQ(with.points, without.points);
+      EXPECT_EQ(with.faces, without.faces);
+      ASSERT_EQ(with.point_parents.rows(), without.point_parents.rows());
+      for (Index i = 0; i < without.point_parents.size(); ++i)
+        ASSERT_EQ(with.point_parents.data()[i], rows[without.point_parents.data()[i]]);
+      return;
+    }
+    ASSERT_EQ(with.points.rows(), without.points.rows() + left_out);
+    for (Index i = 0; i < without.points.rows(); ++i)
+      ASSERT_EQ(with.points.row(row(i)), without.points.row(i)) << i;
+    for (std::size_t i = 0; i < without.point_sources.size(); ++i)
+      ASSERT_EQ(with.point_sources[row(static_cast<Index>(i))], rows[without.point_sources[i]]);
+  }
+};
+
+TEST(NonfinitePoints, KeepTheirPlacesWithoutValuesInOperations) {
+  Ball b = ball(0);
+  b.points.row(5) *= 1.05;
+  const std::vector<Index> rows = finite_rows_of(b.points.rows());
+  const Points all = spread(b.points, rows);
+  // Half of the ball, so that completion adds the other.
+  const Triangles half = b.faces.topRows(b.faces.rows() / 2);
+  for (const Operation& each : operations())
+    for (const Triangles& faces : {b.faces, half, Triangles(0, 3)}) {
+      if (each.needs_faces && faces.rows() == 0) continue;
+      SCOPED_TRACE(each.name + " of a shape with faces: " + std::to_string(faces.rows()));
+      const OperationResult without = operate(each.name, {b.points, faces}, middle);
+      const OperationResult with = operate(each.name, {all, between(faces, rows)}, middle);
+      const Index left_out = all.rows() - b.points.rows();
+      EXPECT_EQ(std::get<Index>(with.statistics.at("nonfinite_points")), left_out);
+      const Pair pair{with, without, rows, left_out};
+      pair.expect_same_points();
+      for (const PointArray& array : each.arrays)
+        if (without.arrays.count(array.name)) pair.expect_same_array(array);
+    }
+  const Points none = Points::Constant(4, 3, infinity);
+  expect_error<InvalidInput>("none of the 4 points given is finite",
+                             [&] { operate("align", {none}, middle); });
 }
 
 }  // namespace

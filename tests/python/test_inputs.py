@@ -75,6 +75,21 @@ def test_points_that_are_not_finite_are_left_out(method):
     assert len(result.points) == len(given)
 
 
+def test_points_that_are_not_finite_keep_their_places_in_operations():
+    points, _ = mirrored_surface(400, 3)
+    given, keep = with_nan(points)
+    with pytest.warns(symsurf.InputWarning, match="points are not finite"):
+        found = symsurf.asymmetry(given)
+    plain = symsurf.asymmetry(points)
+    assert found.statistics["nonfinite_points"] == len(given) - len(points)
+    np.testing.assert_array_equal(found.vector[keep], plain.vector)
+    lost = np.setdiff1d(np.arange(len(given)), keep)
+    assert np.isnan(found.vector[lost]).all() and not found.matched[lost].any()
+    completed = symsurf.complete(given, found.mirror)
+    np.testing.assert_array_equal(completed.shape.points[: len(given)], given)
+    assert np.isfinite(completed.shape.points[len(given) :]).all()
+
+
 def test_every_way_in_warns(tmp_path):
     points, mirror = mirrored_surface(400, 3)
     points[5, 1] = np.inf

@@ -252,9 +252,11 @@ def test_clouds_of_the_table(operation: symsurf.Operation) -> None:
     for cloud in tables.clouds():
         points = np.array(cloud.points, float).reshape(-1, 3)
         found.input_data = polydata(points)
-        # Points that are not finite are refused in any case.
-        refused = cloud.refuses_nonfinite or np.isfinite(points).all()
-        assert (cloud.reason if refused else "point ") in error_of(found), cloud.name
+        said = error_of(found)
+        if cloud.refuses_nonfinite:  # some are left out: no option of operations refuses them
+            assert "finite" not in said, cloud.name
+            continue
+        assert cloud.reason in said, cloud.name
         assert found.output.GetNumberOfPoints() == 0
     found.input_data = dented_ball()
     assert error_of(found) == ""

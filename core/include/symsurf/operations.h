@@ -23,6 +23,7 @@ struct PointArray {
   std::string doc;            ///< one sentence, with the unit
   bool is_signed = false;     ///< 0 belongs in the middle of a colour map
   bool names_points = false;  ///< the values are indices of points, -1 for none
+  bool names_faces = false;   ///< likewise of faces
 };
 
 /// The one description of what is done with a mirror. Front ends are made by looping over
@@ -52,7 +53,7 @@ const Operation& operation(std::string_view name);
 
 /// What an operation takes beside the mirror.
 struct OperationInput {
-  PointsView points;          ///< finite
+  PointsView points;
   TrianglesView faces = {};   ///< none: a bare cloud
   Eigen::VectorXd mask = {};  ///< optional, one a point, in [0, 1]: how far it may move
 };
@@ -79,8 +80,11 @@ struct OperationResult {
 };
 
 /// Runs an operation over a mirror of any kind, in the unit and pose of the points.
-/// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where a point is
-/// not finite or has a coordinate beyond 1e50, a face names no point, the mask is not one value in
+/// Points that are not finite are left out, with the faces that use them, and counted by the
+/// statistic "nonfinite_points". Where the result has the points of the input they keep their
+/// places, without values: NaN, -1 of an index, else 0.
+/// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where no point is
+/// finite or one has a coordinate beyond 1e50, a face names no point, the mask is not one value in
 /// [0, 1] a point or the operation takes none, the mirror has images for less than half of the
 /// points, or lies more than ten diagonals away from them; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,

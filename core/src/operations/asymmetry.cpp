@@ -206,7 +206,7 @@ OperationImplementation asymmetry_operation() {
        "0 to 1: the cosine between the normals, halved where the closest image, or the way to the "
        "homologous point and back, ends a spacing away."},
       {"face", ParameterType::Integer, 1,
-       "Of a mesh, the face whose image the place lies on; -1 for none."},
+       "Of a mesh, the face whose image the place lies on; -1 for none.", false, false, true},
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
   operation.shown = "signed";

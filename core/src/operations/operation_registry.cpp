@@ -10,6 +10,7 @@
 #include "cloud/cloud.h"
 #include "mesh/triangle_mesh.h"
 #include "operations/counterparts.h"
+#include "operations/finite_part.h"
 
 namespace symsurf {
 
@@ -79,19 +80,21 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
   return operate(name, input, &mirror, parameters, context);
 }
 
-OperationResult operate(std::string_view name, const OperationInput& input, const Mirror* mirror,
+OperationResult operate(std::string_view name, const OperationInput& given, const Mirror* mirror,
                         const Values& parameters, const Context& context) {
   const OperationImplementation& operation = operation_implementation(name);
   const ParameterValues values(operation.name, operation.parameters, parameters);
   const bool takes_mirror = is_over_mirror(operation, values);
   if (takes_mirror && !mirror) throw InvalidInput(operation.name + " needs a mirror");
-  require_points(input.points);
-  require_coordinates(input.points);
-  require_corners(input.faces, input.points.size());
+  require_count(given.points.size(), 1);
+  require_coordinates(given.points);
+  require_corners(given.faces, given.points.size());
+  require_mask(operation, given.mask, given.points.size());
+  const FinitePart finite(given, operation);
+  const OperationInput& input = finite.input();
   if (operation.needs_faces && input.faces.empty())
     throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
                        operation.name + " needs a mesh of triangles");
-  require_mask(operation, input.mask, input.points.size());
   if (takes_mirror) require_near(input.points, *mirror);
   OperationResult result;
   result.operation = operation.name;
@@ -103,6 +106,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
     operation.run(input, *mirror, values, context, result);
   else
     operation.run_about_axis(input, values, context, result);
+  finite.map_back(result);
   drop_nonfinite(result.statistics);
   context.report(1);
   return result;
