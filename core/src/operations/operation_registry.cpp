@@ -19,7 +19,7 @@ const std::vector<OperationImplementation>& operation_implementations() {
   static const std::vector<OperationImplementation> all{
       asymmetry_operation(),  correspondences_operation(), align_operation(),  complete_operation(),
       symmetrize_operation(), straighten_operation(),      remesh_operation(), cut_operation(),
-      transfer_operation()};
+      transfer_operation(),   illuminate_operation()};
   return all;
 }
 
@@ -92,7 +92,7 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
     throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
                        operation.name + " needs a mesh of triangles");
   require_mask(operation, input.mask, input.points.size());
-  if (takes_mirror) require_near(input.points, *mirror);
+  if (takes_mirror && !operation.takes_any_mirror) require_near(input.points, *mirror);
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();
