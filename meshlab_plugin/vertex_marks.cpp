@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace symsurf::meshlab {
 
@@ -14,6 +15,17 @@ constexpr int marked = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
 
 // Lengths below this share of the diagonal are rounding, which is not worth a colour.
 constexpr double least_ramp = 1e-6;
+
+// Brighter points are red, too: caustics are thin and know no bounds.
+constexpr double bright = 0.98;
+
+// 0 of nothing.
+double quantile_of(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto nth = values.begin() + static_cast<Index>(share * (values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
 
 double sign(double x) { return (x > 0) - (x < 0); }
 
@@ -95,24 +107,28 @@ void add_attributes(MeshModel& layer, const OperationResult& result) {
 }
 
 void show_as_quality(MeshModel& layer, const OperationResult& result) {
-  const auto asymmetry = result.arrays.find("signed"),
-             confidence = result.arrays.find("confidence");
-  const bool is_signed = asymmetry != result.arrays.end();
-  if (!is_signed && confidence == result.arrays.end()) return;
-  const Eigen::VectorXd values = is_signed ? asymmetry->second : confidence->second;
+  const std::string& shown = operation(result.operation).shown;
+  if (result.arrays.count(shown) == 0) return;
+  const Eigen::VectorXd values = result.arrays.at(shown);
+  const bool is_confidence = shown == "confidence";
   // NaN where there is no counterpart, and no confidence there.
   const auto is_known = [&](Index i) {
-    return is_signed ? std::isfinite(values[i]) : values[i] > 0;
+    return std::isfinite(values[i]) && (!is_confidence || values[i] > 0);
   };
-  double largest = least_ramp * layer_diagonal(&layer);
+  std::vector<double> sizes;
   for (Index i = 0; i < values.size(); ++i) {
     layer.cm.vert[i].Q() = is_known(i) ? values[i] : 0;
-    if (is_known(i)) largest = std::max(largest, std::abs(values[i]));
+    if (is_known(i)) sizes.push_back(std::abs(values[i]));
   }
-  if (is_signed)
-    colour_by_quality(layer, -largest, largest);
-  else
+  if (is_confidence)
     colour_by_quality(layer, 1, 0);
+  else if (shown == "signed") {
+    const double largest = std::max(least_ramp * layer_diagonal(&layer), quantile_of(sizes, 1));
+    colour_by_quality(layer, -largest, largest);
+  } else {
+    const double most = quantile_of(sizes, bright);
+    colour_by_quality(layer, 0, most > 0 ? most : 1);
+  }
   for (Index i = 0; i < values.size(); ++i)
     if (!is_known(i)) layer.cm.vert[i].C() = vcg::Color4b::Gray;
 }

@@ -26,7 +26,8 @@ void mark_residuals(MeshModel& layer, const LayerCloud& cloud, const Result& res
 void add_attributes(MeshModel& layer, const OperationResult& result);
 
 /// Shows what an operation says about each vertex as quality, coloured: the signed asymmetry from
-/// blue over green, none, to red, as far to both sides; or the confidence, blue for the best.
+/// blue over green, none, to red, as far to both sides; the confidence, blue for the best; or the
+/// irradiance, blue for none.
 /// Vertices of which it says nothing are grey with quality 0.
 void show_as_quality(MeshModel& layer, const OperationResult& result);
 

@@ -22,7 +22,8 @@ message(STATUS "symsurf: VTK ${VTK_VERSION}")
 
 # The titles of the core's operations: a filter and a proxy each.
 set(symsurf_operations MirrorAsymmetry MirrorCorrespondences MirrorAlignment MirrorCompletion
-    MirrorSymmetrization MirrorStraightening MirrorRemeshing MirrorCut MirrorTransfer)
+    MirrorSymmetrization MirrorStraightening MirrorRemeshing MirrorCut MirrorTransfer
+    MirrorIllumination)
 
 add_executable(symsurf_generate)
 file(GLOB generate_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/generate/*.cpp)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pyvista
 from PIL import Image
 from pyvista import examples
 
@@ -77,6 +78,13 @@ def main(folder):
     side = "positive" if plane.normal[0] > 0 else "negative"
     painted = symsurf.transfer(stripes, symmetric, plane, side=side)
     write(painted, folder / "transfer.png", front)
+    square = pyvista.Plane(i_size=1.8, j_size=1.8, i_resolution=300, j_resolution=300)
+    screen = square.translate((-0.5, 0.3, 1.3)).triangulate()
+    numbers = symsurf.Quadric(np.diag([0.34, 0.2, 0]), (0, 0, -1), 0).numbers
+    x, y, _ = 1.2 * square.points.T
+    bowl = symsurf.make_mirror("quadric", numbers, np.stack([x, y, 0.34 * x**2 + 0.2 * y**2], 1))
+    lit = symsurf.illuminate(screen, bowl, light=(0.7, -0.5, 2.3))
+    write(lit, folder / "illuminate.png", (-0.4, -1, 0.5))
     if "complete" in symsurf.operations():
         x, y, z = symmetric.points.T
         broken = without(symmetric, (x > 0.1) & (y < 0.3 + 0.2 * np.sin(5 * z)) & (z > -0.3))

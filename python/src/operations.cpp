@@ -81,6 +81,8 @@ void bind_operations(py::module_& module) {
       .def_readonly("needs_faces", &Operation::needs_faces, "Whether bare clouds are refused.")
       .def_readonly("carries_values", &Operation::carries_values,
                     "Whether points and faces stay and what the input has at its points moves.")
+      .def_readonly("takes_any_mirror", &Operation::takes_any_mirror,
+                    "Whether the mirror may be that of another thing, near or far.")
       .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
 
   module.def(

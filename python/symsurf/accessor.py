@@ -57,8 +57,8 @@ class Symmetry:
 
     def asymmetry(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
-        ``field_data``. Over the mirror last detected, or the one that is found first; options and
-        errors are those of the function. The other operations likewise; where they move points, the
+        ``field_data``. Over the mirror last detected, or the one that is found first, or ``result``;
+        options and errors are those of the function. The other operations likewise; where they move points, the
         copy has no normals."""
         return self._operated("asymmetry", options)
 
@@ -100,6 +100,11 @@ class Symmetry:
         normals and texture coordinates; the point array "failed" says where that was not possible."""
         return self._operated("transfer", options)
 
+    def illuminate(self, **options: Any) -> pyvista.DataSet:
+        """A copy with the point arrays of ``symsurf.illuminate``: how many paths lead from the light
+        over the mirror to each point, and how bright it is."""
+        return self._operated("illuminate", options)
+
     def symmetries(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the group of ``symsurf.symmetries`` and its other statistics in
         ``field_data``; planes, axes and elements are then in ``analysis``. Options and errors are
@@ -132,7 +137,7 @@ class Symmetry:
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         self._require_points(name)
-        return operate(name, self._mesh, self.result, **options).like(self._mesh)
+        return operate(name, self._mesh, **{"result": self.result} | options).like(self._mesh)
 
     def _require_points(self, name: str) -> None:
         if is_grid(self._mesh):

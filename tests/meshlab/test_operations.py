@@ -142,6 +142,27 @@ def test_correspondences_are_blue_where_they_are_sure():
     assert np.allclose(layer.vertex_color_matrix()[:, :3], (0, 0, 1), atol=0.02)
 
 
+def test_illumination_is_that_of_the_lights_image():
+    shape = lump(3)
+    mesh_set = shape.mesh_set()
+    plane = add_plane(mesh_set, shape, shift=-2 * shape.diagonal)
+    light = shape.points.mean(axis=0) - 0.5 * shape.diagonal * shape.normal
+    returned = apply(mesh_set, "illuminate", mirror_layer=plane, light=light)
+    layer = mesh_set.current_mesh()
+    offset = shape.offset + 2 * shape.diagonal  # of the plane that add_plane has shifted
+    ways = shape.points - images(light[None], shape.normal, offset)
+    far = np.linalg.norm(ways, axis=1)
+    lit = symsurf.illuminate(
+        shape.points, symsurf.Plane(shape.normal, offset), faces=shape.faces, light=light
+    )
+    assert returned["lit_share"] == 1 and (lit.irradiance <= 1.000001 / far**2).all()
+    quality = layer.vertex_scalar_array()
+    assert np.allclose(quality, lit.irradiance, rtol=1e-5)
+    colours = layer.vertex_color_matrix()[:, :3]
+    assert colours[quality.argmax()] == pytest.approx((1, 0, 0), abs=0.01)
+    assert colours[quality.argmin()] == pytest.approx((0, 0, 1), abs=0.2)
+
+
 @pytest.mark.parametrize("axis", (0, 1, 2))
 @pytest.mark.parametrize("make", (lump, lump_cloud))
 def test_alignment_lays_the_plane_on_a_coordinate_plane(make, axis):

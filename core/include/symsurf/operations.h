@@ -43,6 +43,7 @@ struct Operation {
   bool needs_faces = false;             ///< bare clouds are refused
   /// Points and faces stay, what the input has at its points moves: OperationResult::point_parents.
   bool carries_values = false;
+  bool takes_any_mirror = false;  ///< not of the points alone: one of another thing, near or far
 };
 
 /// All operations, in the order front ends show them.
@@ -86,7 +87,7 @@ struct OperationResult {
 /// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where no point is
 /// finite or one has a coordinate beyond 1e50, a face names no point, the mask is not one value in
 /// [0, 1] a point or the operation takes none, the mirror has images for less than half of the
-/// points, or lies more than ten diagonals away from them; Cancelled.
+/// points, or, but where it takes any, lies more than ten diagonals away from them; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 

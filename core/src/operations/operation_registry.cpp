@@ -20,7 +20,7 @@ const std::vector<OperationImplementation>& operation_implementations() {
   static const std::vector<OperationImplementation> all{
       asymmetry_operation(),  correspondences_operation(), align_operation(),  complete_operation(),
       symmetrize_operation(), straighten_operation(),      remesh_operation(), cut_operation(),
-      transfer_operation()};
+      transfer_operation(),   illuminate_operation()};
   return all;
 }
 
@@ -95,7 +95,7 @@ OperationResult operate(std::string_view name, const OperationInput& given, cons
   if (operation.needs_faces && input.faces.empty())
     throw InvalidInput("no faces given for " + std::to_string(input.points.size()) + " points; " +
                        operation.name + " needs a mesh of triangles");
-  if (takes_mirror) require_near(input.points, *mirror);
+  if (takes_mirror && !operation.takes_any_mirror) require_near(input.points, *mirror);
   OperationResult result;
   result.operation = operation.name;
   result.points = input.points.matrix();

@@ -23,5 +23,6 @@ OperationImplementation straighten_operation();
 OperationImplementation remesh_operation();
 OperationImplementation cut_operation();
 OperationImplementation transfer_operation();
+OperationImplementation illuminate_operation();
 
 }  // namespace symsurf

@@ -65,6 +65,8 @@ class FileTask:
     nonfinite: str = "skip"
     require_found: bool = False
     """Of an operation: a mirror with the verdict "none" is an error."""
+    mirror: Mirror | None = None
+    """Of an operation: the one to use, in place of that which the method finds."""
     use_faces: bool = True
     use_normals: bool = False
     """Hand those of the file to the method; a file without any is an error."""
@@ -161,9 +163,10 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.operation in analyses():
         _analyse(task, shape, record, progress)
         return
-    if task.operation != DETECT and not _needs_mirror(task):
-        record |= {"verdict": None, "reason": None, "mirror": None, "score": None}
-        _operate(task, shape, None, record)
+    if task.operation != DETECT and (task.mirror is not None or not _needs_mirror(task)):
+        given_mirror = mirror_record(task.mirror)
+        record |= {"verdict": None, "reason": None, "mirror": given_mirror, "score": None}
+        _operate(task, shape, task.mirror, record)
         return
     parameters = task.parameters if task.operation == DETECT else {}
     found = detect(

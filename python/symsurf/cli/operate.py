@@ -8,6 +8,7 @@ from pathlib import Path
 
 from .._core import Operation
 from ..batching.file_task import Record
+from ..reading.json_records import read_mirror
 from ..results.summary import figures
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
@@ -52,6 +53,13 @@ class OperationCommand:
         )
         add_batch_options(parser)
         add_mirror_options(parser)
+        parser.add_argument(
+            "--mirror",
+            type=Path,
+            metavar="FILE",
+            help="use this mirror for all files, and find none: JSON that detect has written, or "
+            '{"mirror": {"kind": "sphere", "centre": [0, 0, 0], "radius": 1}}',
+        )
         add_absolute(parser)
         add_parameters(parser, self._operation)
 
@@ -64,11 +72,13 @@ class OperationCommand:
             lambda path: [output_suffix(path, name, arguments.format, arguments.input_format)],
         )
         _, threads = jobs_and_threads(arguments)
+        mirror = arguments.mirror and read_mirror(arguments.mirror)
         tasks = [
             replace(
                 task,
                 operation=name,
                 method=arguments.method,
+                mirror=mirror,
                 require_found=arguments.require_found,
                 parameters=given_values(arguments) | arguments.absolute,
                 threads=threads,
@@ -81,11 +91,13 @@ class OperationCommand:
 
 def _text(record: Record) -> str:
     lines = [record["file"]]
-    if record["mirror"] is not None:
+    if record["verdict"] is not None:
         lines += [
             f"  verdict             {record['verdict']}: {record['reason']}",
             f"  mirror              {record['mirror']['kind']}, score {record['score']:.3f}",
         ]
+    elif record["mirror"] is not None:
+        lines.append(f"  mirror              {record['mirror']['kind']}, given")
     for name, value, share in figures(record["statistics"]):
         if share is not None:
             lines.append(f"  {name:<19} {value:<12.6g} {100 * share:.4g} % of the diagonal")

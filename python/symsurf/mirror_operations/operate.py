@@ -41,7 +41,8 @@ def operate(
     mirror = None
     if _core.needs_mirror(name, parameters):
         mirror = _mirror_of(given, result, require_found, threads)
-        if mirror.footprint is None:  # that the way back from a straightened shape is laid out over
+        # The way back from a straightened shape is laid out over it.
+        if mirror.footprint is None and not _core.operations()[name].takes_any_mirror:
             mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     made = _core.operate(
         name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters

@@ -16,6 +16,7 @@ from ..results import (
     Completed,
     Correspondences,
     Half,
+    Illuminated,
     OperationResult,
     Remeshed,
     Straightened,
@@ -51,6 +52,8 @@ if TYPE_CHECKING:
 ORIGINS = {"original": OBJECT, "mirrored": "#de8350", "seam": "#74204f"}
 # From blue over light to red: what lies too far out, and what lies too far in.
 DIVERGING = ("#2f5fb0", "#8fb4dc", "#f5efe4", "#e39a7b", "#a83244")
+# From dark to bright.
+LIGHT = ("#1b1b22", "#8a5a20", "#f0b429", "#fffbe6")
 ABOVE_AXES = (1, -1.2, 0.6)
 AXES = {"x": "#c8443c", "y": "#4a9c4a", "z": "#3a62c4"}
 
@@ -161,6 +164,10 @@ def _draw_object(
     elif isinstance(result, Completed):
         image = "turned" if result.mirror is None else "mirrored"
         _draw_origins(plotter, object_, result.origin[rows], image)
+    elif isinstance(result, Illuminated):
+        values = result.irradiance[rows]
+        end = clim or float(np.percentile([0, *values[np.isfinite(values)]], 98)) or 1.0
+        draw_scalars(plotter, object_, values, "irradiance", (0, end), colour_map(LIGHT))
     elif isinstance(result, Remeshed):
         plotter.add_mesh(object_, color=OBJECT, show_edges=True, edge_color=INK)
     elif isinstance(result, Half) and result.cap.any():
@@ -254,6 +261,8 @@ def _mirror_mesh(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Vertices and triangles over the object; none where the mirror maps none of it."""
     with suppress(InvalidInput):
+        if isinstance(result, Illuminated) and mirror.footprint is not None:
+            return mirror.mesh()
         if not isinstance(result, Alignment):
             return mirror.mesh(object_.points)
         vertices, triangles = mirror.mesh(result.given.points)
@@ -282,6 +291,8 @@ def _title(result: OperationResult) -> str:
         return f"remeshed over a {kind}: edges of {length:.2g} % of the diagonal"
     if isinstance(result, Half):
         return f"cut along a {kind}: {figures['cap_faces']} faces close it"
+    if isinstance(result, Illuminated):
+        return f"illuminated over a {kind}: {percent(figures['lit_share'])} lit"
     if isinstance(result, Transferred):
         return f"transferred over a {kind}: {figures['failed_points']} points have no counterpart"
     if isinstance(result, Straightened):

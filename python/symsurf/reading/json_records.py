@@ -61,6 +61,13 @@ def mirror_from(record: dict[str, Any], footprint: Any = None) -> Mirror:
     return make_mirror(record["kind"], numbers, footprint)
 
 
+def read_mirror(path: Path) -> Mirror:
+    """The mirror of a result or of its summary, or one that is written by hand in their form. Raises
+    InvalidInput, which names the file."""
+    with content_of(path, 'no "mirror" with its kind and numbers') as record:
+        return mirror_from(record["mirror"], record.get("footprint"))
+
+
 def _require_sound(fields: dict[str, Any]) -> None:
     """Raises InvalidInput where the fields are not those of one result."""
     names = ("pairs", "residuals", "surface_points", "mirror", "candidates")

@@ -173,8 +173,9 @@ class OperationResult(Summarised):
 
         Args:
             path: a PNG to write off-screen, whole or not at all; without it a window opens.
-            clim: what the colours end at, above 0 and in % of the diagonal (of ``confidence``, a
-                number); without it what 98 % of the points stay below, at least 0.1.
+            clim: what the colours end at, above 0 and in % of the diagonal (of ``confidence`` and
+                ``irradiance``, a number); without it what 98 % of the points stay below, of lengths at
+                least 0.1.
             camera: as for ``Result.plot``.
             score: False: without the sentence above.
         """
@@ -318,6 +319,22 @@ class Transferred(_OverMirror):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Illuminated(_OverMirror):
+    """Light that a mirror throws onto points. ``statistics``: "lit_share", of the points those that a
+    path leads to, and "most_paths", the largest number of paths."""
+
+    operation = "illuminate"
+
+    paths: NDArray[np.int64]
+    """(n,) how many reflected paths lead to the point."""
+    irradiance: NDArray[np.float64]
+    """(n,) their sum for a light of unit intensity, per square input unit: on the surface of a mesh,
+    across each path for a cloud; infinite in a focus."""
+    reflection: NDArray[np.float64]
+    """(n, 3) where the shortest path meets the mirror, input units; NaN without one."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Straightened(_OverMirror):
     """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
     the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
@@ -383,6 +400,7 @@ RESULTS: dict[str, type[OperationResult]] = {
         Remeshed,
         Half,
         Transferred,
+        Illuminated,
     )
 }
 
