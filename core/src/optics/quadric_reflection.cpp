@@ -90,13 +90,14 @@ class Search {
       node_ = nodes[k];
       width_ = nodes[k + 1] - node_;
       if (width_ < degenerate) continue;
-      const double first = 2 * std::sqrt(gap);
+      const double near = std::sqrt(gap / 3);
+      const Crossing first = cross(near), half = cross(0.5), last = cross(1 - near);
       std::array<Sample, 2> begins, ends;
       for (branch_ = 0; branch_ < 2; ++branch_) {
         splits_ = 0;
-        const Sample middle = sample(pi / 2);
+        const Sample middle = sample(half);
         between(begins[branch_] = sample(first), middle, 0);
-        between(middle, ends[branch_] = sample(pi - first), 0);
+        between(middle, ends[branch_] = sample(last), 0);
       }
       turn_back(begins);
       turn_back(ends);
@@ -104,38 +105,52 @@ class Search {
   }
 
  private:
+  // A line, and where on it both branches are.
+  struct Crossing {
+    double at;
+    PlaneLine line;
+    bool is_real;
+    std::array<double, 2> t;
+  };
+
   // Both branches are one where the line touches the quadric.
   void turn_back(const std::array<Sample, 2>& s) {
     if (s[0].is_real && s[1].is_real && is_smooth(s[0], s[1]) && (s[0].law < 0) != (s[1].law < 0))
       settle((s[0].point + s[1].point) / 2, (s[0].point - s[1].point).norm());
   }
 
-  // Between two nodes by an angle of half a turn: at a node the points move as the root of the
-  // plane's angle, and so evenly.
-  Sample sample(double at) const {
-    const double angle = node_ + width_ * (1 - std::cos(at)) / 2;
+  // Between two nodes by a number of 0 to 1: at a node the points move as the root of the plane's
+  // angle, and so evenly.
+  Crossing cross(double at) const {
+    const double angle = node_ + width_ * at * at * (3 - 2 * at);
     const PlaneLine line = lines_(std::cos(angle), std::sin(angle));
     const Vector3 curved = frame_.curves.cwiseProduct(line.q);
     const double a = line.q.dot(curved);
     const double b = line.p.dot(curved) + line.q.dot(frame_.linear) / 2;
     const double c = frame_.value(line.p);
     const double discriminant = b * b - a * c;
-    Sample s;
-    s.at = at;
-    s.is_real = discriminant >= 0;
-    if (!s.is_real) return s;
     // (-b + root) / a and (-b - root) / a, without cancellation.
     const double root = std::sqrt(discriminant), sum = b > 0 ? -b - root : -b + root;
-    const double t = (b > 0) == (branch_ == 1) || sum == 0 ? sum / a : c / sum;
-    s.point = line.p + t * line.q;
-    apply_law(line, s);
+    const double one = sum / a, other = sum == 0 ? one : c / sum;
+    return {at, line, discriminant >= 0, {b > 0 ? other : one, b > 0 ? one : other}};
+  }
+
+  Sample sample(double at) const { return sample(cross(at)); }
+
+  Sample sample(const Crossing& crossing) const {
+    Sample s;
+    s.at = crossing.at;
+    s.is_real = crossing.is_real;
+    if (!s.is_real) return s;
+    s.point = crossing.line.p + crossing.t[branch_] * crossing.line.q;
+    apply_law(crossing.line, s);
     return s;
   }
 
   // The law is the sine of the sum of the angles of both ends with the normal, about m.
   void apply_law(const PlaneLine& line, Sample& s) const {
     const Vector3 n = frame_.gradient(s.point), along = lines_.tangent(s.point, n);
-    const double speed = width_ * std::sin(s.at) / 2;
+    const double speed = 6 * width_ * s.at * (1 - s.at);
     const Vector3 move = -speed * line.turn.dot(s.point) / line.across.dot(along) * along;
     const Vector3 source = frame_.source - s.point, eye = -s.point;
     s.normal = n.normalized();
