@@ -38,8 +38,8 @@ double stiffness_at(double part) {
   return stiffest * std::pow(softest / stiffest, std::min(1.0, part / soft_from));
 }
 
-// Half-way between the principal planes: what twists a body turns its axes, too. Without them 3 of 4
-// twisted bodies.
+// Half-way between the principal planes: what twists a body turns its axes, too. Without them 3 of
+// 4 twisted bodies.
 std::vector<UnitPlane> half_way_planes() {
   std::vector<UnitPlane> planes;
   for (int axis = 0; axis < 3; ++axis)
