@@ -39,7 +39,7 @@ double stiffness_at(double part) {
 }
 
 // Half-way between the principal planes: what twists a body turns its axes, too. Without them 3 of
-// 4 twisted bodies.
+// 4 twisted bodies are right, with them all.
 std::vector<UnitPlane> half_way_planes() {
   std::vector<UnitPlane> planes;
   for (int axis = 0; axis < 3; ++axis)
