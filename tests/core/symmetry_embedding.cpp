@@ -201,6 +201,53 @@ TEST(SymmetryEmbedding, HasTheOrbitsSizesForEigenvalues) {
   }
 }
 
+// A row of Lipman's matrix, by all maps and points.
+Eigen::VectorXd correspondences(const Points& points, Index i, const NearSymmetries& symmetries,
+                                double localization) {
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(points.rows(), INFINITY);
+  const Vector3 x = points.row(i).transpose();
+  for (const auto& [map, deviation] : symmetries.maps)
+    for (const Vector3& image : {map * x, map.inverse() * x})
+      least = least.cwiseMin(
+          ((points.rowwise() - image.transpose()).rowwise().norm().array() / symmetries.diameter +
+           deviation)
+              .matrix());
+  return (-(least / localization).array().square()).exp();
+}
+
+// Lipman et al.: the distance in all coordinates, eigenvalue times eigenvector, is that of the rows
+// of the matrix. Of fewer landmarks than points.
+TEST(SymmetryEmbedding, HasTheDistancesOfTheWholeMatrix) {
+  constexpr Index half = 1000;
+  constexpr double localization = 0.05;
+  for (const double noise : {0.0, 0.01}) {
+    RandomCloud random(3);
+    Points points(2 * half, 3);
+    for (Index i = 0; i < half; ++i) {
+      const Vector3 x = Vector3(1, 0.8, 0.5).cwiseProduct(random.in_box().normalized());
+      points.row(2 * i) = x.transpose() + noise * random.in_box().transpose();
+      points.row(2 * i + 1) << -x.x(), x.y(), x.z();
+    }
+    const PointTree tree(points);
+    const NearSymmetries symmetries = near_symmetries(points, tree, 0.03, Context());
+    EXPECT_EQ(symmetries.exact, noise == 0);
+    const FactoredEmbedding embedding = factored_embedding(
+        points, tree, symmetries, {.localization = localization, .power = 1}, Context());
+    EXPECT_LT(embedding.coordinates.cols(), half);
+    std::vector<Eigen::VectorXd> rows;
+    for (Index k = 0; k < 100; ++k)
+      rows.push_back(correspondences(points, 17 * k, symmetries, localization));
+    double longest = 0, off = 0;
+    for (Index k = 0; k < 100; ++k)
+      for (Index l = 0; l < k; ++l) {
+        const double wanted = (rows[k] - rows[l]).norm();
+        longest = std::max(longest, wanted);
+        off = std::max(off, std::abs(wanted - distance(embedding, 17 * k, 17 * l)));
+      }
+    EXPECT_LT(off, 0.01 * longest) << noise;
+  }
+}
+
 TEST(SymmetryEmbedding, TellsWhatStaysInPlace) {
   RandomCloud random(0);
   Sample turned, chiral;

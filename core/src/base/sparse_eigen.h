@@ -4,6 +4,7 @@
 #include <symsurf/points.h>
 
 #include <Eigen/SparseCore>
+#include <functional>
 
 #include "base/eigenvectors.h"
 
@@ -15,5 +16,11 @@ namespace symsurf {
 SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double>& semidefinite,
                                                 const Eigen::VectorXd& masses, Index count,
                                                 double shift, const Context& context);
+
+/// At most `count` greatest eigenvalues, descending, of a symmetric matrix with their unit vectors,
+/// by the same steps. The matrix is what `multiply` does to a vector.
+SymmetricEigen<Eigen::Dynamic> greatest_eigenpairs(
+    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply, Index size, Index count,
+    const Context& context);
 
 }  // namespace symsurf
