@@ -188,7 +188,7 @@ Rows correspondences(PointsView points, const PointTree& tree, const Nodes& all,
 
 // Of correspondences, with the least ridge that makes them definite: S is no metric of vectors.
 Eigen::LLT<Eigen::MatrixXd> definite_factor(Eigen::MatrixXd among, const Context& context) {
-  for (double ridge = 1e-6;; ridge *= 10) {
+  for (double ridge = 1e-12;; ridge *= 100) {
     context.check();
     among.diagonal().array() += ridge;
     Eigen::LLT<Eigen::MatrixXd> factor(among);
