@@ -215,10 +215,9 @@ Eigen::VectorXd correspondences(const Points& points, Index i, const NearSymmetr
   return (-(least / localization).array().square()).exp();
 }
 
-// Lipman et al.: the distance in all coordinates, eigenvalue times eigenvector, is that of the rows
-// of the matrix. Of fewer landmarks than points.
+// Lipman et al.: the matrix's first eigenvectors, times their eigenvalues.
 TEST(SymmetryEmbedding, HasTheDistancesOfTheWholeMatrix) {
-  constexpr Index half = 1000;
+  constexpr Index half = 1000, coordinates = 16;
   constexpr double localization = 0.05;
   for (const double noise : {0.0, 0.01}) {
     RandomCloud random(3);
@@ -232,19 +231,29 @@ TEST(SymmetryEmbedding, HasTheDistancesOfTheWholeMatrix) {
     const NearSymmetries symmetries = near_symmetries(points, tree, 0.03, Context());
     EXPECT_EQ(symmetries.exact, noise == 0);
     const FactoredEmbedding embedding = factored_embedding(
-        points, tree, symmetries, {.localization = localization, .power = 1}, Context());
-    EXPECT_LT(embedding.coordinates.cols(), half);
-    std::vector<Eigen::VectorXd> rows;
-    for (Index k = 0; k < 100; ++k)
-      rows.push_back(correspondences(points, 17 * k, symmetries, localization));
-    double longest = 0, off = 0;
-    for (Index k = 0; k < 100; ++k)
-      for (Index l = 0; l < k; ++l) {
-        const double wanted = (rows[k] - rows[l]).norm();
-        longest = std::max(longest, wanted);
-        off = std::max(off, std::abs(wanted - distance(embedding, 17 * k, 17 * l)));
-      }
-    EXPECT_LT(off, 0.01 * longest) << noise;
+        points, tree, symmetries,
+        {.localization = localization, .power = 1, .coordinates = coordinates}, Context());
+    Eigen::MatrixXd whole(2 * half, 2 * half);
+    for (Index i = 0; i < whole.cols(); ++i)
+      whole.col(i) = correspondences(points, i, symmetries, localization);
+    // The matrix's product with each coordinate is that coordinate times its eigenvalue.
+    const Eigen::MatrixXd& given = embedding.coordinates;
+    const Eigen::MatrixXd off = whole * given - given * embedding.eigenvalues.asDiagonal();
+    for (Index k = 0; k < coordinates; ++k) {
+      EXPECT_LT(off.col(k).norm(), 0.01 * embedding.eigenvalues[k] * given.col(k).norm()) << k;
+      EXPECT_NEAR(given.col(k).norm(), embedding.eigenvalues[k], 0.01 * embedding.eigenvalues[k]);
+    }
+    // The greatest ones: what is left when they are taken away has lesser ones alone.
+    Eigen::VectorXd rest = Eigen::VectorXd::LinSpaced(2 * half, -1, 1);
+    double greatest = 0;
+    for (int step = 0; step < 100; ++step) {
+      for (Index k = 0; k < coordinates; ++k)
+        rest -= given.col(k) * (given.col(k).dot(rest) / given.col(k).squaredNorm());
+      rest = whole * rest;
+      greatest = rest.norm();
+      rest /= greatest;
+    }
+    EXPECT_LT(greatest, 1.01 * embedding.eigenvalues[coordinates - 1]);
   }
 }
 

@@ -38,19 +38,20 @@ class ShiftedInverse {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };
 
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+
 // y = A x, for Spectra.
 struct Product {
   using Scalar = double;
-  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply;
-  Index size;
+  const Rows& matrix;
   const Context& context;
 
-  Eigen::Index rows() const { return size; }
-  Eigen::Index cols() const { return size; }
+  Eigen::Index rows() const { return matrix.rows(); }
+  Eigen::Index cols() const { return matrix.cols(); }
 
   void perform_op(const double* x, double* y) const {
     context.check();
-    Eigen::Map<Eigen::VectorXd>(y, size) = multiply(Eigen::Map<const Eigen::VectorXd>(x, size));
+    Eigen::Map<Eigen::VectorXd>(y, rows()) = matrix * Eigen::Map<const Eigen::VectorXd>(x, cols());
   }
 };
 
@@ -83,18 +84,15 @@ SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double
   return {solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors()};
 }
 
-SymmetricEigen<Eigen::Dynamic> greatest_eigenpairs(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply, Index size, Index count,
-    const Context& context) {
-  Product product{multiply, size, context};
+SymmetricEigen<Eigen::Dynamic> greatest_eigenpairs(const Rows& symmetric, Index count,
+                                                   const Context& context) {
+  const Index size = symmetric.rows();
   if (size <= gained_from * count) {
-    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(size, size);
-    Eigen::MatrixXd matrix(size, size);
-    for (Index k = 0; k < size; ++k)
-      product.perform_op(identity.col(k).data(), matrix.col(k).data());
-    const auto [values, vectors] = eigen_of(matrix, identity);
+    const auto [values, vectors] =
+        eigen_of(Eigen::MatrixXd(symmetric), Eigen::MatrixXd::Identity(size, size));
     return {values.tail(count).reverse(), vectors.rightCols(count).rowwise().reverse()};
   }
+  Product product{symmetric, context};
   Spectra::SymEigsSolver<Product> solver(product, count, lanczos_steps(count, size));
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, restarts, tolerance,

@@ -4,7 +4,7 @@
 #include <symsurf/points.h>
 
 #include <Eigen/SparseCore>
-#include <functional>
+#include <cstdint>
 
 #include "base/eigenvectors.h"
 
@@ -18,9 +18,9 @@ SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double
                                                 double shift, const Context& context);
 
 /// At most `count` greatest eigenvalues, descending, of a symmetric matrix with their unit vectors,
-/// by the same steps. The matrix is what `multiply` does to a vector.
+/// by the same steps.
 SymmetricEigen<Eigen::Dynamic> greatest_eigenpairs(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply, Index size, Index count,
+    const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& symmetric, Index count,
     const Context& context);
 
 }  // namespace symsurf

@@ -1,6 +1,5 @@
 #include "symmetries/embedding/factored_embedding.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -17,9 +16,9 @@ namespace symsurf {
 namespace {
 
 constexpr Index most_orbits = 300;      // without exact partners
-constexpr Index most_landmarks = 2000;  // whose matrix is decomposed
+constexpr Index most_landmarks = 5000;  // whose matrix is decomposed
 constexpr double most_pairs = 3e9;      // of points and images of landmarks: seconds
-constexpr double resolved = 0.25;       // localizations between landmarks: distances are 1 % off
+constexpr double resolved = 0.1;        // localizations from a point to the nearest landmark
 constexpr double reach = 4;  // localizations beyond which a correspondence, 1e-7, counts as none
 constexpr double least_eigenvalue = 1e-9;  // of the largest: others are rounding
 constexpr double partner_reach = 2e-6;     // diameters: twice the rounding of exact maps
@@ -186,16 +185,6 @@ Rows correspondences(PointsView points, const PointTree& tree, const Nodes& all,
   return rows;
 }
 
-// Of correspondences, with the least ridge that makes them definite: S is no metric of vectors.
-Eigen::LLT<Eigen::MatrixXd> definite_factor(Eigen::MatrixXd among, const Context& context) {
-  for (double ridge = 1e-12;; ridge *= 100) {
-    context.check();
-    among.diagonal().array() += ridge;
-    Eigen::LLT<Eigen::MatrixXd> factor(among);
-    if (factor.info() == Eigen::Success) return factor;
-  }
-}
-
 }  // namespace
 
 FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
@@ -216,23 +205,22 @@ FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
 
   const Rows rows = correspondences(points, tree, nodes, landmarks, symmetries,
                                     options.localization, context.stage(0.3, 0.6));
-  // The matrix of all points is R A^-1 R' of the landmarks' rows R and what these have at the
-  // landmarks, A = L L'. Its eigenvectors R L'^-1 v are those v of L^-1 R' M R L'^-1, M the masses.
-  const Index size = landmarks.size();
-  Eigen::MatrixXd among(size, size);
-  for (Index k = 0; k < size; ++k) among.row(k) = rows.row(landmarks.nodes[k]);
-  const Eigen::LLT<Eigen::MatrixXd> factor = definite_factor(std::move(among), context);
-  const auto multiply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-    const Eigen::VectorXd at_nodes = rows * factor.matrixU().solve(v);
-    return factor.matrixL().solve(rows.transpose() * nodes.mass.cwiseProduct(at_nodes));
-  };
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(landmarks.size());
+  for (Index a = 0; a < nodes.size(); ++a) mass[landmarks.nearest[a]] += nodes.mass[a];
+  const Eigen::VectorXd root = mass.cwiseSqrt();
+  Rows among(landmarks.size(), landmarks.size());
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  for (Index k = 0; k < landmarks.size(); ++k)
+    for (Rows::InnerIterator entry(rows, landmarks.nodes[k]); entry; ++entry)
+      entries.emplace_back(k, entry.col(), root[k] * entry.value() * root[entry.col()]);
+  among.setFromTriplets(entries.begin(), entries.end());
   const auto [values, vectors] = greatest_eigenpairs(
-      multiply, size, std::min(options.coordinates, size), context.stage(0.8, 1));
+      among, std::min(options.coordinates, landmarks.size()), context.stage(0.6, 1));
   const Index kept = (values.array() > least_eigenvalue * values[0]).count();
   embedding.eigenvalues = values.head(kept);
   const Eigen::MatrixXd at_landmarks =
-      factor.matrixU().solve(vectors.leftCols(kept)) *
-      embedding.eigenvalues.array().pow(options.power - 0.5).matrix().asDiagonal();
+      root.asDiagonal() * vectors.leftCols(kept) *
+      embedding.eigenvalues.array().pow(options.power - 1).matrix().asDiagonal();
   embedding.coordinates = (rows * at_landmarks)(nodes.of_point, Eigen::indexing::all);
   return embedding;
 }

@@ -51,8 +51,8 @@ struct EmbeddingOptions {
 
 /// The correspondence of x and y is exp(-(S / localization)^2), where S, in diameters, is the least
 /// D(X, gX) + |g x - y| of the maps g: an upper bound of Lipman's infimum that symmetries attain.
-/// Of many orbits the eigenvectors are those of landmarks about as far apart as the localization,
-/// at most 2000, each with the mass of the points nearest to it, carried on to the others by the
+/// Of more than some thousand orbits, or hundred with many maps, the eigenvectors are those of
+/// landmarks, each with the mass of the points nearest to it, carried on to the others by the
 /// matrix (Nyström).
 FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
                                      const NearSymmetries& symmetries,

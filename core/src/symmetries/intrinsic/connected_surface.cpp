@@ -65,8 +65,8 @@ double mean_edge(const Points& points, const Eigen::SparseMatrix<double>& graph,
 }
 
 // Joins parts that all but touch, as wings modelled apart from their fuselage do, and what gaps
-// of a cloud part: each vertex to the nearest one of another part within so many of the mean lengths
-// of its edges.
+// of a cloud part: each vertex to the nearest one of another part within so many of the mean
+// lengths of its edges.
 void join_touching_parts(const Points& points, double reach, Laplacian& surface,
                          const Context& context) {
   constexpr double weight = 1;  // cotangents of even triangles give 0.58 to an edge
