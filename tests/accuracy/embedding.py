@@ -11,6 +11,7 @@ import symsurf
 from .case import Case, Figures, at_least, at_most
 from .poses import random_rotation
 
+BLOBS = 5
 GROUPS = {"mirror": (1, True), "three-fold": (3, False), "five-fold, mirrors": (5, True),
           "gear of 24": (24, True), "none": (1, False)}  # fmt: skip
 STATIONARY = {"mirror": "plane", "three-fold": "line", "five-fold, mirrors": "line",
@@ -25,22 +26,26 @@ def _elements(name: str) -> list[np.ndarray]:
     return [t @ np.diag((s, 1, 1)) for t in turns for s in ((1, -1) if mirrors else (1,))]
 
 
-def _orbits(name: str, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """About `count` points, and the orbit of each; unlike bottom and top."""
+def sampled_orbits(
+    name: str, count: int, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """About `count` points, and the orbit of each: the images of some random blobs."""
     elements = _elements(name)
     each = count // len(elements)
-    seeds = rng.normal(size=(each, 3))
-    seeds /= np.linalg.norm(seeds, axis=1)[:, None]
-    seeds *= (1, 0.7, 0.6) * (1 + 0.4 * seeds[:, 2:])
-    seeds[:, :2] += (0.2, 0.9) if len(elements) > 1 else 0.3 * seeds[:, 2:] ** 2
+    middles = rng.uniform(-1, 1, size=(BLOBS, 3)) + (0, 1, 0)
+    seeds = middles[rng.integers(BLOBS, size=each)] + 0.15 * rng.normal(size=(each, 3))
     points = np.vstack([seeds @ element.T for element in elements])
-    moved = points @ random_rotation(rng).T + rng.normal(size=3)
-    return moved, np.tile(np.arange(each), len(elements))
+    return points, np.tile(np.arange(each), len(elements))
+
+
+def _placed(name: str, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    points, orbits = sampled_orbits(name, count, rng)
+    return points @ random_rotation(rng).T + rng.normal(size=3), orbits
 
 
 def _factored(name: str, rng: np.random.Generator) -> Figures:
     """Orbits, the stationary set, and the largest distance within orbits over the mean of all."""
-    points, orbits = _orbits(name, 2400, rng)
+    points, orbits = _placed(name, 2400, rng)
     found = symsurf.symmetry_embedding(points)
     pairs = {(a, b) for a, b in zip(orbits.tolist(), found.orbit.tolist(), strict=True)}
     first = np.unique(orbits, return_index=True)[1][orbits]
@@ -55,7 +60,7 @@ def _factored(name: str, rng: np.random.Generator) -> Figures:
 
 def _noisy(name: str, rng: np.random.Generator, missing: float) -> Figures:
     """Noise of 0.5 % of the diagonal: distances within orbits beside those of random pairs."""
-    points, orbits = _orbits(name, 2400, rng)
+    points, orbits = _placed(name, 2400, rng)
     points += 0.005 * np.linalg.norm(np.ptp(points, axis=0)) * rng.normal(size=points.shape)
     away = np.linalg.norm(points - points[rng.integers(len(points))], axis=1)
     kept = np.argsort(away)[round(missing * len(points)) :]
@@ -72,7 +77,7 @@ def _noisy(name: str, rng: np.random.Generator, missing: float) -> Figures:
 
 
 def _many(name: str, rng: np.random.Generator) -> Figures:
-    points, _ = _orbits(name, 100_000, rng)
+    points, _ = _placed(name, 100_000, rng)
     start = time.process_time()
     symsurf.symmetry_embedding(points, threads=1)
     return {"seconds": time.process_time() - start}
@@ -80,12 +85,12 @@ def _many(name: str, rng: np.random.Generator) -> Figures:
 
 _SYMMETRIC = tuple(name for name in GROUPS if name != "none")
 CASES = (
-    Case("neighbours, embedding: Lipman, orbits and stationary sets", tuple(GROUPS), _factored,
+    Case("neighbours, embedding: Lipman, orbits and stationary sets", _SYMMETRIC, _factored,
          {"orbits": at_least(1), "stationary set": at_least(1), "within orbits": at_most(1e-3)},
          trials=10),
     *(Case(f"neighbours, embedding: Lipman, {title}", _SYMMETRIC,
            lambda name, rng, missing=missing: _noisy(name, rng, missing),
-           {"stationary set": at_least(1), "within over between": at_most(0.5)}, trials=10)
+           {"within over between": at_most(0.5)}, trials=10)
       for title, missing in (("noise 0.5 %", 0), ("noise, and a tenth missing", 0.1))),
     Case("neighbours, embedding: 100,000 points", tuple(GROUPS), _many, {"seconds": at_most(5)},
          trials=5),

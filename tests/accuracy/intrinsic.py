@@ -41,7 +41,7 @@ def _trial(name: str, rng: np.random.Generator, as_cloud: bool) -> Figures:
     }
 
 
-def _scan(
+def incomplete_scan(
     body: Body, points: np.ndarray, missing: float, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Random points of the posed surface without those of HOLES holes, the vertex nearest to each,
@@ -66,7 +66,7 @@ def _scan_trial(name: str, rng: np.random.Generator, missing: float) -> Figures:
     """Distances are straight where an image lies on the right limb: finer than vertices are."""
     body = BODIES[name] if name in BODIES else mesh_body(name)
     points = posed(body, rng, ANGLE) @ random_rotation(rng).T
-    scan, vertices, there = _scan(body, points, missing, rng)
+    scan, vertices, there = incomplete_scan(body, points, missing, rng)
     start = time.process_time()
     found = symsurf.intrinsic_symmetry(scan, threads=1)
     seconds = time.process_time() - start
