@@ -120,7 +120,8 @@ struct Landmarks {
       if (orbits.empty() && (away <= options.resolution || size() == most_orbits)) orbits = nearest;
       if (away <= resolved * options.localization) break;
       if (nodes.empty()) least.setConstant(infinity);
-      for (const Image& image : images_of(points[all.point[farthest]], symmetries))
+      for (const Image& image : images_of(points[all.point[farthest]], symmetries)) {
+        if (image.deviation > away) continue;
         tree.within(image.at, (away - image.deviation) * symmetries.diameter,
                     [&](Index point, double squared) {
                       const double s = image.deviation + std::sqrt(squared) / symmetries.diameter;
@@ -129,6 +130,7 @@ struct Landmarks {
                       least[node] = s;
                       nearest[node] = size();
                     });
+      }
       nodes.push_back(farthest);
     }
     if (orbits.empty()) orbits = nearest;
