@@ -14,6 +14,7 @@ from . import (
     candidates,
     curved,
     deformed,
+    embedding,
     exact,
     halves,
     homologous,
@@ -41,7 +42,7 @@ from .case import Case, Figures
 from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
-MODULES = (bodies, curved, deformed, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
+MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
            halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
            pots, recurring, scores, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}

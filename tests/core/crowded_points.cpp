@@ -31,7 +31,7 @@ Points crowds_about(const Points& middles, Index count, double width, RandomClou
 }
 
 std::size_t isometries(const Points& points) {
-  return exact_isometries(points, PointTree(points), {}).size();
+  return exact_isometries(points, PointTree(points), {}).maps.size();
 }
 
 TEST(CrowdedPoints, HaveTheIsometriesOfTheirMiddles) {

@@ -201,6 +201,62 @@ TEST(SymmetryEmbedding, HasTheOrbitsSizesForEigenvalues) {
   }
 }
 
+// A row of Lipman's matrix, by all maps and points.
+Eigen::VectorXd correspondences(const Points& points, Index i, const NearSymmetries& symmetries,
+                                double localization) {
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(points.rows(), INFINITY);
+  const Vector3 x = points.row(i).transpose();
+  for (const auto& [map, deviation] : symmetries.maps)
+    for (const Vector3& image : {map * x, map.inverse() * x})
+      least = least.cwiseMin(
+          ((points.rowwise() - image.transpose()).rowwise().norm().array() / symmetries.diameter +
+           deviation)
+              .matrix());
+  return (-(least / localization).array().square()).exp();
+}
+
+// Lipman et al.: the matrix's first eigenvectors, times their eigenvalues.
+TEST(SymmetryEmbedding, HasTheDistancesOfTheWholeMatrix) {
+  constexpr Index half = 1000, coordinates = 16;
+  constexpr double localization = 0.05;
+  for (const double noise : {0.0, 0.01}) {
+    RandomCloud random(3);
+    Points points(2 * half, 3);
+    for (Index i = 0; i < half; ++i) {
+      const Vector3 x = Vector3(1, 0.8, 0.5).cwiseProduct(random.in_box().normalized());
+      points.row(2 * i) = x.transpose() + noise * random.in_box().transpose();
+      points.row(2 * i + 1) << -x.x(), x.y(), x.z();
+    }
+    const PointTree tree(points);
+    const NearSymmetries symmetries = near_symmetries(points, tree, 0.03, Context());
+    EXPECT_EQ(symmetries.exact, noise == 0);
+    const FactoredEmbedding embedding = factored_embedding(
+        points, tree, symmetries,
+        {.localization = localization, .power = 1, .coordinates = coordinates}, Context());
+    Eigen::MatrixXd whole(2 * half, 2 * half);
+    for (Index i = 0; i < whole.cols(); ++i)
+      whole.col(i) = correspondences(points, i, symmetries, localization);
+    // The matrix's product with each coordinate is that coordinate times its eigenvalue.
+    const Eigen::MatrixXd& given = embedding.coordinates;
+    const Eigen::MatrixXd off = whole * given - given * embedding.eigenvalues.asDiagonal();
+    for (Index k = 0; k < coordinates; ++k) {
+      EXPECT_LT(off.col(k).norm(), 0.01 * embedding.eigenvalues[k] * given.col(k).norm()) << k;
+      EXPECT_NEAR(given.col(k).norm(), embedding.eigenvalues[k], 0.01 * embedding.eigenvalues[k]);
+    }
+    // The greatest ones: what is left when they are taken away has lesser ones alone.
+    Eigen::VectorXd rest = Eigen::VectorXd::LinSpaced(2 * half, -1, 1);
+    double greatest = 0;
+    for (int step = 0; step < 100; ++step) {
+      for (Index k = 0; k < coordinates; ++k)
+        rest -= given.col(k) * (given.col(k).dot(rest) / given.col(k).squaredNorm());
+      rest = whole * rest;
+      greatest = rest.norm();
+      rest /= greatest;
+    }
+    EXPECT_LT(greatest, 1.01 * embedding.eigenvalues[coordinates - 1]);
+  }
+}
+
 TEST(SymmetryEmbedding, TellsWhatStaysInPlace) {
   RandomCloud random(0);
   Sample turned, chiral;

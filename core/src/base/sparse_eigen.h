@@ -4,6 +4,7 @@
 #include <symsurf/points.h>
 
 #include <Eigen/SparseCore>
+#include <cstdint>
 
 #include "base/eigenvectors.h"
 
@@ -15,5 +16,11 @@ namespace symsurf {
 SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double>& semidefinite,
                                                 const Eigen::VectorXd& masses, Index count,
                                                 double shift, const Context& context);
+
+/// At most `count` greatest eigenvalues, descending, of a symmetric matrix with their unit vectors,
+/// by the same steps.
+SymmetricEigen<Eigen::Dynamic> greatest_eigenpairs(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& symmetric, Index count,
+    const Context& context);
 
 }  // namespace symsurf

@@ -27,8 +27,9 @@ class Search {
         radii_(points_.colwise().norm()),
         diameter_(2 * radii_.maxCoeff()) {}
 
-  std::vector<Matrix3> run(std::size_t most, const Context& context) {
-    std::vector<Matrix3> found{Matrix3::Identity()}, fitted = found;
+  ExactIsometries run(std::size_t most, const Context& context) {
+    ExactIsometries found{{Matrix3::Identity()}, {}};
+    std::vector<Matrix3> fitted = found.maps;
     const auto [a, b] = base_points();
     if (a < 0 || b < 0) return found;
     const std::vector<Index> as_a = as_far_as(a), as_b = as_far_as(b);
@@ -45,11 +46,11 @@ class Search {
         for (const double side : {1.0, -1.0}) {
           Matrix3 map = onto * Vector3(1, 1, side).asDiagonal() * base.transpose();
           // In crowds of points any pair stands for the same map.
-          if (is_known(fitted, map) || !fit(map, guessed)) continue;
+          if (is_known(fitted, map) || is_known(found.maps, map) || !fit(map, guessed)) continue;
           fitted.push_back(map);
-          if (fit(map, exactly) && !is_known(found, map)) found.push_back(map);
+          if (fit(map, exactly) && !is_known(found.maps, map)) add(map, most, found);
         }
-        if (found.size() >= most) return found;
+        if (found.maps.size() >= most) return found;
       }
     }
     return found;
@@ -113,6 +114,26 @@ class Search {
     return true;
   }
 
+  // With all products: each map found is multiplied by each generator.
+  void add(const Matrix3& generator, std::size_t most, ExactIsometries& found) const {
+    found.generators.push_back(generator);
+    for (std::size_t i = 0; i < found.maps.size(); ++i)
+      for (const Matrix3& factor : found.generators) {
+        if (found.maps.size() >= most) return;
+        const Matrix3 product = factor * found.maps[i];
+        if (!is_known(found.maps, product) && keeps_some(product)) found.maps.push_back(product);
+      }
+  }
+
+  // Rounding adds up in products, of slender sets about their axes.
+  bool keeps_some(const Matrix3& map) const {
+    constexpr Index enough = 200;
+    const double limit = exactly * exactly * diameter_ * diameter_;
+    for (Index i = 0; i < points_.cols(); i += std::max<Index>(1, points_.cols() / enough))
+      if (tree_.nearest(centre_ + map * points_.col(i), limit).index < 0) return false;
+    return true;
+  }
+
   static bool is_known(const std::vector<Matrix3>& maps, const Matrix3& map) {
     return std::any_of(maps.begin(), maps.end(),
                        [&](const Matrix3& other) { return (other - map).norm() < same_map; });
@@ -128,8 +149,8 @@ class Search {
 
 }  // namespace
 
-std::vector<Matrix3> exact_isometries(PointsView points, const PointTree& tree,
-                                      const Context& context, std::size_t most) {
+ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
+                                 std::size_t most) {
   return Search(points, tree).run(most, context);
 }
 

@@ -1,21 +1,38 @@
 #include "symmetries/embedding/factored_embedding.h"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
-#include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "base/sparse_eigen.h"
 
 namespace symsurf {
 
 namespace {
 
-constexpr Index most_leaders = 300;        // whose matrix is decomposed
+constexpr Index most_orbits = 300;      // without exact partners
+constexpr Index most_landmarks = 5000;  // whose matrix is decomposed
+constexpr double most_pairs = 3e9;      // of points and images of landmarks: seconds
+constexpr double resolved = 0.1;        // localizations from a point to the nearest landmark
+constexpr double reach = 4;  // localizations beyond which a correspondence, 1e-7, counts as none
 constexpr double least_eigenvalue = 1e-9;  // of the largest: others are rounding
 constexpr double partner_reach = 2e-6;     // diameters: twice the rounding of exact maps
+
+// By their first points.
+std::vector<Index> renumbered(std::vector<Index> names) {
+  std::vector<Index> number(names.size(), -1);
+  Index count = 0;
+  for (Index& name : names) {
+    if (number[name] < 0) number[name] = count++;
+    name = number[name];
+  }
+  return names;
+}
 
 // The points that chains of exact partners join, numbered by their first ones.
 std::vector<Index> exact_orbits(PointsView points, const PointTree& tree,
@@ -26,22 +43,16 @@ std::vector<Index> exact_orbits(PointsView points, const PointTree& tree,
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  const double reach = partner_reach * symmetries.diameter;
-  for (const NearSymmetry& symmetry : symmetries.maps)
+  const double limit = partner_reach * symmetries.diameter;
+  for (const Eigen::Isometry3d& map : symmetries.generators)
     for (Index i = 0; i < points.size(); ++i) {
-      const Index j = tree.nearest(symmetry.map * points[i], reach * reach).index;
+      const Index j = tree.nearest(map * points[i], limit * limit).index;
       if (j < 0) continue;
       const Index one = root_of(i), other = root_of(j);
       root[std::max(one, other)] = std::min(one, other);
     }
-  std::vector<Index> number(points.size(), -1), orbits;
-  Index count = 0;
-  for (Index i = 0; i < points.size(); ++i) {
-    Index& name = number[root_of(i)];
-    if (name < 0) name = count++;
-    orbits.push_back(name);
-  }
-  return orbits;
+  for (Index i = 0; i < points.size(); ++i) root[i] = root_of(i);
+  return renumbered(root);
 }
 
 // One point of each orbit of exact partners, or all points.
@@ -64,115 +75,155 @@ struct Nodes {
   Index size() const { return static_cast<Index>(point.size()); }
 };
 
-// S of all nodes and one, in diameters.
-Eigen::VectorXd dissimilarities(PointsView points, const Nodes& nodes, Index to,
-                                const NearSymmetries& symmetries, const Context& context) {
-  std::vector<std::pair<double, Vector3>> images;
-  const Vector3 x = points[nodes.point[to]];
-  for (const NearSymmetry& symmetry : symmetries.maps) {
-    images.emplace_back(symmetry.deviation, symmetry.map * x);
-    // The same deviation the other way; of exact maps the inverses are among them.
-    if (!symmetries.exact) images.emplace_back(symmetry.deviation, symmetry.map.inverse() * x);
+struct Image {
+  double deviation;
+  Vector3 at;
+};
+
+// Where the symmetries take a point. Of exact ones the points of its orbit stand for it, and the
+// inverses are among them; others deviate as much the other way.
+std::vector<Image> images_of(const Vector3& x, const NearSymmetries& symmetries) {
+  if (symmetries.exact) return {{0, x}};
+  std::vector<Image> images;
+  for (const auto& [map, deviation] : symmetries.maps) {
+    images.push_back({deviation, map * x});
+    images.push_back({deviation, map.inverse() * x});
   }
-  std::stable_sort(images.begin(), images.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  Eigen::VectorXd least(nodes.size());
-  parallel_for(context, nodes.size(), 4096, [&](Index begin, Index end) {
-    for (Index a = begin; a < end; ++a) {
-      const Vector3 y = points[nodes.point[a]];
-      least[a] = infinity;
-      for (const auto& [deviation, image] : images) {
-        // Roots are taken of what is less only: few of the many pairs are.
-        const double reach = (least[a] - deviation) * symmetries.diameter,
-                     squared = (image - y).squaredNorm();
-        if (reach <= 0) break;
-        if (squared < reach * reach)
-          least[a] = deviation + std::sqrt(squared) / symmetries.diameter;
-      }
-    }
-  });
-  return least;
+  return images;
 }
 
-// Nodes each of which lies farthest, by S, from those before; the first from the centre.
-struct Leaders {
+// Nodes each of which lies farthest, by S in diameters, from those before; the first from the
+// centre. A node that is added changes what is farther from those before alone, and is looked for
+// there.
+struct Landmarks {
   std::vector<Index> nodes;
-  Eigen::MatrixXd dissimilarity;  // a row a node, a column a leader
-  std::vector<Index> nearest;     // of each node, by its number among the leaders
+  std::vector<Index> nearest;  // of each node, by its number among them
+  std::vector<Index> orbits;   // the same of the first ones, which the resolution asks for
 
-  Leaders(PointsView points, const Nodes& all, const NearSymmetries& symmetries, double resolution,
-          const Context& context) {
+  Landmarks(PointsView points, const PointTree& tree, const Nodes& all,
+            const NearSymmetries& symmetries, const EmbeddingOptions& options,
+            const Context& context)
+      : nearest(all.size(), 0) {
     Eigen::VectorXd least(all.size());
     for (Index a = 0; a < all.size(); ++a)
       least[a] = (points[all.point[a]] - symmetries.centre).norm();
-    nearest.assign(all.size(), 0);
-    const Index most = std::min(most_leaders, all.size());
-    dissimilarity.resize(all.size(), most);
-    while (static_cast<Index>(nodes.size()) < most) {
-      context.report(static_cast<double>(nodes.size()) / static_cast<double>(most));
+    double away = infinity;
+    const auto images = static_cast<double>(images_of(symmetries.centre, symmetries).size());
+    const auto affordable =
+        static_cast<Index>(most_pairs / images / static_cast<double>(all.size()));
+    const Index most = std::min({most_landmarks, std::max(affordable, most_orbits), all.size()});
+    while (size() < most) {
+      context.report(static_cast<double>(size()) / static_cast<double>(most));
       Index farthest;
-      const double away = least.maxCoeff(&farthest);
-      if (!nodes.empty() && away <= resolution) break;
-      const auto leader = static_cast<Index>(nodes.size());
-      dissimilarity.col(leader) =
-          dissimilarities(points, all, farthest, symmetries, Context({}, 1));
-      for (Index a = 0; a < all.size(); ++a)
-        if (nodes.empty() || dissimilarity(a, leader) < least[a]) {
-          least[a] = dissimilarity(a, leader);
-          nearest[a] = leader;
-        }
+      const double next = least.maxCoeff(&farthest);
+      if (!nodes.empty()) away = next;
+      if (orbits.empty() && (away <= options.resolution || size() == most_orbits)) orbits = nearest;
+      if (away <= resolved * options.localization) break;
+      if (nodes.empty()) least.setConstant(infinity);
+      for (const Image& image : images_of(points[all.point[farthest]], symmetries)) {
+        if (image.deviation > away) continue;
+        tree.within(image.at, (away - image.deviation) * symmetries.diameter,
+                    [&](Index point, double squared) {
+                      const double s = image.deviation + std::sqrt(squared) / symmetries.diameter;
+                      const Index node = all.of_point[point];
+                      if (s >= least[node]) return;
+                      least[node] = s;
+                      nearest[node] = size();
+                    });
+      }
       nodes.push_back(farthest);
     }
-    dissimilarity.conservativeResize(Eigen::NoChange, static_cast<Index>(nodes.size()));
+    if (orbits.empty()) orbits = nearest;
   }
+
+  Index size() const { return static_cast<Index>(nodes.size()); }
 };
+
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+
+// exp(-(S / localization)^2) of each node, a row, and each landmark near one of its images.
+Rows correspondences(PointsView points, const PointTree& tree, const Nodes& all,
+                     const Landmarks& landmarks, const NearSymmetries& symmetries,
+                     double localization, const Context& context) {
+  const Index size = landmarks.size();
+  std::vector<Index> number(all.size(), -1);
+  for (Index k = 0; k < size; ++k) number[landmarks.nodes[k]] = k;
+  std::vector<Vector3> at;
+  std::vector<std::pair<Index, double>> images;  // of which landmark, and their deviation
+  for (Index i = 0; i < points.size(); ++i)
+    if (const Index landmark = number[all.of_point[i]]; landmark >= 0)
+      for (const Image& image : images_of(points[i], symmetries)) {
+        at.push_back(image.at);
+        images.emplace_back(landmark, image.deviation);
+      }
+  const PointTree image_tree(rows_of(at), context.stage(0, 0.1));
+  constexpr Index grain = 256;
+  std::vector<std::vector<Eigen::Triplet<double, std::int32_t>>> chunks(points.size() / grain + 1);
+  parallel_for(context.stage(0.1, 1), points.size(), grain, [&](Index begin, Index end) {
+    std::vector<double> least(size, infinity);
+    std::vector<Index> near;
+    for (Index k = begin; k < end; ++k) {
+      const Index point = tree.order()[k], node = all.of_point[point];
+      if (all.point[node] != point) continue;
+      near.clear();
+      image_tree.within(points[point], reach * localization * symmetries.diameter,
+                        [&](Index image, double squared) {
+                          const auto& [landmark, deviation] = images[image];
+                          if (least[landmark] == infinity) near.push_back(landmark);
+                          least[landmark] =
+                              std::min(least[landmark],
+                                       deviation + std::sqrt(squared) / symmetries.diameter);
+                        });
+      for (const Index landmark : near) {
+        const double s = std::exchange(least[landmark], infinity) / localization;
+        if (s < reach) chunks[begin / grain].emplace_back(node, landmark, std::exp(-s * s));
+      }
+    }
+  });
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  for (const auto& chunk : chunks) entries.insert(entries.end(), chunk.begin(), chunk.end());
+  Rows rows(all.size(), size);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
 
 }  // namespace
 
 FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
                                      const NearSymmetries& symmetries,
                                      const EmbeddingOptions& options, const Context& context) {
-  const bool approximate = !symmetries.exact && symmetries.maps.size() > 1;
   std::vector<Index> numbers(points.size());
   std::iota(numbers.begin(), numbers.end(), Index{0});
   const Nodes nodes(symmetries.exact ? exact_orbits(points, tree, symmetries) : numbers);
-  Leaders leaders(points, nodes, symmetries, approximate ? options.resolution : 0,
-                  context.stage(0, 0.8));
+  const Landmarks landmarks(points, tree, nodes, symmetries, options, context.stage(0, 0.3));
 
   FactoredEmbedding embedding;
   embedding.orbits = nodes.of_point;
-  if (approximate) {
-    std::vector<Index> name(leaders.nodes.size(), -1);
-    Index count = 0;
-    for (Index& orbit : embedding.orbits) {
-      Index& named = name[leaders.nearest[orbit]];
-      if (named < 0) named = count++;
-      orbit = named;
-    }
-  }
+  if (!symmetries.exact && symmetries.maps.size() > 1)
+    embedding.orbits = renumbered(landmarks.orbits);
   embedding.sizes.assign(*std::max_element(embedding.orbits.begin(), embedding.orbits.end()) + 1,
                          0);
   for (const Index orbit : embedding.orbits) ++embedding.sizes[orbit];
 
-  // In place: of a million points it takes 2.4 GB.
-  Eigen::MatrixXd& correspondence = leaders.dissimilarity;
-  correspondence = (-(correspondence.array() / options.localization).square()).exp();
-  Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Index>(leaders.nodes.size()));
-  for (Index a = 0; a < nodes.size(); ++a) mass[leaders.nearest[a]] += nodes.mass[a];
+  const Rows rows = correspondences(points, tree, nodes, landmarks, symmetries,
+                                    options.localization, context.stage(0.3, 0.6));
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(landmarks.size());
+  for (Index a = 0; a < nodes.size(); ++a) mass[landmarks.nearest[a]] += nodes.mass[a];
   const Eigen::VectorXd root = mass.cwiseSqrt();
-  const Eigen::MatrixXd among = correspondence(leaders.nodes, Eigen::indexing::all);
-  const Eigen::MatrixXd scaled =
-      root.asDiagonal() * among.cwiseMax(among.transpose()) * root.asDiagonal();
-  const auto [values, vectors] =
-      eigen_of(scaled, Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
-  context.check();
-  const Index kept = (values.array() > least_eigenvalue * values[values.size() - 1]).count();
-  embedding.eigenvalues = values.tail(kept).reverse();
-  const Index given = std::min(kept, options.coordinates);
-  const Eigen::MatrixXd carried =
-      correspondence * (root.asDiagonal() * vectors.rightCols(given).rowwise().reverse());
-  const Eigen::VectorXd weights = embedding.eigenvalues.head(given).array().pow(options.power - 1);
-  embedding.coordinates = (carried * weights.asDiagonal())(nodes.of_point, Eigen::indexing::all);
+  Rows among(landmarks.size(), landmarks.size());
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  for (Index k = 0; k < landmarks.size(); ++k)
+    for (Rows::InnerIterator entry(rows, landmarks.nodes[k]); entry; ++entry)
+      entries.emplace_back(k, entry.col(), root[k] * entry.value() * root[entry.col()]);
+  among.setFromTriplets(entries.begin(), entries.end());
+  const auto [values, vectors] = greatest_eigenpairs(
+      among, std::min(options.coordinates, landmarks.size()), context.stage(0.6, 1));
+  const Index kept = (values.array() > least_eigenvalue * values[0]).count();
+  embedding.eigenvalues = values.head(kept);
+  const Eigen::MatrixXd at_landmarks =
+      root.asDiagonal() * vectors.leftCols(kept) *
+      embedding.eigenvalues.array().pow(options.power - 1).matrix().asDiagonal();
+  embedding.coordinates = (rows * at_landmarks)(nodes.of_point, Eigen::indexing::all);
   return embedding;
 }
 

@@ -19,10 +19,11 @@ struct NearSymmetry {
 };
 
 struct NearSymmetries {
-  Vector3 centre = Vector3::Zero();  ///< the centroid
-  double diameter = 0;               ///< twice the largest distance from it
-  std::vector<NearSymmetry> maps;    ///< the identity first
-  bool exact = false;                ///< they map points onto others, up to rounding
+  Vector3 centre = Vector3::Zero();           ///< the centroid
+  double diameter = 0;                        ///< twice the largest distance from it
+  std::vector<NearSymmetry> maps;             ///< the identity first
+  bool exact = false;                         ///< they map points onto others, up to rounding
+  std::vector<Eigen::Isometry3d> generators;  ///< of which exact ones are products
 };
 
 /// The symmetries of a point set of which each point has its partners: those that map a base of two
@@ -36,7 +37,7 @@ NearSymmetries near_symmetries(PointsView points, const PointTree& tree, double 
 struct FactoredEmbedding {
   std::vector<Index> orbits;    ///< of each point the number of its orbit, by first points
   std::vector<Index> sizes;     ///< points of each orbit
-  Eigen::VectorXd eigenvalues;  ///< of the symmetry correspondence matrix, descending
+  Eigen::VectorXd eigenvalues;  ///< of the symmetry correspondence matrix, those of the coordinates
   /// A row a point: eigenvalue^power times the eigenvectors there, of as many as were asked for.
   Eigen::MatrixXd coordinates;
 };
@@ -50,8 +51,9 @@ struct EmbeddingOptions {
 
 /// The correspondence of x and y is exp(-(S / localization)^2), where S, in diameters, is the least
 /// D(X, gX) + |g x - y| of the maps g: an upper bound of Lipman's infimum that symmetries attain.
-/// Of more than some hundreds of orbits the eigenvectors are those of a few, carried on to the
-/// others by the matrix (Nyström).
+/// Of more than some thousand orbits, or hundred with many maps, the eigenvectors are those of
+/// landmarks, each with the mass of the points nearest to it, carried on to the others by the
+/// matrix (Nyström).
 FactoredEmbedding factored_embedding(PointsView points, const PointTree& tree,
                                      const NearSymmetries& symmetries,
                                      const EmbeddingOptions& options, const Context& context);

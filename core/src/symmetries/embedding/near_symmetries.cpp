@@ -35,8 +35,12 @@ class NearSearch {
   }
 
   NearSymmetries exact(PointsView points) {
-    for (const Matrix3& linear : exact_isometries(points, tree_, context_, most_exact))
-      add_exact(about_centre(linear));
+    const ExactIsometries isometries = exact_isometries(points, tree_, context_, most_exact);
+    for (const Matrix3& linear : isometries.maps) found_.maps.push_back({about_centre(linear), 0});
+    for (const Matrix3& linear : isometries.generators) {
+      found_.generators.push_back(about_centre(linear));
+      found_.exact = found_.exact || moves_points(found_.generators.back());
+    }
     return std::move(found_);
   }
 
@@ -63,15 +67,10 @@ class NearSearch {
     return map_taking(linear, found_.centre, found_.centre);
   }
 
-  void add_exact(const Eigen::Isometry3d& map) {
-    double squares = 0;
-    for (Index i = 0; i < rows_.cols(); ++i) {
-      const Neighbour partner = tree_.nearest(image(map, i));
-      squares += partner.squared_distance;
-      found_.exact = found_.exact || (!found_.maps.empty() && partner.index != i);
-    }
-    const double mean = squares / static_cast<double>(rows_.cols());
-    found_.maps.push_back({map, std::sqrt(mean) / found_.diameter});
+  bool moves_points(const Eigen::Isometry3d& map) const {
+    for (Index i = 0; i < rows_.cols(); ++i)
+      if (tree_.nearest(image(map, i)).index != i) return true;
+    return false;
   }
 
   double deviation(const Eigen::Isometry3d& map, const std::vector<Index>& points) const {

@@ -64,16 +64,18 @@ double mean_edge(const Points& points, const Eigen::SparseMatrix<double>& graph,
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-// Joins parts that all but touch, as wings modelled apart from their fuselage do: each vertex to
-// the nearest one of another part, if that is no farther than its edges are long in the mean.
-void join_touching_parts(const Points& points, Laplacian& surface, const Context& context) {
+// Joins parts that all but touch, as wings modelled apart from their fuselage do, and what gaps
+// of a cloud part: each vertex to the nearest one of another part within so many of the mean
+// lengths of its edges.
+void join_touching_parts(const Points& points, double reach, Laplacian& surface,
+                         const Context& context) {
   constexpr double weight = 1;  // cotangents of even triangles give 0.58 to an edge
   const std::vector<Index> part_of = numbered_parts(surface);
   const PointTree tree(points, context);
   std::vector<Eigen::Triplet<double>> links;
   for (Index v = 0; v < points.rows(); ++v) {
     Neighbour nearest;
-    tree.within(points.row(v), mean_edge(points, surface.stiffness, v),
+    tree.within(points.row(v), reach * mean_edge(points, surface.stiffness, v),
                 [&](Index other, double squared) {
                   if (part_of[other] >= 0 && part_of[other] != part_of[v])
                     nearest = std::min(nearest, Neighbour{other, squared});
@@ -95,15 +97,16 @@ void join_touching_parts(const Points& points, Laplacian& surface, const Context
 ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context) {
   const DistinctPoints distinct = distinct_points(points, context);
   const Points positions = points.matrix()(distinct.first, Eigen::indexing::all);
+  constexpr double of_mesh = 1, of_cloud = 4;  // edges
   CloudLaplacian whole;
   if (faces.empty()) {
     whole = cloud_laplacian(positions, context);
   } else {
     const Triangles corners = renamed(faces, distinct.number);
     static_cast<Laplacian&>(whole) = cotangent_laplacian(positions, corners);
-    join_touching_parts(positions, whole, context);
     whole.triangles = TriangleMesh(positions, corners, context).manifold_faces();
   }
+  join_touching_parts(positions, faces.empty() ? of_cloud : of_mesh, whole, context);
 
   const std::vector<Index> part_of = numbered_parts(whole);
   ConnectedSurface surface;

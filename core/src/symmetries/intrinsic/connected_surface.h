@@ -21,9 +21,9 @@ struct ConnectedSurface {
   double share = 0;  ///< of the area of all in this one
 };
 
-/// The part of the input that has the most area. Equal points are merged, parts of a mesh joined
-/// where they are as near each other as neighbouring vertices; without faces the points are a
-/// cloud. Throws InvalidInput where nothing has an area.
+/// The part of the input that has the most area. Equal points are merged, parts joined where they
+/// are about as near each other as neighbouring vertices; without faces the points are a cloud.
+/// Throws InvalidInput where nothing has an area.
 ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const Context& context);
 
 /// Lengths of the shortest ways along edges of the Laplacian from a vertex to all (Dijkstra 1959).

@@ -92,6 +92,7 @@ constexpr Index fewest_signs = 3;    // with which a map is determined
 constexpr double alone = 0.02;
 constexpr std::array<double, 3> shares_alone{alone, 0.002, 0.05};
 constexpr std::size_t most_starts = 24;  // a share
+constexpr Index told_apart_by = 20;      // functions: maps alike in these are refined to one
 constexpr Index refined_to = 40;         // functions
 // More functions at a time: each way finds maps that the other misses.
 constexpr std::array<Index, 2> steps{1, 2};
@@ -315,19 +316,21 @@ IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& bas
   }
   const SampledFunctions sampled(basis, samples.vertices, samples.weights);
   const Index last = std::min(refined_to, basis.count());
+  const Index apart = std::min(told_apart_by, last);
   std::vector<FunctionalMap> seen;
   best.signs = starts.empty() ? "0" : starts.front().signs;  // no map may come of them
   for (std::size_t k = 0; k < starts.size(); ++k) {
     context.report(static_cast<double>(k) / static_cast<double>(starts.size()));
     for (const Index step : steps) {
       const auto first = static_cast<Index>(starts[k].signs.size());
-      FunctionalMap map = sampled.refined(starts[k].images, first, last, step, context);
-      const double unrelated = std::sqrt(2.0 * static_cast<double>(last));
+      FunctionalMap map = sampled.refined(starts[k].images, first, apart, step, context);
+      const double unrelated = std::sqrt(2.0 * static_cast<double>(apart));
       const bool is_new = std::none_of(seen.begin(), seen.end(), [&](const FunctionalMap& other) {
         return (map - other).norm() < same_map * unrelated;
       });
       if (!is_new) continue;
       seen.push_back(map);
+      map = sampled.refined(sampled.images(map), apart, last, step, context);
       for (int round = 0;; ++round) {
         IntrinsicMap found = judged(map, sampled, samples, orientation);
         found.signs = starts[k].signs;

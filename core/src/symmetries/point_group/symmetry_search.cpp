@@ -290,7 +290,7 @@ PointGroup exact_group(const Cloud& cloud, const Context& context) {
   Points points(cloud.points.size(), 3);
   for (Index i = 0; i < points.rows(); ++i)
     points.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
-  return PointGroup(exact_isometries(points, PointTree(points, context), context));
+  return PointGroup(exact_isometries(points, PointTree(points, context), context).maps);
 }
 
 }  // namespace
