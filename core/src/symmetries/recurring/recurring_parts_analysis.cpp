@@ -11,6 +11,9 @@ namespace {
 
 // Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
 // after.
+// Standard deviations of the noise: what the ends of two lines may be apart for it.
+constexpr double beyond_noise = 6;
+
 constexpr double named_angle = 0.02, named_share = 0.1;
 
 void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& values,
@@ -21,9 +24,9 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   scaled /= cloud.diagonal;
   Cloud unit = cloud;
   unit.points = scaled;
-  const double tolerance = values.real("tolerance"),
-               angle = values.real("feature_angle") * std::numbers::pi / 180;
+  const double angle = values.real("feature_angle") * std::numbers::pi / 180;
   const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
   parts.erase(std::remove_if(parts.begin(), parts.end(),
@@ -64,6 +67,7 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   result.arrays = {{"part", part}, {"instance", instance}};
   result.statistics["parts"] = static_cast<Index>(parts.size());
   result.statistics["instances"] = static_cast<Index>(result.transformations.size());
+  result.statistics["noise"] = graph.noise * cloud.diagonal;
   result.statistics["feature_lines"] = static_cast<Index>(graph.lines.size());
 }
 
