@@ -25,6 +25,7 @@ SurfaceMoments SurfaceMoments::of_triangle(const Vector3& a, const Vector3& b, c
 
 SurfaceMoments& SurfaceMoments::operator+=(const SurfaceMoments& other) {
   area += other.area;
+  pieces += other.pieces;
   sum += other.sum;
   products += other.products;
   return *this;
@@ -32,7 +33,7 @@ SurfaceMoments& SurfaceMoments::operator+=(const SurfaceMoments& other) {
 
 FacetPlane plane_of(const SurfaceMoments& moments) {
   const LeastEigen eigen = least_eigen_of(moments.scatter());
-  return {moments.centroid(), eigen.vector.normalized(), std::sqrt(eigen.next / moments.area)};
+  return {moments.centroid(), eigen.vector.normalized(), std::sqrt(moments.area / (eigen.next * moments.pieces))};
 }
 
 namespace {
@@ -41,17 +42,16 @@ namespace {
 class Merging {
  public:
   explicit Merging(const std::vector<SurfaceMoments>& pieces)
-      : moments_(pieces), root_(pieces.size()), count_(pieces.size(), 1), age_(pieces.size(), 0) {
+      : moments_(pieces), root_(pieces.size()), age_(pieces.size(), 0) {
     for (std::size_t i = 0; i < pieces.size(); ++i) root_[i] = static_cast<Index>(i);
     for (const SurfaceMoments& piece : pieces) bend_.push_back(bend(piece));
   }
 
-  // Until no pair of facets, the lesser of which is of less than `most_area`, costs up to `limit`.
-  void run(const Adjacency& adjacent, double limit, double most_area, Index full,
-           const Context& context) {
+  // Until no pair of facets, one of which at least may take others, costs up to `limit`.
+  template <typename IsOpen>
+  void run(const Adjacency& adjacent, double limit, const IsOpen& is_open, const Context& context) {
     const auto closed = [&](Index a, Index b) {
-      return a == b || count_[a] >= full || count_[b] >= full ||
-             std::min(moments_[a].area, moments_[b].area) >= most_area;
+      return a == b || !is_open(moments_[a], moments_[b]);
     };
     std::priority_queue<Pair> pairs;
     const auto push = [&](Index a, Index b, bool is_new, double before) {
@@ -113,9 +113,8 @@ class Merging {
   }
 
   void merge(Index a, Index b) {
-    if (count_[a] < count_[b] || (count_[a] == count_[b] && b < a)) std::swap(a, b);
+    if (moments_[b].pieces > moments_[a].pieces) std::swap(a, b);
     root_[b] = a;
-    count_[a] += count_[b];
     moments_[a] += moments_[b];
     bend_[a] = bend(moments_[a]);
     age_[a] += age_[b] + 1;
@@ -123,44 +122,152 @@ class Merging {
 
   std::vector<SurfaceMoments> moments_;
   std::vector<double> bend_;
-  std::vector<Index> root_, count_, age_;
+  std::vector<Index> root_, age_;
 };
 
 }  // namespace
 
-std::vector<Index> merged_facets(const std::vector<SurfaceMoments>& pieces,
-                                 const Adjacency& adjacent, double deviation, double least_area,
-                                 Index full, const Context& context) {
-  Merging merging(pieces);
-  merging.run(adjacent, deviation * deviation, infinity, full, context);
-  merging.run(adjacent, infinity, least_area, full, context);
-  std::vector<Index> facet(pieces.size(), -1), number(pieces.size(), -1);
-  Index count = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
+namespace {
+
+double env(const char* n, double d) { const char* v = getenv(n); return v ? atof(v) : d; }
+
+std::vector<Index> numbered(Merging& merging, std::size_t count) {
+  std::vector<Index> facet(count, -1), number(count, -1);
+  Index next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
     Index& own = number[merging.root(static_cast<Index>(i))];
-    if (own < 0) own = count++;
+    if (own < 0) own = next++;
     facet[i] = own;
   }
   return facet;
 }
 
-double noise_of_pieces(PointsView points, const std::vector<std::vector<Index>>& corners,
-                       const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
-                       const Context& context) {
+
+std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
+                          double deviation, double noise, const Context& context) {
+  Merging merging(pieces);
+  merging.run(adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
+  const double vague = env("VAGUE", 0.35);
+  const auto is_vague = [&](const SurfaceMoments& facet) {
+    return noise > 0 && !(noise * plane_of(facet).turned < vague);
+  };
+  merging.run(adjacent, infinity,
+              [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
+  return numbered(merging, pieces.size());
+}
+
+// Great facets take pieces of lesser ones that lie in their planes. What has lost much is taken
+// apart: of each piece its facet, or -1.
+std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::vector<Index> facet,
+                         double slab) {
+  const std::size_t count = pieces.moments.size();
+  std::vector<std::vector<Index>> touching(count), members;
+  for (const auto& [a, b] : pieces.adjacent) {
+    touching[a].push_back(b);
+    touching[b].push_back(a);
+  }
+  std::vector<SurfaceMoments> moments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto own = static_cast<std::size_t>(facet[i]);
+    if (own >= moments.size()) {
+      moments.resize(own + 1);
+      members.resize(own + 1);
+    }
+    moments[own] += pieces.moments[i];
+    members[own].push_back(static_cast<Index>(i));
+  }
+  std::vector<Index> order(moments.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Index>(k);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return moments[a].area > moments[b].area; });
+  std::vector<Index> rank(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<Index>(k);
+  for (const Index own : order) {
+    std::vector<Index> open;
+    SurfaceMoments left;
+    left.pieces = 0;
+    for (const Index piece : members[own])
+      if (facet[piece] == own) {
+        open.push_back(piece);
+        left += pieces.moments[piece];
+      }
+    if (left.area < 0.5 * moments[own].area || !(left.area > 0)) {
+      for (const Index piece : open) facet[piece] = -1;
+      continue;
+    }
+    FacetPlane plane = plane_of(left);
+    double fitted = left.area;
+    for (std::size_t k = 0; k < open.size(); ++k)
+      for (const Index next : touching[open[k]]) {
+        if (facet[next] == own || (facet[next] >= 0 && rank[facet[next]] < rank[own])) continue;
+        if (!std::all_of(pieces.points[next].begin(), pieces.points[next].end(), [&](Index i) {
+              return std::abs(plane.normal.dot(points[i] - plane.centroid)) < slab;
+            }))
+          continue;
+        facet[next] = own;
+        open.push_back(next);
+        left += pieces.moments[next];
+        if (left.area > 1.2 * fitted) {
+          plane = plane_of(left);
+          fitted = left.area;
+        }
+      }
+  }
+  return facet;
+}
+
+}  // namespace
+
+std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, double noise,
+                             const Context& context) {
+  // Diagonals: what single precision makes of coordinates.
+  constexpr double rounding = 1e-7;
+  const double deviation = std::max(rounding, env("DEV", 1.4) * noise);
+  std::vector<Index> facet =
+      merged(pieces.moments, pieces.adjacent, deviation, noise, context);
+  if (noise == 0) return facet;
+  const int rounds = env("ROUNDS", 1);
+  for (int round = 0; round < rounds; ++round) {
+    facet = grown(points, pieces, std::move(facet), env("SLAB", 3) * noise);
+    std::vector<SurfaceMoments> joined;
+    std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      Index fresh = static_cast<Index>(joined.size());
+      Index& at = facet[i] < 0 ? fresh : number[facet[i]];
+      if (at < 0) at = fresh;
+      if (at == static_cast<Index>(joined.size())) { joined.emplace_back(); joined.back().pieces = 0; }
+      joined[at] += pieces.moments[i];
+      own[i] = at;
+    }
+    Adjacency adjacent;
+    for (const auto& [a, b] : pieces.adjacent)
+      if (own[a] != own[b]) adjacent.emplace_back(own[a], own[b]);
+    const std::vector<Index> again = merged(joined, adjacent, deviation, noise, context);
+    for (std::size_t i = 0; i < own.size(); ++i) facet[i] = again[own[i]];
+  }
+  return facet;
+}
+
+double noise_of(PointsView points, const SurfacePieces& pieces, const Context& context) {
   constexpr Index full = 24;               // pieces of a patch: some 20 points, of which 6 are fitted
   constexpr std::size_t least = 12;        // points
   constexpr double flattest = 0.3;         // of the patches
-  const std::vector<Index> patch = merged_facets(pieces, adjacent, infinity, 0, full, context);
+  constexpr double shown = 0.75;           // of the noise, as the flattest show little of it
+  Merging merging(pieces.moments);
+  merging.run(pieces.adjacent, infinity,
+              [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; },
+              context);
+  const std::vector<Index> patch = numbered(merging, pieces.moments.size());
   std::vector<SurfaceMoments> moments;
   std::vector<std::vector<Index>> members;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
+  for (std::size_t i = 0; i < patch.size(); ++i) {
     const auto own = static_cast<std::size_t>(patch[i]);
     if (own >= moments.size()) {
       moments.resize(own + 1);
       members.resize(own + 1);
     }
-    moments[own] += pieces[i];
-    members[own].insert(members[own].end(), corners[i].begin(), corners[i].end());
+    moments[own] += pieces.moments[i];
+    members[own].insert(members[own].end(), pieces.points[i].begin(), pieces.points[i].end());
   }
   std::vector<double> deviations;
   for (std::size_t p = 0; p < members.size(); ++p) {
@@ -185,7 +292,7 @@ double noise_of_pieces(PointsView points, const std::vector<std::vector<Index>>&
     }
     deviations.push_back(size * std::sqrt(sum / static_cast<double>(own.size() - 6)));
   }
-  return deviations.empty() ? 0 : quantile(std::move(deviations), flattest);
+  return deviations.empty() ? 0 : quantile(std::move(deviations), flattest) / shown;
 }
 
 }  // namespace symsurf

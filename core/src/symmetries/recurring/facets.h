@@ -10,7 +10,7 @@ namespace symsurf {
 
 /// Moments of a piece of surface up to the second, about the origin.
 struct SurfaceMoments {
-  double area = 0;
+  double area = 0, pieces = 1;
   Vector3 sum = Vector3::Zero();
   Matrix3 products = Matrix3::Zero();
 
@@ -24,24 +24,28 @@ struct SurfaceMoments {
 /// The plane through a piece of surface, by principal components.
 struct FacetPlane {
   Vector3 centroid = Vector3::Zero(), normal = Vector3::Zero();
-  double width = 0;  ///< standard deviation along the narrower of the directions in the plane
+  /// Radians that noise turns it by, for each unit of the noise.
+  double turned = 0;
 };
 FacetPlane plane_of(const SurfaceMoments& moments);
 
 using Adjacency = std::vector<std::pair<Index, Index>>;
 
+/// Pieces of a surface: their moments, the points that each has, and which touch.
+struct SurfacePieces {
+  std::vector<SurfaceMoments> moments;
+  std::vector<std::vector<Index>> points;
+  Adjacency adjacent;
+};
+
 /// Pieces of surface merged into nearly flat facets, the flattest pairs first (Garland, Willmott
-/// and Heckbert 2001): the number of the facet of each piece. The root mean square distance from
-/// the common plane that the lesser of two adds stays within `deviation`; facets of less than
-/// `least_area` go to a neighbour however they lie. Facets of `full` pieces take no more.
-std::vector<Index> merged_facets(const std::vector<SurfaceMoments>& pieces,
-                                 const Adjacency& adjacent, double deviation, double least_area,
-                                 Index full, const Context& context);
+/// and Heckbert 2001): the number of the facet of each piece. `noise`: standard deviation of the
+/// points, which tells what is flat.
+std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, double noise,
+                             const Context& context);
 
 /// Standard deviation of the noise of the points of a surface, from quadrics fitted to the flattest
-/// patches. `corners`: the points of each piece. 0 where no patch has enough of them.
-double noise_of_pieces(PointsView points, const std::vector<std::vector<Index>>& corners,
-                       const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
-                       const Context& context);
+/// patches. 0 where no patch has enough points.
+double noise_of(PointsView points, const SurfacePieces& pieces, const Context& context);
 
 }  // namespace symsurf

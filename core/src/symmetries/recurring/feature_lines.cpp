@@ -120,21 +120,19 @@ class LineExtraction {
   }
 
   void find_facets(const Context& context) {
+    pieces_.points = faces_;
     for (const std::vector<Index>& face : faces_)
-      pieces_.push_back(SurfaceMoments::of_triangle(positions_[face[0]], positions_[face[1]],
-                                                    positions_[face[2]]));
-    Adjacency adjacent;
+      pieces_.moments.push_back(SurfaceMoments::of_triangle(
+          positions_[face[0]], positions_[face[1]], positions_[face[2]]));
     for (const MeshEdge& edge : edges_)
       for (std::size_t k = 1; k < edge.faces.size(); ++k)
-        adjacent.emplace_back(edge.faces[0], edge.faces[k]);
+        pieces_.adjacent.emplace_back(edge.faces[0], edge.faces[k]);
     const Points rows = rows_of(positions_);
-    noise_ = noise_of_pieces(rows, faces_, pieces_, adjacent, context.stage(0, 0.4));
+    noise_ = noise_of(rows, pieces_, context.stage(0, 0.4));
     if (noise_ < rounding) noise_ = 0;
-    facet_ = merged_facets(pieces_, adjacent, std::max(rounding, deviation * noise_),
-                           least_area * noise_ * noise_,
-                           std::numeric_limits<Index>::max(), context.stage(0.4, 0.8));
+    facet_ = facets_of(rows, pieces_, noise_, context.stage(0.4, 0.8));
     neighbours_.resize(faces_.size());
-    for (const auto& [a, b] : adjacent)
+    for (const auto& [a, b] : pieces_.adjacent)
       if (facet_[a] == facet_[b]) {
         neighbours_[a].push_back(b);
         neighbours_[b].push_back(a);
@@ -168,19 +166,18 @@ class LineExtraction {
     const Index round = rounds_++;
     std::vector<Index> found;
     SurfaceMoments moments;
+    moments.pieces = 0;
     const auto add = [&](Index face) {
       if (facet_[face] != facet || mark_[face] == round) return;
       mark_[face] = round;
       found.push_back(face);
-      moments += pieces_[face];
+      moments += pieces_.moments[face];
     };
     for (const Index edge : border.edges)
       for (const Index face : edges_[edge].faces) add(face);
     FacetPlane plane = plane_of(moments);
     std::size_t begin = 0;
-    const auto error = [&] {
-      return noise_ > 0 ? noise_ / (plane.width * std::sqrt(static_cast<double>(found.size()))) : 0;
-    };
+    const auto error = [&] { return noise_ > 0 ? noise_ * plane.turned : 0; };
     while (error() > certain && begin < found.size()) {
       const std::size_t end = found.size();
       for (; begin < end; ++begin)
@@ -217,7 +214,9 @@ class LineExtraction {
           right += side.normal * side.normal.dot(side.centroid - positions_[place]);
         }
       const Vector3 way = normal.inverse() * right;
-      const double most = farthest * noise_;
+      double most = farthest * noise_;
+      for (const Index edge : edges_at_[place])
+        most = std::max(most, (positions_[edges_[edge].to] - positions_[edges_[edge].from]).norm());
       moved[place] += std::min(1.0, most / way.norm()) * way;
     }
     positions_ = std::move(moved);
@@ -278,11 +277,15 @@ class LineExtraction {
       const Vector3& x = positions_[places[k]];
       const bool is_last = k + 1 == places.size();
       const double apart = stretch * noise_;
-      if (is_last)
-        while (nodes.size() > 1 && (x - nodes.back()).norm() < apart) {
-          nodes.pop_back();
-          edge_to.pop_back();
-        }
+      const auto goes_back = [&] {
+        const std::size_t n = nodes.size();
+        return n > 1 && ((is_last && (x - nodes[n - 1]).norm() < apart) ||
+                         (noise_ > 0 && (x - nodes[n - 1]).dot(nodes[n - 1] - nodes[n - 2]) < 0));
+      };
+      while (goes_back()) {
+        nodes.pop_back();
+        edge_to.pop_back();
+      }
       if (!is_last && (x - nodes.back()).norm() < apart) continue;
       nodes.push_back(x);
       edge_to.push_back(edges[k - 1]);
@@ -330,15 +333,14 @@ class LineExtraction {
 
   // Of noise: how far facets may lie off their plane, what is no facet by its area, how far a place
   // is moved, how long a stretch has a direction. And radians that a plane may be uncertain by.
-  static constexpr double deviation = 1.8, least_area = 16, farthest = 4, stretch = 6,
-                          certain = 0.05;
+  static constexpr double farthest = 4, stretch = 6, certain = 0.05;
 
   PointsView points_;
   double angle_, noise_ = 0;
   std::vector<Vector3> positions_;
   std::vector<std::vector<Index>> faces_, neighbours_, edges_at_;
   std::vector<MeshEdge> edges_;
-  std::vector<SurfaceMoments> pieces_;
+  SurfacePieces pieces_;
   std::vector<Index> facet_, mark_;
   std::vector<Border> borders_;
   Index rounds_ = 0;
