@@ -195,14 +195,17 @@ void ConnectedLines::for_each_next(std::int32_t local, const Visit& visit) const
       if (local_[next] >= 0) visit(local_[next]);
 }
 
-LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches) const {
+LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches,
+                                 double share) const {
   LocalLines found;
   std::vector<char> seen(size(), 0);
   const auto visit = [&](std::int32_t line) {
     if (seen[line]) return;
     seen[line] = 1;
-    if (std::all_of(matches.begin(), matches.end(),
-                    [&](const LocalMatch* match) { return match->images[line] >= 0; }))
+    const auto having = std::count_if(matches.begin(), matches.end(), [&](const LocalMatch* match) {
+      return match->images[line] >= 0;
+    });
+    if (static_cast<double>(having) >= share * static_cast<double>(matches.size()))
       found.push_back(line);
   };
   visit(0);

@@ -147,12 +147,15 @@ std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjac
                           double deviation, double noise, const Context& context) {
   Merging merging(pieces);
   merging.run(adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
-  const double vague = env("VAGUE", 0.35);
-  const auto is_vague = [&](const SurfaceMoments& facet) {
-    return noise > 0 && !(noise * plane_of(facet).turned < vague);
+  const auto absorb = [&](double vague, double off) {
+    const auto is_vague = [&](const SurfaceMoments& facet) {
+      return noise > 0 && !(noise * plane_of(facet).turned < vague);
+    };
+    merging.run(adjacent, off * off,
+                [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
   };
-  merging.run(adjacent, infinity,
-              [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
+  absorb(env("VAGUE", 0.35), env("LIM", 2) * noise);
+  absorb(env("VAGUE2", 0.7), infinity);
   return numbered(merging, pieces.size());
 }
 
@@ -228,7 +231,7 @@ std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, dou
   if (noise == 0) return facet;
   const int rounds = env("ROUNDS", 1);
   for (int round = 0; round < rounds; ++round) {
-    facet = grown(points, pieces, std::move(facet), env("SLAB", 3) * noise);
+    facet = grown(points, pieces, std::move(facet), env("SLAB", 2.5) * noise);
     std::vector<SurfaceMoments> joined;
     std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
     for (std::size_t i = 0; i < own.size(); ++i) {

@@ -21,6 +21,10 @@ struct RecurringPart {
   double saved() const { return length * static_cast<double>(instances.size() - 1); }
 };
 
+/// Of the length of a part: what an instance has of it at least where there is noise, and of the
+/// matches, those that have an image of a line of the part.
+inline constexpr double least_share = 0.6;
+
 /// Of those that save nearly as much as any a whole before a piece, then that with the most
 /// instances; the end for none.
 std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts);
