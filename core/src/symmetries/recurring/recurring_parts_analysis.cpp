@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "symmetries/analysis_registry.h"
+#include "symmetries/recurring/cloud_triangles.h"
 #include "symmetries/recurring/part_points.h"
 #include "symmetries/recurring/recurring_part.h"
 
@@ -14,6 +15,9 @@ namespace {
 // Standard deviations of the noise: what the ends of two lines may be apart for it.
 constexpr double beyond_noise = 6;
 
+// Of the spacing of a cloud: how well it shows where its surface is.
+constexpr double noise_of_spacing = 0.35;
+
 constexpr double named_angle = 0.02, named_share = 0.1;
 
 void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& values,
@@ -25,7 +29,13 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   Cloud unit = cloud;
   unit.points = scaled;
   const double angle = values.real("feature_angle") * std::numbers::pi / 180;
-  const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  CloudTriangles own;
+  if (cloud.faces.empty()) {
+    own = cloud_triangles(scaled, context.stage(0, 0.1));
+    unit.faces = own.faces;
+  }
+  const FeatureLines graph = feature_lines(scaled, unit.faces, angle, context.stage(0.1, 0.2),
+                                           noise_of_spacing * own.spacing);
   const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
@@ -93,7 +103,6 @@ AnalysisImplementation recurring_parts_analysis() {
       {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
   };
   analysis.shown = "instance";
-  analysis.needs_faces = true;
   analysis.finds_transforms = true;
   analysis.run = run_recurring_parts;
   return analysis;

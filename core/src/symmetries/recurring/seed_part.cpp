@@ -195,13 +195,19 @@ class PartOfSeed {
 
 }  // namespace
 
+std::size_t RecurringPart::complete() const {
+  return std::count_if(instances.begin(), instances.end(), [&](const Instance& instance) {
+    return instance.lines.size() == lines.size();
+  });
+}
+
 std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts) {
   double most = 0;
   for (const RecurringPart& part : parts) most = std::max(most, part.saved());
   const auto comes_before = [](const RecurringPart& a, const RecurringPart& b) {
     constexpr double more = 1 + 1e-9;
     if (a.is_whole != b.is_whole) return a.is_whole;
-    if (a.instances.size() != b.instances.size()) return a.instances.size() > b.instances.size();
+    if (a.complete() != b.complete()) return a.complete() > b.complete();
     return a.saved() > more * b.saved();
   };
   auto best = parts.end();
