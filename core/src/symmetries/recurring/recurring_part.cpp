@@ -133,27 +133,32 @@ class PartSearch {
   // Instances that lack lines for their noise: the part's lines are taken to any that are left.
   void complete(RecurringPart& part, const Context& context) {
     std::vector<char> is_own(graph_.lines.size(), 0), claimed(graph_.lines.size(), 0);
-    for (const Index line : part.lines) is_own[line] = 1;
     for (const RecurringPart::Instance& instance : part.instances)
       for (const Index line : instance.lines) claimed[line] = 1;
-    for (const Index line : part.lines)
-      for (const Index other : alike(line))
-        for (const LineMatching::Pose pose : LineMatching::poses) {
-          if (claimed[other]) break;
-          context.check();
-          const auto match = matching_.grown(line, other, pose);
-          if (!match) continue;
-          RecurringPart::Instance instance{match->map, {}};
-          double length = 0;
-          for (const auto& [from, onto] : match->lines)
-            if (is_own[from] && !claimed[onto]) {
-              instance.lines.push_back(onto);
-              length += graph_.lines[from].length;
-            }
-          if (length < least_share * part.length) continue;
-          for (const Index image : instance.lines) claimed[image] = 1;
-          part.instances.push_back(std::move(instance));
-        }
+    constexpr std::size_t most_sources = 4;  // any of which may be distorted itself
+    for (std::size_t k = 0; k < std::min(most_sources, part.instances.size()); ++k) {
+      const RecurringPart::Instance source = part.instances[k];
+      for (const Index line : source.lines) is_own[line] = 1;
+      for (const Index line : source.lines)
+        for (const Index other : alike(line))
+          for (const LineMatching::Pose pose : LineMatching::poses) {
+            if (claimed[other]) break;
+            context.check();
+            const auto match = matching_.grown(line, other, pose);
+            if (!match) continue;
+            RecurringPart::Instance instance{match->map * source.map, {}};
+            double length = 0;
+            for (const auto& [from, onto] : match->lines)
+              if (is_own[from] && !claimed[onto]) {
+                instance.lines.push_back(onto);
+                length += graph_.lines[from].length;
+              }
+            if (length < least_share * part.length) continue;
+            for (const Index image : instance.lines) claimed[image] = 1;
+            part.instances.push_back(std::move(instance));
+          }
+      for (const Index line : source.lines) is_own[line] = 0;
+    }
   }
 
   void mark(const RecurringPart& part, char tried) {
@@ -319,9 +324,9 @@ bool takes_in(RecurringPart& part, const RecurringPart& other, const FeatureLine
 
 std::vector<RecurringPart> united(std::vector<RecurringPart> parts, const FeatureLines& graph,
                                   double tolerance) {
-  // Fewer instances take in more, greater ones lesser.
-  std::stable_sort(parts.begin(), parts.end(), [](const RecurringPart& a, const RecurringPart& b) {
-    if (a.instances.size() != b.instances.size()) return a.instances.size() < b.instances.size();
+  // Fewer instances take in more, greater ones lesser, which may be fragments where there is noise.
+  std::stable_sort(parts.begin(), parts.end(), [&](const RecurringPart& a, const RecurringPart& b) {
+    if (graph.noise == 0 && a.instances.size() != b.instances.size()) return a.instances.size() < b.instances.size();
     return a.length > b.length;
   });
   for (std::size_t k = 0; k < parts.size(); ++k)

@@ -26,7 +26,7 @@ struct RecurringPart {
 
 /// Of the length of a part: what an instance has of it at least where there is noise, and of the
 /// matches, those that have an image of a line of the part.
-inline constexpr double least_share = 0.7;
+inline constexpr double least_share = 0.6;
 
 /// Of those that save nearly as much as any a whole before a piece, then that with the most
 /// instances; the end for none.
