@@ -19,7 +19,7 @@ namespace {
 constexpr double same_wing = 0.262, most_turned = 0.785;
 
 // In standard deviations.
-constexpr double noise_of_ends = 6, noise_of_wings = 3;
+constexpr double noise_of_ends = 4, noise_of_wings = 3;
 
 // Of its length, how far a short line may be off.
 constexpr double of_length = 0.1;
@@ -196,7 +196,7 @@ void ConnectedLines::for_each_next(std::int32_t local, const Visit& visit) const
 }
 
 LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches,
-                                 double share) const {
+                                  double share) const {
   LocalLines found;
   std::vector<char> seen(size(), 0);
   const auto visit = [&](std::int32_t line) {

@@ -17,9 +17,9 @@ SurfaceMoments SurfaceMoments::of_triangle(const Vector3& a, const Vector3& b, c
   moments.area = (b - a).cross(c - a).norm() / 2;
   const Vector3 sum = a + b + c;
   moments.sum = moments.area / 3 * sum;
-  moments.products = moments.area / 12 *
-                     (sum * sum.transpose() + a * a.transpose() + b * b.transpose() +
-                      c * c.transpose());
+  moments.products =
+      moments.area / 12 *
+      (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
   return moments;
 }
 
@@ -33,7 +33,8 @@ SurfaceMoments& SurfaceMoments::operator+=(const SurfaceMoments& other) {
 
 FacetPlane plane_of(const SurfaceMoments& moments) {
   const LeastEigen eigen = least_eigen_of(moments.scatter());
-  return {moments.centroid(), eigen.vector.normalized(), std::sqrt(moments.area / (eigen.next * moments.pieces))};
+  return {moments.centroid(), eigen.vector.normalized(),
+          std::sqrt(moments.area / (eigen.next * moments.pieces))};
 }
 
 namespace {
@@ -57,8 +58,7 @@ class Merging {
     const auto push = [&](Index a, Index b, bool is_new, double before) {
       if (closed(a, b)) return;
       const double now = cost(a, b);
-      if (now <= limit && (is_new || now > before))
-        pairs.push({now, a, b, age_[a] + age_[b]});
+      if (now <= limit && (is_new || now > before)) pairs.push({now, a, b, age_[a] + age_[b]});
     };
     for (std::size_t begin = 0; begin < adjacent.size(); begin += stretch) {
       context.check();
@@ -129,8 +129,6 @@ class Merging {
 
 namespace {
 
-double env(const char* n, double d) { const char* v = getenv(n); return v ? atof(v) : d; }
-
 std::vector<Index> numbered(Merging& merging, std::size_t count) {
   std::vector<Index> facet(count, -1), number(count, -1);
   Index next = 0;
@@ -142,20 +140,22 @@ std::vector<Index> numbered(Merging& merging, std::size_t count) {
   return facet;
 }
 
-
 std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
                           double deviation, double noise, const Context& context) {
   Merging merging(pieces);
-  merging.run(adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
+  merging.run(
+      adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
   const auto absorb = [&](double vague, double off) {
     const auto is_vague = [&](const SurfaceMoments& facet) {
       return noise > 0 && !(noise * plane_of(facet).turned < vague);
     };
-    merging.run(adjacent, off * off,
-                [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
+    merging.run(
+        adjacent, off * off,
+        [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
   };
-  absorb(env("VAGUE", 0.35), env("LIM", 2) * noise);
-  absorb(env("VAGUE2", 0.7), infinity);
+  // Radians of what noise turns: what fits well goes sooner.
+  absorb(0.35, 2 * noise);
+  absorb(0.7, infinity);
   return numbered(merging, pieces.size());
 }
 
@@ -225,41 +225,40 @@ std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, dou
                              const Context& context) {
   // Diagonals: what single precision makes of coordinates.
   constexpr double rounding = 1e-7;
-  const double deviation = std::max(rounding, env("DEV", 1.4) * noise);
-  std::vector<Index> facet =
-      merged(pieces.moments, pieces.adjacent, deviation, noise, context);
+  const double deviation = std::max(rounding, 1.4 * noise);
+  std::vector<Index> facet = merged(pieces.moments, pieces.adjacent, deviation, noise, context);
   if (noise == 0) return facet;
-  const int rounds = env("ROUNDS", 1);
-  for (int round = 0; round < rounds; ++round) {
-    facet = grown(points, pieces, std::move(facet), env("SLAB", 2.5) * noise);
-    std::vector<SurfaceMoments> joined;
-    std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      Index fresh = static_cast<Index>(joined.size());
-      Index& at = facet[i] < 0 ? fresh : number[facet[i]];
-      if (at < 0) at = fresh;
-      if (at == static_cast<Index>(joined.size())) { joined.emplace_back(); joined.back().pieces = 0; }
-      joined[at] += pieces.moments[i];
-      own[i] = at;
+  facet = grown(points, pieces, std::move(facet), 2.5 * noise);
+  std::vector<SurfaceMoments> joined;
+  std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    Index fresh = static_cast<Index>(joined.size());
+    Index& at = facet[i] < 0 ? fresh : number[facet[i]];
+    if (at < 0) at = fresh;
+    if (at == static_cast<Index>(joined.size())) {
+      joined.emplace_back();
+      joined.back().pieces = 0;
     }
-    Adjacency adjacent;
-    for (const auto& [a, b] : pieces.adjacent)
-      if (own[a] != own[b]) adjacent.emplace_back(own[a], own[b]);
-    const std::vector<Index> again = merged(joined, adjacent, deviation, noise, context);
-    for (std::size_t i = 0; i < own.size(); ++i) facet[i] = again[own[i]];
+    joined[at] += pieces.moments[i];
+    own[i] = at;
   }
+  Adjacency adjacent;
+  for (const auto& [a, b] : pieces.adjacent)
+    if (own[a] != own[b]) adjacent.emplace_back(own[a], own[b]);
+  const std::vector<Index> again = merged(joined, adjacent, deviation, noise, context);
+  for (std::size_t i = 0; i < own.size(); ++i) facet[i] = again[own[i]];
   return facet;
 }
 
 double noise_of(PointsView points, const SurfacePieces& pieces, const Context& context) {
-  constexpr Index full = 24;               // pieces of a patch: some 20 points, of which 6 are fitted
-  constexpr std::size_t least = 12;        // points
-  constexpr double flattest = 0.3;         // of the patches
-  constexpr double shown = 0.75;           // of the noise, as the flattest show little of it
+  constexpr Index full = 24;         // pieces of a patch: some 20 points, of which 6 are fitted
+  constexpr std::size_t least = 12;  // points
+  constexpr double flattest = 0.3;   // of the patches
+  constexpr double shown = 0.75;     // of the noise, as the flattest show little of it
   Merging merging(pieces.moments);
-  merging.run(pieces.adjacent, infinity,
-              [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; },
-              context);
+  merging.run(
+      pieces.adjacent, infinity,
+      [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; }, context);
   const std::vector<Index> patch = numbered(merging, pieces.moments.size());
   std::vector<SurfaceMoments> moments;
   std::vector<std::vector<Index>> members;

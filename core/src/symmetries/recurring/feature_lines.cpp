@@ -80,8 +80,7 @@ class LineExtraction {
     context.check();
     for (std::size_t edge = 0; edge < edges_.size(); ++edge)
       if (!used[edge] && is_sharp(edges_[edge]))
-        found.lines.push_back(
-            followed(edges_[edge].from, static_cast<Index>(edge), corner, used));
+        found.lines.push_back(followed(edges_[edge].from, static_cast<Index>(edge), corner, used));
     return found;
   }
 
@@ -195,8 +194,8 @@ class LineExtraction {
     double folded = 0;
     for (const Index e : border.edges) {
       const MeshEdge& edge = edges_[e];
-      folded += (positions_[edge.to] - positions_[edge.from]).norm() *
-                edge.wings[0].dot(edge.wings[1]);
+      folded +=
+          (positions_[edge.to] - positions_[edge.from]).norm() * edge.wings[0].dot(edge.wings[1]);
     }
     return folded > 0 ? std::numbers::pi - plain : plain;
   }
@@ -311,7 +310,7 @@ class LineExtraction {
     }
   }
 
-  // Across the line in the planes beside it, to the side of most of the faces.
+  // Across the line in the planes beside it, to the side where most of the faces' area is.
   std::vector<Vector3> wings_of(const Border& border, const Vector3& along,
                                 const std::vector<Index>& edges) const {
     std::vector<Vector3> wings;
@@ -324,8 +323,7 @@ class LineExtraction {
       for (std::size_t k = 0; k < edge.faces.size(); ++k)
         for (std::size_t side = 0; side < wings.size(); ++side)
           if (border.facets[side] == facet_[edge.faces[k]])
-            same[side] += edge.wings[k].dot(wings[side]) *
-                          (positions_[edge.to] - positions_[edge.from]).norm();
+            same[side] += edge.wings[k].dot(wings[side]) * pieces_.moments[edge.faces[k]].area;
     }
     for (std::size_t side = 0; side < wings.size(); ++side)
       if (same[side] < 0) wings[side] *= -1;

@@ -326,7 +326,8 @@ std::vector<RecurringPart> united(std::vector<RecurringPart> parts, const Featur
                                   double tolerance) {
   // Fewer instances take in more, greater ones lesser, which may be fragments where there is noise.
   std::stable_sort(parts.begin(), parts.end(), [&](const RecurringPart& a, const RecurringPart& b) {
-    if (graph.noise == 0 && a.instances.size() != b.instances.size()) return a.instances.size() < b.instances.size();
+    if (graph.noise == 0 && a.instances.size() != b.instances.size())
+      return a.instances.size() < b.instances.size();
     return a.length > b.length;
   });
   for (std::size_t k = 0; k < parts.size(); ++k)

@@ -13,7 +13,7 @@ namespace {
 // Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
 // after.
 // Standard deviations of the noise: what the ends of two lines may be apart for it.
-constexpr double beyond_noise = 6;
+constexpr double beyond_noise = 4;
 
 // Of the spacing of a cloud: how well it shows where its surface is.
 constexpr double noise_of_spacing = 0.35;
