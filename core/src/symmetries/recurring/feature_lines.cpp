@@ -128,7 +128,7 @@ class LineExtraction {
       for (std::size_t k = 1; k < edge.faces.size(); ++k)
         pieces_.adjacent.emplace_back(edge.faces[0], edge.faces[k]);
     const Points rows = rows_of(positions_);
-    noise_ = noise_of(rows, pieces_, context.stage(0, 0.4));
+    noise_ = has_exact_planes() ? 0 : noise_of(rows, pieces_, context.stage(0, 0.4));
     noise_ = std::max(noise_ < rounding ? 0 : noise_, least_noise_);
     facet_ = facets_of(rows, pieces_, noise_, context.stage(0.4, 0.8));
     neighbours_.resize(faces_.size());
@@ -137,6 +137,15 @@ class LineExtraction {
         neighbours_[a].push_back(b);
         neighbours_[b].push_back(a);
       }
+  }
+
+  // Whether many faces lie in one plane to rounding, as they do without noise.
+  bool has_exact_planes() const {
+    constexpr double within = 5e-9, many = 0.05;  // 1 - cosine: 1e-4 radians; of the edges
+    const auto exact = std::count_if(edges_.begin(), edges_.end(), [&](const MeshEdge& edge) {
+      return edge.wings.size() == 2 && 1 + edge.wings[0].dot(edge.wings[1]) < within;
+    });
+    return static_cast<double>(exact) > many * static_cast<double>(edges_.size());
   }
 
   void find_borders(const Context& context) {

@@ -88,11 +88,12 @@ AnalysisImplementation recurring_parts_analysis() {
   analysis.name = "recurring_parts";
   analysis.title = "Recurring parts";
   analysis.summary =
-      "Finds the parts of a mesh that recur, such as windows or teeth, by its feature lines "
+      "Finds the parts of a mesh or cloud that recur, such as windows or teeth, by its feature "
+      "lines "
       "(Bokeloh et al. 2009).";
   analysis.parameters = {
       Parameter::real("feature_angle", 30, 1, 179, "degrees",
-                      "Faces that meet at more than this angle have a feature line between them."),
+                      "Facets that meet at more than this angle have a feature line between them."),
       Parameter::real("tolerance", 0.002, 1e-6, 0.1, "diagonal",
                       "How far an instance may differ from another."),
       Parameter::integer("minimum_instances", 2, 2, 1000000, "", "How often a part must occur."),
