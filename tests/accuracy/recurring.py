@@ -1,4 +1,4 @@
-"""Meshes with parts that recur: facades with windows and gears with teeth, in any pose."""
+"""Meshes and clouds with parts that recur: facades with windows and gears with teeth, in any pose."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import symsurf
 
 from .case import Case, Figures, at_least, at_most
 from .poses import random_rotation
-from .repeated import facade, gear
+from .repeated import facade, gear, scanned
 
 SUBJECTS = {
     "facade": lambda rng, cells: facade(4, 6, rng, cells),
@@ -23,20 +23,38 @@ SUBJECTS = {
 }
 
 
-def _trial(subject: str, rng: np.random.Generator, noise: float) -> Figures:
+CURVED = {
+    "gear 7, curved flanks": lambda rng, cells: gear(7, rng, cells + 3, bulge=0.12),
+    "gear 24, curved flanks": lambda rng, cells: gear(24, rng, cells + 3, bulge=0.12),
+}
+SCANNED = {"facade": 60000, "gear 7": 12000, "gear 24": 50000}
+"""Of how many points a cloud has them."""
+
+
+def _trial(
+    subject: str,
+    rng: np.random.Generator,
+    noise: float,
+    pure: float = 1,
+    points_of_cloud: int = 0,
+) -> Figures:
     cells = int(rng.integers(1, 7))
-    points, faces, label = SUBJECTS[subject](rng, cells)
+    points, faces, label = (SUBJECTS | CURVED)[subject](rng, cells)
+    if points_of_cloud:
+        points, label = scanned(points, faces, label, points_of_cloud, rng)
     points = np.exp(rng.normal()) * points @ random_rotation(rng).T + rng.normal(size=3)
     points += rng.normal(scale=noise * np.linalg.norm(np.ptp(points, axis=0)), size=points.shape)
     order = rng.permutation(len(points))
     position = np.argsort(order)
     start = time.process_time()
     found = symsurf.recurring_parts(
-        points[order], faces=position[rng.permutation(faces)], threads=1
+        points[order],
+        faces=None if points_of_cloud else position[rng.permutation(faces)],
+        threads=1,
     )
     seconds = time.process_time() - start
     return {
-        "found": float(_is_right(found, label[order])),
+        "found": float(_is_right(found, label[order], pure)),
         "parts": float(len(found.parts)),
         "instances": float(len(found.transformations)),
         "score": min((each.score for each in found.transformations), default=0.0),
@@ -45,15 +63,24 @@ def _trial(subject: str, rng: np.random.Generator, noise: float) -> Figures:
     }
 
 
-def _is_right(found: symsurf.RecurringParts, label: NDArray[np.int64]) -> bool:
-    """One part with an instance for each label, which has points of no other."""
+def _is_right(found: symsurf.RecurringParts, label: NDArray[np.int64], pure: float) -> bool:
+    """One part with an instance for each label, which has that share of its labelled points."""
     if len(found.parts) != 1:
         return False
-    sets = [np.unique(label[each.onto_points]) for each in found.parts[0]]
-    ours = [labels[labels >= 0] for labels in sets]
-    return all(len(own) == 1 for own in ours) and (
-        sorted(int(own[0]) for own in ours) == list(range(label.max() + 1))
-    )
+    owners = []
+    for each in found.parts[0]:
+        labels = label[each.onto_points]
+        counts = np.bincount(labels[labels >= 0], minlength=label.max() + 1)
+        if counts.max() < max(1, pure * counts.sum()):
+            return False
+        owners.append(int(counts.argmax()))
+    return sorted(owners) == list(range(label.max() + 1))
+
+
+def _neighbours(what: str, subjects: tuple[str, ...], noise: float) -> Case:
+    return Case(f"neighbours, recurring: {what}", subjects,
+                lambda subject, rng: _trial(subject, rng, noise, pure=0.9),
+                {"seconds": at_most(2)}, trials=50)  # fmt: skip
 
 
 CASES = (
@@ -61,4 +88,13 @@ CASES = (
          {"found": at_least(1), "score": at_least(0.9), "seconds": at_most(2)}, trials=50),
     Case("recurring parts: noise 0.01 %", tuple(SUBJECTS),
          lambda subject, rng: _trial(subject, rng, 1e-4), {"seconds": at_most(2)}, trials=50),
+    _neighbours("mesh, noise 0.1 %", tuple(SUBJECTS), 1e-3),
+    _neighbours("mesh, noise 0.3 %", tuple(SUBJECTS), 3e-3),
+    _neighbours("curved flanks", tuple(CURVED), 0),
+    _neighbours("curved flanks, noise 0.1 %", tuple(CURVED), 1e-3),
+    *(Case(f"neighbours, recurring: cloud{what}", tuple(SCANNED),
+           lambda subject, rng, noise=noise:
+               _trial(subject, rng, noise, pure=0.9, points_of_cloud=SCANNED[subject]),
+           {"seconds": at_most(10)}, trials=10)
+      for what, noise in (("", 0), (", noise 0.1 %", 1e-3))),
 )  # fmt: skip

@@ -79,9 +79,14 @@ def facade(
 
 
 def gear(
-    teeth: int, rng: np.random.Generator, cells: int = 2, hole: bool = True
+    teeth: int,
+    rng: np.random.Generator,
+    cells: int = 2,
+    hole: bool = True,
+    bulge: float = 0,
 ) -> tuple[Points, NDArray[np.int64], NDArray[np.int64]]:
-    """A spur gear with straight flanks and a round hole: points, faces and the tooth that each
+    """A spur gear with straight flanks, or flanks that ``bulge`` by so much of their length, and a
+    round hole: points, faces and the tooth that each
     point is of (n,), -1 where it is on none, or between two. The outline bends by more than 30
     degrees at the foot of each flank."""
     depth, thickness = rng.uniform(0.2, 0.3), rng.uniform(0.2, 0.6)
@@ -98,6 +103,9 @@ def gear(
         after = corners[(k + 1) % len(corners)]
         steps = _divided([0, 1], cells, rng)
         at = corner + steps[:, None] * (after - corner)
+        if bulge and k % 4 in (0, 2):
+            across = np.array([after[1] - corner[1], corner[0] - after[0]])
+            at += 4 * bulge * (steps * (1 - steps))[:, None] * across
         outline.append(at[:-1])
         inside = [k // 4 if k % 4 < 3 else -1] * (len(at) - 2)
         tooth += [k // 4 if k % 4 in (1, 2) else -1, *inside]
@@ -123,6 +131,26 @@ def gear(
     for place, number in zip(rim, tooth):
         label[np.abs(points[:, :2] - place).max(axis=1) < 1e-12] = number
     return points, faces, label
+
+
+def scanned(
+    points: Points,
+    faces: NDArray[np.int64],
+    label: NDArray[np.int64],
+    count: int,
+    rng: np.random.Generator,
+) -> tuple[Points, NDArray[np.int64]]:
+    """Points spread over a mesh, about evenly, with the label that all corners of their faces have."""
+    corners = points[faces]
+    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    reached = np.cumsum(np.linalg.norm(doubled, axis=1))
+    face = np.searchsorted(reached, (np.arange(count) + rng.random(count)) / count * reached[-1])
+    share = rng.random((count, 2))
+    share[share.sum(axis=1) > 1] = 1 - share[share.sum(axis=1) > 1]
+    own = corners[face]
+    spread = own[:, 0] + np.einsum("nk,nkd->nd", share, own[:, 1:] - own[:, :1])
+    labels = label[faces[face]]
+    return spread, np.where((labels == labels[:, :1]).all(axis=1), labels[:, 0], -1)
 
 
 def _at(plane: Line, height: float) -> Points:

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from accuracy.repeated import facade, gear
+from accuracy.repeated import facade, gear, scanned
 from symmetric_shapes import random_rotation
 
 import symsurf
@@ -58,6 +58,23 @@ def test_what_is_found_is_told():
         np.testing.assert_allclose(high, points[each.onto_points].max(axis=0), atol=1e-9)
 
 
-def test_a_cloud_is_an_error():
-    with pytest.raises(symsurf.InvalidInput, match="recurring_parts needs a mesh with faces"):
-        symsurf.recurring_parts(np.random.default_rng(0).random((50, 3)))
+def test_a_cloud_of_a_facade_has_its_windows():
+    rng = np.random.default_rng(0)
+    mesh, faces, window = facade(2, 3, rng)
+    points, label = scanned(mesh, faces, window, 20000, rng)
+    (part,) = symsurf.recurring_parts(posed(points, 0)).parts
+    owners = [set(label[each.onto_points]) - {-1} for each in part]
+    assert sorted(owners, key=min) == [{k} for k in range(6)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_of_a_mesh_is_told_and_hides_no_window(seed):
+    rng = np.random.default_rng(seed)
+    points, faces, window = facade(2, 3, rng)
+    diagonal = np.linalg.norm(np.ptp(points, axis=0))
+    noise = 5e-4 * diagonal
+    found = symsurf.recurring_parts(points + noise * rng.normal(size=points.shape), faces=faces)
+    assert 0.7 * noise < found.statistics["noise"] < 1.5 * noise
+    (part,) = found.parts
+    owners = [set(window[each.onto_points]) - {-1} for each in part]
+    assert sorted(owners, key=min) == [{k} for k in range(6)]

@@ -14,9 +14,12 @@ namespace symsurf {
 
 namespace {
 
-// Between the image of a direction across a line and its partner: 15 degrees. What is between the
-// edges of a bent line on both sides of its middle must not matter.
-constexpr double same_wing = 0.966;
+// Radians between the image of a direction across a line and its partner: 15 degrees. What is
+// between the edges of a bent line on both sides of its middle must not matter. And with noise.
+constexpr double same_wing = 0.262, most_turned = 0.785;
+
+// In standard deviations.
+constexpr double noise_of_ends = 4, noise_of_wings = 3;
 
 // Of its length, how far a short line may be off.
 constexpr double of_length = 0.1;
@@ -54,7 +57,8 @@ double LineMatch::plainness() const {
 
 bool LineMatching::agrees(const Eigen::Isometry3d& map, const FeatureLine& line,
                           const FeatureLine& image, bool reversed) const {
-  const double near = std::min(tolerance_, of_length * line.length);
+  const double near =
+      std::min(tolerance_, std::max(of_length * line.length, noise_of_ends * graph_.noise));
   if (std::abs(line.length - image.length) > 2 * near || line.wings.size() != image.wings.size() ||
       line.has_ends() != image.has_ends())
     return false;
@@ -67,10 +71,12 @@ bool LineMatching::agrees(const Eigen::Isometry3d& map, const FeatureLine& line,
       if ((map * line.samples[step] - sample(image, end, step, reversed)).norm() > near)
         return false;
   }
+  const double cosine = std::cos(std::min(
+      most_turned, same_wing + noise_of_wings * std::hypot(line.wing_error, image.wing_error)));
   for (const Vector3& wing : line.wings) {
     const Vector3 turned = map.linear() * wing;
     if (std::none_of(image.wings.begin(), image.wings.end(),
-                     [&](const Vector3& other) { return turned.dot(other) > same_wing; }))
+                     [&](const Vector3& other) { return turned.dot(other) > cosine; }))
       return false;
   }
   return true;
@@ -189,14 +195,17 @@ void ConnectedLines::for_each_next(std::int32_t local, const Visit& visit) const
       if (local_[next] >= 0) visit(local_[next]);
 }
 
-LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches) const {
+LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches,
+                                  double share) const {
   LocalLines found;
   std::vector<char> seen(size(), 0);
   const auto visit = [&](std::int32_t line) {
     if (seen[line]) return;
     seen[line] = 1;
-    if (std::all_of(matches.begin(), matches.end(),
-                    [&](const LocalMatch* match) { return match->images[line] >= 0; }))
+    const auto having = std::count_if(matches.begin(), matches.end(), [&](const LocalMatch* match) {
+      return match->images[line] >= 0;
+    });
+    if (static_cast<double>(having) >= share * static_cast<double>(matches.size()))
       found.push_back(line);
   };
   visit(0);

@@ -32,6 +32,7 @@ class LineMatching {
   struct Pose {
     bool reversed, reflected;
   };
+  static constexpr Pose poses[] = {{false, false}, {false, true}, {true, false}, {true, true}};
 
   /// What begins with a line that has two ends; nothing where that does not match.
   std::optional<LineMatch> grown(Index line, Index image, Pose pose);
@@ -80,8 +81,8 @@ class ConnectedLines {
   /// First one map, then the other.
   LocalMatch after(const LocalMatch& second, const LocalMatch& first) const;
 
-  /// The lines connected with the seed by lines that have an image by all of these maps.
-  LocalLines common(const std::vector<const LocalMatch*>& matches) const;
+  /// The lines connected with the seed by lines that have an image by this share of the maps.
+  LocalLines common(const std::vector<const LocalMatch*>& matches, double share) const;
 
   /// Lines connected with `start`, first those nearer to a point, whose images by these maps are
   /// all there and no line twice.

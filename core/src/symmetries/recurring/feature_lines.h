@@ -15,8 +15,9 @@ struct FeatureLine {
   Index start = -1, end = -1;  ///< corners; -1 both: closed, and smooth all around
   double length = 0;
   std::array<Vector3, steps> samples;  ///< at equal steps along it, beginning with the start
-  /// Unit vectors across the line into the faces at its middle: they say how the surface bends.
+  /// Unit vectors across the line into the facets at its middle: they say how the surface bends.
   std::vector<Vector3> wings;
+  double wing_error = 0;      ///< radians that noise may have turned them by
   std::vector<Index> points;  ///< of the mesh
 
   bool has_ends() const { return start >= 0; }
@@ -28,12 +29,14 @@ struct FeatureLines {
   std::vector<FeatureLine> lines;
   std::vector<Vector3> corners;
   std::vector<std::vector<Index>> at;  ///< the lines at each corner, ascending; both ends may be
+  double noise = 0;                    ///< standard deviation of the points
 };
 
-/// The lines along which faces meet at more than `angle` radians, or end (Bokeloh et al. 2009).
-/// They meet in corners, where one bends by more than that, or where another number of edges than
-/// two come together. Points at the same place are one.
+/// The lines along which nearly flat facets meet at more than `angle` radians, or end (Bokeloh et
+/// al. 2009). They meet in corners, where one bends by more than that, or where another number of
+/// edges than two come together. Points at the same place are one.
+/// `least_noise`: where more than 0, that of a cloud for its spacing, whose rims are no lines.
 FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
-                           const Context& context);
+                           const Context& context, double least_noise = 0);
 
 }  // namespace symsurf

@@ -50,8 +50,8 @@ class PartSearch {
       const auto best = best_part(candidates_);
       if (best == candidates_.end()) break;
       parts.push_back(*best);
-      for (const RecurringPart::Instance& instance : parts.back().instances)
-        for (const Index line : instance.lines) taken_[line] = 1;
+      if (graph_.noise > 0) complete(parts.back(), context);
+      for (const RecurringPart::Instance& instance : parts.back().instances) take(instance);
       drop_taken();
     }
     return parts;
@@ -110,6 +110,54 @@ class PartSearch {
       if (part.instances.empty()) continue;
       mark(part, 1);
       candidates_.push_back(std::move(part));
+    }
+  }
+
+  // The lines of an instance are in no other part, nor with noise those between their corners.
+  void take(const RecurringPart::Instance& instance) {
+    std::vector<Index> corners;
+    for (const Index line : instance.lines) {
+      taken_[line] = 1;
+      corners.insert(corners.end(), {graph_.lines[line].start, graph_.lines[line].end});
+    }
+    if (!(graph_.noise > 0)) return;
+    std::sort(corners.begin(), corners.end());
+    const auto is_own = [&](Index corner) {
+      return std::binary_search(corners.begin(), corners.end(), corner);
+    };
+    for (const Index corner : corners)
+      for (const Index line : graph_.at[corner])
+        if (is_own(graph_.lines[line].start) && is_own(graph_.lines[line].end)) taken_[line] = 1;
+  }
+
+  // Instances that lack lines for their noise: the part's lines are taken to any that are left.
+  void complete(RecurringPart& part, const Context& context) {
+    std::vector<char> is_own(graph_.lines.size(), 0), claimed(graph_.lines.size(), 0);
+    for (const RecurringPart::Instance& instance : part.instances)
+      for (const Index line : instance.lines) claimed[line] = 1;
+    constexpr std::size_t most_sources = 4;  // any of which may be distorted itself
+    for (std::size_t k = 0; k < std::min(most_sources, part.instances.size()); ++k) {
+      const RecurringPart::Instance source = part.instances[k];
+      for (const Index line : source.lines) is_own[line] = 1;
+      for (const Index line : source.lines)
+        for (const Index other : alike(line))
+          for (const LineMatching::Pose pose : LineMatching::poses) {
+            if (claimed[other]) break;
+            context.check();
+            const auto match = matching_.grown(line, other, pose);
+            if (!match) continue;
+            RecurringPart::Instance instance{match->map * source.map, {}};
+            double length = 0;
+            for (const auto& [from, onto] : match->lines)
+              if (is_own[from] && !claimed[onto]) {
+                instance.lines.push_back(onto);
+                length += graph_.lines[from].length;
+              }
+            if (length < least_share * part.length) continue;
+            for (const Index image : instance.lines) claimed[image] = 1;
+            part.instances.push_back(std::move(instance));
+          }
+      for (const Index line : source.lines) is_own[line] = 0;
     }
   }
 
@@ -229,14 +277,16 @@ bool takes_in(RecurringPart& part, const RecurringPart& other, const FeatureLine
   const auto count = static_cast<double>(part.instances.size()),
              others = static_cast<double>(other.instances.size());
   const double together = (count - 1) * (part.length + others / count * other.length);
-  if (other.instances.size() % part.instances.size() != 0 ||
-      together < most_of_saved * (part.saved() + other.saved()))
+  // Noise leaves fragments of what is in a part.
+  const bool is_fragment = graph.noise > 0 && other.length < part.length;
+  if (!is_fragment && (other.instances.size() % part.instances.size() != 0 ||
+                       together < most_of_saved * (part.saved() + other.saved())))
     return false;
   std::vector<Vector3> centres;
   for (const RecurringPart::Instance& instance : part.instances)
     centres.push_back(centre_of(instance.lines, graph));
-  const double reach =
-      nearby * std::max(radius_of(part.lines, graph), radius_of(other.lines, graph));
+  const double own_radius = radius_of(part.lines, graph),
+               reach = nearby * std::max(own_radius, radius_of(other.lines, graph));
   std::vector<std::vector<Index>> groups(centres.size());
   for (const RecurringPart::Instance& instance : other.instances) {
     const Vector3 centre = centre_of(instance.lines, graph);
@@ -244,9 +294,15 @@ bool takes_in(RecurringPart& part, const RecurringPart& other, const FeatureLine
         std::min_element(centres.begin(), centres.end(), [&](const Vector3& a, const Vector3& b) {
           return (a - centre).squaredNorm() < (b - centre).squaredNorm();
         });
-    if ((*nearest - centre).norm() > reach) return false;
+    if ((*nearest - centre).norm() > (is_fragment ? own_radius : reach)) return false;
     std::vector<Index>& group = groups[nearest - centres.begin()];
     group.insert(group.end(), instance.lines.begin(), instance.lines.end());
+  }
+  if (is_fragment) {
+    for (std::size_t k = 0; k < groups.size(); ++k)
+      part.instances[k].lines.insert(part.instances[k].lines.end(), groups[k].begin(),
+                                     groups[k].end());
+    return true;
   }
   std::vector<std::vector<Index>> ordered;
   for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -268,9 +324,10 @@ bool takes_in(RecurringPart& part, const RecurringPart& other, const FeatureLine
 
 std::vector<RecurringPart> united(std::vector<RecurringPart> parts, const FeatureLines& graph,
                                   double tolerance) {
-  // Fewer instances take in more, greater ones lesser.
-  std::stable_sort(parts.begin(), parts.end(), [](const RecurringPart& a, const RecurringPart& b) {
-    if (a.instances.size() != b.instances.size()) return a.instances.size() < b.instances.size();
+  // Fewer instances take in more, greater ones lesser, which may be fragments where there is noise.
+  std::stable_sort(parts.begin(), parts.end(), [&](const RecurringPart& a, const RecurringPart& b) {
+    if (graph.noise == 0 && a.instances.size() != b.instances.size())
+      return a.instances.size() < b.instances.size();
     return a.length > b.length;
   });
   for (std::size_t k = 0; k < parts.size(); ++k)

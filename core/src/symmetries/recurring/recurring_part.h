@@ -17,9 +17,16 @@ struct RecurringPart {
   double length = 0;                ///< of the lines of one
   bool is_whole = false;            ///< no other line goes on from it
 
+  /// Instances that have all lines.
+  std::size_t complete() const;
+
   /// What a description by one instance and maps to the others saves.
   double saved() const { return length * static_cast<double>(instances.size() - 1); }
 };
+
+/// Of the length of a part: what an instance has of it at least where there is noise, and of the
+/// matches, those that have an image of a line of the part.
+inline constexpr double least_share = 0.6;
 
 /// Of those that save nearly as much as any a whole before a piece, then that with the most
 /// instances; the end for none.

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "symmetries/analysis_registry.h"
+#include "symmetries/recurring/cloud_triangles.h"
 #include "symmetries/recurring/part_points.h"
 #include "symmetries/recurring/recurring_part.h"
 
@@ -11,6 +12,12 @@ namespace {
 
 // Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
 // after.
+// Standard deviations of the noise: what the ends of two lines may be apart for it.
+constexpr double beyond_noise = 4;
+
+// Of the spacing of a cloud: how well it shows where its surface is.
+constexpr double noise_of_spacing = 0.35;
+
 constexpr double named_angle = 0.02, named_share = 0.1;
 
 void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& values,
@@ -21,9 +28,15 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   scaled /= cloud.diagonal;
   Cloud unit = cloud;
   unit.points = scaled;
-  const double tolerance = values.real("tolerance"),
-               angle = values.real("feature_angle") * std::numbers::pi / 180;
-  const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  const double angle = values.real("feature_angle") * std::numbers::pi / 180;
+  CloudTriangles own;
+  if (cloud.faces.empty()) {
+    own = cloud_triangles(scaled, context.stage(0, 0.1));
+    unit.faces = own.faces;
+  }
+  const FeatureLines graph = feature_lines(scaled, unit.faces, angle, context.stage(0.1, 0.2),
+                                           noise_of_spacing * own.spacing);
+  const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
   parts.erase(std::remove_if(parts.begin(), parts.end(),
@@ -64,6 +77,7 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   result.arrays = {{"part", part}, {"instance", instance}};
   result.statistics["parts"] = static_cast<Index>(parts.size());
   result.statistics["instances"] = static_cast<Index>(result.transformations.size());
+  result.statistics["noise"] = graph.noise * cloud.diagonal;
   result.statistics["feature_lines"] = static_cast<Index>(graph.lines.size());
 }
 
@@ -74,11 +88,12 @@ AnalysisImplementation recurring_parts_analysis() {
   analysis.name = "recurring_parts";
   analysis.title = "Recurring parts";
   analysis.summary =
-      "Finds the parts of a mesh that recur, such as windows or teeth, by its feature lines "
+      "Finds the parts of a mesh or cloud that recur, such as windows or teeth, by its feature "
+      "lines "
       "(Bokeloh et al. 2009).";
   analysis.parameters = {
       Parameter::real("feature_angle", 30, 1, 179, "degrees",
-                      "Faces that meet at more than this angle have a feature line between them."),
+                      "Facets that meet at more than this angle have a feature line between them."),
       Parameter::real("tolerance", 0.002, 1e-6, 0.1, "diagonal",
                       "How far an instance may differ from another."),
       Parameter::integer("minimum_instances", 2, 2, 1000000, "", "How often a part must occur."),
@@ -89,7 +104,6 @@ AnalysisImplementation recurring_parts_analysis() {
       {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
   };
   analysis.shown = "instance";
-  analysis.needs_faces = true;
   analysis.finds_transforms = true;
   analysis.run = run_recurring_parts;
   return analysis;

@@ -98,15 +98,14 @@ std::vector<LocalMatch> matches_of(Index seed, const std::vector<Index>& alike,
   };
   std::vector<Found> found{{around.local(own), 0}};
   for (const Index other : alike)
-    for (const bool reversed : {false, true})
-      for (const bool reflected : {false, true}) {
-        context.check();
-        if (other == seed && !reversed && !reflected) continue;
-        if (found.size() * around.size() > most_entries) break;
-        const auto match = matching.grown(seed, other, {reversed, reflected});
-        if (match && match->lines.size() >= least_lines)
-          found.push_back({around.local(*match), match->plainness()});
-      }
+    for (const LineMatching::Pose pose : LineMatching::poses) {
+      context.check();
+      if (other == seed && !pose.reversed && !pose.reflected) continue;
+      if (found.size() * around.size() > most_entries) break;
+      const auto match = matching.grown(seed, other, pose);
+      if (match && match->lines.size() >= least_lines)
+        found.push_back({around.local(*match), match->plainness()});
+    }
   constexpr double rounding = 1e-6;
   std::stable_sort(found.begin() + 1, found.end(), [&](const Found& a, const Found& b) {
     return std::round(a.plainness / rounding) > std::round(b.plainness / rounding);
@@ -146,7 +145,7 @@ class PartOfSeed {
       std::vector<const LocalMatch*> level;
       for (const LocalMatch& match : matches_)
         if (match.length >= levels[k]) level.push_back(&match);
-      consider(around_.common(level), matches_);
+      consider(around_.common(level, around_.graph().noise > 0 ? least_share : 1), matches_);
     }
   }
 
@@ -157,24 +156,36 @@ class PartOfSeed {
     RecurringPart found;
     found.is_whole = is_whole;
     std::vector<char> claimed(around_.graph().lines.size(), 0);
-    for (const LocalMatch& match : maps) {
-      RecurringPart::Instance instance{match.map, {}};
-      for (const std::int32_t line : part) {
-        const std::int32_t image = match.images[line];
-        if (image < 0 || claimed[image]) break;
-        instance.lines.push_back(image);
-      }
-      if (instance.lines.size() < part.size()) continue;
-      for (const Index image : instance.lines) claimed[image] = 1;
-      found.instances.push_back(std::move(instance));
-    }
     for (const std::int32_t line : part) {
       found.lines.push_back(around_.number(line));
       found.length += around_.line(line).length;
     }
+    // Those that have all lines first: noise may take lines from others.
+    for (const LocalMatch& match : maps) add_instance(match, part, found.length, claimed, found);
+    if (around_.graph().noise > 0)
+      for (const LocalMatch& match : maps)
+        add_instance(match, part, least_share * found.length, claimed, found);
     // A pair is one only as a whole: of two halves of a body all lines go on to the other.
     const std::size_t least = is_whole ? 2 : 3;
     if (found.instances.size() >= least) candidates_.push_back(std::move(found));
+  }
+
+  // Where images of at least that length are there, and none is claimed.
+  void add_instance(const LocalMatch& match, const LocalLines& part, double least,
+                    std::vector<char>& claimed, RecurringPart& found) const {
+    RecurringPart::Instance instance{match.map, {}};
+    double length = 0;
+    for (const std::int32_t line : part) {
+      const std::int32_t image = match.images[line];
+      if (image < 0) continue;
+      if (claimed[image]) return;
+      instance.lines.push_back(image);
+      length += around_.line(line).length;
+    }
+    constexpr double rounding = 1e-9;
+    if (length < (1 - rounding) * least) return;
+    for (const Index image : instance.lines) claimed[image] = 1;
+    found.instances.push_back(std::move(instance));
   }
 
   const ConnectedLines& around_;
@@ -184,13 +195,19 @@ class PartOfSeed {
 
 }  // namespace
 
+std::size_t RecurringPart::complete() const {
+  return std::count_if(instances.begin(), instances.end(), [&](const Instance& instance) {
+    return instance.lines.size() == lines.size();
+  });
+}
+
 std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts) {
   double most = 0;
   for (const RecurringPart& part : parts) most = std::max(most, part.saved());
   const auto comes_before = [](const RecurringPart& a, const RecurringPart& b) {
     constexpr double more = 1 + 1e-9;
     if (a.is_whole != b.is_whole) return a.is_whole;
-    if (a.instances.size() != b.instances.size()) return a.instances.size() > b.instances.size();
+    if (a.complete() != b.complete()) return a.complete() > b.complete();
     return a.saved() > more * b.saved();
   };
   auto best = parts.end();

@@ -1,0 +1,300 @@
+#include "symmetries/recurring/facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
+#include "base/math.h"
+
+namespace symsurf {
+
+SurfaceMoments SurfaceMoments::of_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  SurfaceMoments moments;
+  moments.area = (b - a).cross(c - a).norm() / 2;
+  const Vector3 sum = a + b + c;
+  moments.sum = moments.area / 3 * sum;
+  moments.products =
+      moments.area / 12 *
+      (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+  return moments;
+}
+
+SurfaceMoments& SurfaceMoments::operator+=(const SurfaceMoments& other) {
+  area += other.area;
+  pieces += other.pieces;
+  sum += other.sum;
+  products += other.products;
+  return *this;
+}
+
+FacetPlane plane_of(const SurfaceMoments& moments) {
+  const LeastEigen eigen = least_eigen_of(moments.scatter());
+  return {moments.centroid(), eigen.vector.normalized(),
+          std::sqrt(moments.area / (eigen.next * moments.pieces))};
+}
+
+namespace {
+
+// Greedy merging with a heap of the pairs that touch; costs are renewed when their turn comes.
+class Merging {
+ public:
+  explicit Merging(const std::vector<SurfaceMoments>& pieces)
+      : moments_(pieces), root_(pieces.size()), age_(pieces.size(), 0) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) root_[i] = static_cast<Index>(i);
+    for (const SurfaceMoments& piece : pieces) bend_.push_back(bend(piece));
+  }
+
+  // Until no pair of facets, one of which at least may take others, costs up to `limit`.
+  template <typename IsOpen>
+  void run(const Adjacency& adjacent, double limit, const IsOpen& is_open, const Context& context) {
+    const auto closed = [&](Index a, Index b) {
+      return a == b || !is_open(moments_[a], moments_[b]);
+    };
+    std::priority_queue<Pair> pairs;
+    const auto push = [&](Index a, Index b, bool is_new, double before) {
+      if (closed(a, b)) return;
+      const double now = cost(a, b);
+      if (now <= limit && (is_new || now > before)) pairs.push({now, a, b, age_[a] + age_[b]});
+    };
+    for (std::size_t begin = 0; begin < adjacent.size(); begin += stretch) {
+      context.check();
+      for (std::size_t k = begin; k < std::min(adjacent.size(), begin + stretch); ++k)
+        push(root(adjacent[k].first), root(adjacent[k].second), true, 0);
+    }
+    for (std::size_t step = 0; !pairs.empty(); ++step) {
+      if (step % stretch == 0) context.check();
+      const Pair next = pairs.top();
+      pairs.pop();
+      const Index a = root(next.a), b = root(next.b);
+      if (closed(a, b)) continue;
+      if (age_[a] + age_[b] != next.age) {
+        const double now = cost(a, b);
+        if (now > limit) continue;
+        if (now > next.cost) {
+          pairs.push({now, a, b, age_[a] + age_[b]});
+          continue;
+        }
+      }
+      merge(a, b);
+    }
+  }
+
+  Index root(Index piece) {
+    while (root_[piece] != piece) piece = root_[piece] = root_[root_[piece]];
+    return piece;
+  }
+
+ private:
+  static constexpr std::size_t stretch = 4096;
+
+  struct Pair {
+    double cost;
+    Index a, b, age;
+    bool operator<(const Pair& other) const {
+      return std::tie(other.cost, other.a, other.b) < std::tie(cost, a, b);
+    }
+  };
+
+  // The area times the mean squared distance from the plane.
+  static double bend(const SurfaceMoments& moments) {
+    return moments.area > 0 ? least_eigen_of(moments.scatter()).value : 0;
+  }
+
+  // Of the lesser facet, the mean squared distance that it adds.
+  double cost(Index a, Index b) const {
+    SurfaceMoments both = moments_[a];
+    both += moments_[b];
+    const double least = std::min(moments_[a].area, moments_[b].area);
+    return least > 0 ? std::max(0.0, bend(both) - bend_[a] - bend_[b]) / least : 0;
+  }
+
+  void merge(Index a, Index b) {
+    if (moments_[b].pieces > moments_[a].pieces) std::swap(a, b);
+    root_[b] = a;
+    moments_[a] += moments_[b];
+    bend_[a] = bend(moments_[a]);
+    age_[a] += age_[b] + 1;
+  }
+
+  std::vector<SurfaceMoments> moments_;
+  std::vector<double> bend_;
+  std::vector<Index> root_, age_;
+};
+
+}  // namespace
+
+namespace {
+
+std::vector<Index> numbered(Merging& merging, std::size_t count) {
+  std::vector<Index> facet(count, -1), number(count, -1);
+  Index next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Index& own = number[merging.root(static_cast<Index>(i))];
+    if (own < 0) own = next++;
+    facet[i] = own;
+  }
+  return facet;
+}
+
+std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
+                          double deviation, double noise, const Context& context) {
+  Merging merging(pieces);
+  merging.run(
+      adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
+  const auto absorb = [&](double vague, double off) {
+    const auto is_vague = [&](const SurfaceMoments& facet) {
+      return noise > 0 && !(noise * plane_of(facet).turned < vague);
+    };
+    merging.run(
+        adjacent, off * off,
+        [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
+  };
+  // Radians of what noise turns: what fits well goes sooner.
+  absorb(0.35, 2 * noise);
+  absorb(0.7, infinity);
+  return numbered(merging, pieces.size());
+}
+
+// Great facets take pieces of lesser ones that lie in their planes. What has lost much is taken
+// apart: of each piece its facet, or -1.
+std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::vector<Index> facet,
+                         double slab) {
+  const std::size_t count = pieces.moments.size();
+  std::vector<std::vector<Index>> touching(count), members;
+  for (const auto& [a, b] : pieces.adjacent) {
+    touching[a].push_back(b);
+    touching[b].push_back(a);
+  }
+  std::vector<SurfaceMoments> moments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto own = static_cast<std::size_t>(facet[i]);
+    if (own >= moments.size()) {
+      moments.resize(own + 1);
+      members.resize(own + 1);
+    }
+    moments[own] += pieces.moments[i];
+    members[own].push_back(static_cast<Index>(i));
+  }
+  std::vector<Index> order(moments.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Index>(k);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return moments[a].area > moments[b].area; });
+  std::vector<Index> rank(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<Index>(k);
+  for (const Index own : order) {
+    std::vector<Index> open;
+    SurfaceMoments left;
+    left.pieces = 0;
+    for (const Index piece : members[own])
+      if (facet[piece] == own) {
+        open.push_back(piece);
+        left += pieces.moments[piece];
+      }
+    if (left.area < 0.5 * moments[own].area || !(left.area > 0)) {
+      for (const Index piece : open) facet[piece] = -1;
+      continue;
+    }
+    FacetPlane plane = plane_of(left);
+    double fitted = left.area;
+    for (std::size_t k = 0; k < open.size(); ++k)
+      for (const Index next : touching[open[k]]) {
+        if (facet[next] == own || (facet[next] >= 0 && rank[facet[next]] < rank[own])) continue;
+        if (!std::all_of(pieces.points[next].begin(), pieces.points[next].end(), [&](Index i) {
+              return std::abs(plane.normal.dot(points[i] - plane.centroid)) < slab;
+            }))
+          continue;
+        facet[next] = own;
+        open.push_back(next);
+        left += pieces.moments[next];
+        if (left.area > 1.2 * fitted) {
+          plane = plane_of(left);
+          fitted = left.area;
+        }
+      }
+  }
+  return facet;
+}
+
+}  // namespace
+
+std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, double noise,
+                             const Context& context) {
+  // Diagonals: what single precision makes of coordinates.
+  constexpr double rounding = 1e-7;
+  const double deviation = std::max(rounding, 1.4 * noise);
+  std::vector<Index> facet = merged(pieces.moments, pieces.adjacent, deviation, noise, context);
+  if (noise == 0) return facet;
+  facet = grown(points, pieces, std::move(facet), 2.5 * noise);
+  std::vector<SurfaceMoments> joined;
+  std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    Index fresh = static_cast<Index>(joined.size());
+    Index& at = facet[i] < 0 ? fresh : number[facet[i]];
+    if (at < 0) at = fresh;
+    if (at == static_cast<Index>(joined.size())) {
+      joined.emplace_back();
+      joined.back().pieces = 0;
+    }
+    joined[at] += pieces.moments[i];
+    own[i] = at;
+  }
+  Adjacency adjacent;
+  for (const auto& [a, b] : pieces.adjacent)
+    if (own[a] != own[b]) adjacent.emplace_back(own[a], own[b]);
+  const std::vector<Index> again = merged(joined, adjacent, deviation, noise, context);
+  for (std::size_t i = 0; i < own.size(); ++i) facet[i] = again[own[i]];
+  return facet;
+}
+
+double noise_of(PointsView points, const SurfacePieces& pieces, const Context& context) {
+  constexpr Index full = 24;         // pieces of a patch: some 20 points, of which 6 are fitted
+  constexpr std::size_t least = 12;  // points
+  constexpr double flattest = 0.3;   // of the patches
+  constexpr double shown = 0.75;     // of the noise, as the flattest show little of it
+  Merging merging(pieces.moments);
+  merging.run(
+      pieces.adjacent, infinity,
+      [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; }, context);
+  const std::vector<Index> patch = numbered(merging, pieces.moments.size());
+  std::vector<SurfaceMoments> moments;
+  std::vector<std::vector<Index>> members;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const auto own = static_cast<std::size_t>(patch[i]);
+    if (own >= moments.size()) {
+      moments.resize(own + 1);
+      members.resize(own + 1);
+    }
+    moments[own] += pieces.moments[i];
+    members[own].insert(members[own].end(), pieces.points[i].begin(), pieces.points[i].end());
+  }
+  std::vector<double> deviations;
+  for (std::size_t p = 0; p < members.size(); ++p) {
+    std::vector<Index>& own = members[p];
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (own.size() < least || !(moments[p].area > 0)) continue;
+    const auto eigen = eigen_of(moments[p].scatter());
+    const double size = std::sqrt(eigen.values[2] / moments[p].area);
+    std::vector<Vector3> local;
+    QuadraticFit fit;
+    for (const Index i : own) {
+      local.push_back(eigen.vectors.transpose() * (points[i] - moments[p].centroid()) / size);
+      fit.add(local.back()[2], local.back()[1], local.back()[0]);
+    }
+    const QuadraticFit::Coefficients h = fit.coefficients();
+    double sum = 0;
+    for (const Vector3& x : local) {
+      const double u = x[2], v = x[1];
+      const double off = x[0] - h.dot(QuadraticFit::Coefficients{{1, u, v, u * u, u * v, v * v}});
+      sum += off * off;
+    }
+    deviations.push_back(size * std::sqrt(sum / static_cast<double>(own.size() - 6)));
+  }
+  return deviations.empty() ? 0 : quantile(std::move(deviations), flattest) / shown;
+}
+
+}  // namespace symsurf
