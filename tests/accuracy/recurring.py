@@ -1,4 +1,4 @@
-"""Meshes and clouds with parts that recur: facades with windows and gears with teeth, in any pose."""
+"""Meshes with parts that recur: facades with windows and gears with teeth, in any pose."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import symsurf
 
 from .case import Case, Figures, at_least, at_most
 from .poses import random_rotation
-from .repeated import facade, gear, scanned
+from .repeated import facade, gear
 
 SUBJECTS = {
     "facade": lambda rng, cells: facade(4, 6, rng, cells),
@@ -27,8 +27,6 @@ CURVED = {
     "gear 7, curved flanks": lambda rng, cells: gear(7, rng, cells + 3, bulge=0.12),
     "gear 24, curved flanks": lambda rng, cells: gear(24, rng, cells + 3, bulge=0.12),
 }
-SCANNED = {"facade": 60000, "gear 7": 12000, "gear 24": 50000}
-"""Of how many points a cloud has them."""
 
 
 def _trial(
@@ -36,12 +34,9 @@ def _trial(
     rng: np.random.Generator,
     noise: float,
     pure: float = 1,
-    points_of_cloud: int = 0,
 ) -> Figures:
     cells = int(rng.integers(1, 7))
     points, faces, label = (SUBJECTS | CURVED)[subject](rng, cells)
-    if points_of_cloud:
-        points, label = scanned(points, faces, label, points_of_cloud, rng)
     points = np.exp(rng.normal()) * points @ random_rotation(rng).T + rng.normal(size=3)
     points += rng.normal(scale=noise * np.linalg.norm(np.ptp(points, axis=0)), size=points.shape)
     order = rng.permutation(len(points))
@@ -49,7 +44,7 @@ def _trial(
     start = time.process_time()
     found = symsurf.recurring_parts(
         points[order],
-        faces=None if points_of_cloud else position[rng.permutation(faces)],
+        faces=position[rng.permutation(faces)],
         threads=1,
     )
     seconds = time.process_time() - start
@@ -92,9 +87,4 @@ CASES = (
     _neighbours("mesh, noise 0.3 %", tuple(SUBJECTS), 3e-3),
     _neighbours("curved flanks", tuple(CURVED), 0),
     _neighbours("curved flanks, noise 0.1 %", tuple(CURVED), 1e-3),
-    *(Case(f"neighbours, recurring: cloud{what}", tuple(SCANNED),
-           lambda subject, rng, noise=noise:
-               _trial(subject, rng, noise, pure=0.9, points_of_cloud=SCANNED[subject]),
-           {"seconds": at_most(10)}, trials=10)
-      for what, noise in (("", 0), (", noise 0.1 %", 1e-3))),
 )  # fmt: skip

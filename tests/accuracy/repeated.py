@@ -86,9 +86,8 @@ def gear(
     bulge: float = 0,
 ) -> tuple[Points, NDArray[np.int64], NDArray[np.int64]]:
     """A spur gear with straight flanks, or flanks that ``bulge`` by so much of their length, and a
-    round hole: points, faces and the tooth that each
-    point is of (n,), -1 where it is on none, or between two. The outline bends by more than 30
-    degrees at the foot of each flank."""
+    round hole: points, faces and the tooth that each point is of (n,), -1 where it is on none, or
+    between two. The outline of straight flanks bends by more than 30 degrees at the foot of each."""
     depth, thickness = rng.uniform(0.2, 0.3), rng.uniform(0.2, 0.6)
     root, tip = rng.uniform(0.35, 0.45), rng.uniform(0.3, 0.4)
     slope = (1 - root - tip) / 2
@@ -131,26 +130,6 @@ def gear(
     for place, number in zip(rim, tooth):
         label[np.abs(points[:, :2] - place).max(axis=1) < 1e-12] = number
     return points, faces, label
-
-
-def scanned(
-    points: Points,
-    faces: NDArray[np.int64],
-    label: NDArray[np.int64],
-    count: int,
-    rng: np.random.Generator,
-) -> tuple[Points, NDArray[np.int64]]:
-    """Points spread over a mesh, about evenly, with the label that all corners of their faces have."""
-    corners = points[faces]
-    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    reached = np.cumsum(np.linalg.norm(doubled, axis=1))
-    face = np.searchsorted(reached, (np.arange(count) + rng.random(count)) / count * reached[-1])
-    share = rng.random((count, 2))
-    share[share.sum(axis=1) > 1] = 1 - share[share.sum(axis=1) > 1]
-    own = corners[face]
-    spread = own[:, 0] + np.einsum("nk,nkd->nd", share, own[:, 1:] - own[:, :1])
-    labels = label[faces[face]]
-    return spread, np.where((labels == labels[:, :1]).all(axis=1), labels[:, 0], -1)
 
 
 def _at(plane: Line, height: float) -> Points:

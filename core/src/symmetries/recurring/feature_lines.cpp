@@ -39,9 +39,8 @@ struct Border {
 
 class LineExtraction {
  public:
-  LineExtraction(PointsView points, TrianglesView faces, double angle, double least_noise,
-                 const Context& context)
-      : points_(points), angle_(angle), least_noise_(least_noise) {
+  LineExtraction(PointsView points, TrianglesView faces, double angle, const Context& context)
+      : points_(points), angle_(angle) {
     TripleIndex positions;
     std::vector<Index> place(points.size());
     for (Index i = 0; i < points.size(); ++i) {
@@ -129,7 +128,7 @@ class LineExtraction {
         pieces_.adjacent.emplace_back(edge.faces[0], edge.faces[k]);
     const Points rows = rows_of(positions_);
     noise_ = has_exact_planes() ? 0 : noise_of(rows, pieces_, context.stage(0, 0.4));
-    noise_ = std::max(noise_ < rounding ? 0 : noise_, least_noise_);
+    if (noise_ < rounding) noise_ = 0;
     facet_ = facets_of(rows, pieces_, noise_, context.stage(0.4, 0.8));
     neighbours_.resize(faces_.size());
     for (const auto& [a, b] : pieces_.adjacent)
@@ -165,7 +164,7 @@ class LineExtraction {
     for (Border& border : borders_) {
       context.check();
       for (const Index facet : border.facets) border.sides.push_back(plane_beside(border, facet));
-      border.is_sharp = border.facets.size() == 2 ? bend_of(border) > angle_ : least_noise_ == 0;
+      border.is_sharp = border.facets.size() != 2 || bend_of(border) > angle_;
     }
   }
 
@@ -344,7 +343,7 @@ class LineExtraction {
   static constexpr double farthest = 4, stretch = 6, certain = 0.05;
 
   PointsView points_;
-  double angle_, least_noise_, noise_ = 0;
+  double angle_, noise_ = 0;
   std::vector<Vector3> positions_;
   std::vector<std::vector<Index>> faces_, neighbours_, edges_at_;
   std::vector<MeshEdge> edges_;
@@ -396,8 +395,8 @@ FeatureLines without_short_lines(FeatureLines graph, double shortest) {
 }  // namespace
 
 FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
-                           const Context& context, double least_noise) {
-  FeatureLines graph = LineExtraction(points, faces, angle, least_noise, context.stage(0, 0.9))
+                           const Context& context) {
+  FeatureLines graph = LineExtraction(points, faces, angle, context.stage(0, 0.9))
                            .run(context.stage(0.9, 1));
   const double shortest = 4 * graph.noise;
   return without_short_lines(std::move(graph), shortest);

@@ -35,8 +35,7 @@ struct FeatureLines {
 /// The lines along which nearly flat facets meet at more than `angle` radians, or end (Bokeloh et
 /// al. 2009). They meet in corners, where one bends by more than that, or where another number of
 /// edges than two come together. Points at the same place are one.
-/// `least_noise`: where more than 0, that of a cloud for its spacing, whose rims are no lines.
 FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
-                           const Context& context, double least_noise = 0);
+                           const Context& context);
 
 }  // namespace symsurf

@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "symmetries/analysis_registry.h"
-#include "symmetries/recurring/cloud_triangles.h"
 #include "symmetries/recurring/part_points.h"
 #include "symmetries/recurring/recurring_part.h"
 
@@ -10,14 +9,11 @@ namespace symsurf {
 
 namespace {
 
-// Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
-// after.
 // Standard deviations of the noise: what the ends of two lines may be apart for it.
 constexpr double beyond_noise = 4;
 
-// Of the spacing of a cloud: how well it shows where its surface is.
-constexpr double noise_of_spacing = 0.35;
-
+// Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
+// after.
 constexpr double named_angle = 0.02, named_share = 0.1;
 
 void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& values,
@@ -29,13 +25,7 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   Cloud unit = cloud;
   unit.points = scaled;
   const double angle = values.real("feature_angle") * std::numbers::pi / 180;
-  CloudTriangles own;
-  if (cloud.faces.empty()) {
-    own = cloud_triangles(scaled, context.stage(0, 0.1));
-    unit.faces = own.faces;
-  }
-  const FeatureLines graph = feature_lines(scaled, unit.faces, angle, context.stage(0.1, 0.2),
-                                           noise_of_spacing * own.spacing);
+  const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
   const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
@@ -88,8 +78,7 @@ AnalysisImplementation recurring_parts_analysis() {
   analysis.name = "recurring_parts";
   analysis.title = "Recurring parts";
   analysis.summary =
-      "Finds the parts of a mesh or cloud that recur, such as windows or teeth, by its feature "
-      "lines "
+      "Finds the parts of a mesh that recur, such as windows or teeth, by its feature lines "
       "(Bokeloh et al. 2009).";
   analysis.parameters = {
       Parameter::real("feature_angle", 30, 1, 179, "degrees",
@@ -105,6 +94,7 @@ AnalysisImplementation recurring_parts_analysis() {
   };
   analysis.shown = "instance";
   analysis.finds_transforms = true;
+  analysis.needs_faces = true;
   analysis.run = run_recurring_parts;
   return analysis;
 }
