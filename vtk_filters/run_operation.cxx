@@ -48,7 +48,6 @@ std::shared_ptr<symsurf::Mirror> found_first(vtkMirrorOperation* filter,
   symsurf::Options options;
   options.method = filter->GetMethod();
   options.faces = input.faces;
-  options.refuse_nonfinite = true;
   const symsurf::FoundMirror found = symsurf::found_mirror(
       symsurf::detect(input.points, options, context), filter->GetRequireFound());
   if (!found.warning.empty()) vtkWarningWithObjectMacro(filter, << found.warning);
@@ -76,6 +75,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
       mirror = given ? mirror_of(given) : found_first(filter, input, context.stage(0, found_at));
     const symsurf::OperationResult result = symsurf::operate(
         call.operation, input, mirror.get(), call.parameters, context.stage(found_at, 1));
+    warn_of(filter, result.statistics);
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);
     const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result);
     if (filter->GetNumberOfOutputPorts() > 1)

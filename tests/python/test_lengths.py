@@ -28,7 +28,7 @@ LENGTHS = [
 
 @pytest.fixture(scope="module")
 def points():
-    return mirrored_surface(300, 0)[0]
+    return mirrored_surface(100, 0)[0]
 
 
 @pytest.mark.parametrize(("function", "parameter"), LENGTHS)

@@ -125,7 +125,8 @@ def results():
         np.random.default_rng(0).uniform(-1, 1, size=(300, 3)) + (0, 0, 3), "f1"
     ).points
     for name in symsurf.methods():
-        yield name, {"cylinder": bent, "fixed_direction": layers}.get(name, points)
+        others = {"cylinder": bent, "fixed_direction": layers, "sphere_thesis": points[:100]}
+        yield name, others.get(name, points)
 
 
 @pytest.mark.parametrize(("method", "points"), list(results()), ids=symsurf.methods())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+import warnings
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,6 +23,7 @@ from .._core import (
     require_found_parameter,
 )
 from ..detection import detect
+from ..reading.inputs import InputWarning
 from ..results import found_mirror
 from ..shapes.poly_data import Faces, faces_of, points_of, vtk_points
 from .algorithm import THREADS, Algorithm, Property, described
@@ -85,19 +87,22 @@ class MirrorOperation(Algorithm):
             lambda fraction: self._progress(before + (1 - before) * fraction),
             parameters,
         )
+        if count := result["statistics"].get("nonfinite_points"):
+            self._warn(f"{count} points are not finite and were left out")
         added = _set_operated(outputs[0], shape, faces, operation, result)
         if operation.adds_points:
             _set_patch(outputs[1], added, len(points))
 
     def _found_mirror(self, points: NDArray[Any], faces: Faces) -> Mirror:
-        result = detect(
-            points,
-            self._options["method"],
-            faces=faces.corners,
-            nonfinite="refuse",
-            threads=self._options["number_of_threads"],
-            progress=lambda fraction: self._progress(_FOUND_AT * fraction),
-        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", InputWarning)  # said of the operation
+            result = detect(
+                points,
+                self._options["method"],
+                faces=faces.corners,
+                threads=self._options["number_of_threads"],
+                progress=lambda fraction: self._progress(_FOUND_AT * fraction),
+            )
         mirror, warning = found_mirror(result, self._options["require_found"])
         if warning:
             self._warn(warning)

@@ -396,8 +396,8 @@ FeatureLines without_short_lines(FeatureLines graph, double shortest) {
 
 FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
                            const Context& context) {
-  FeatureLines graph = LineExtraction(points, faces, angle, context.stage(0, 0.9))
-                           .run(context.stage(0.9, 1));
+  FeatureLines graph =
+      LineExtraction(points, faces, angle, context.stage(0, 0.9)).run(context.stage(0.9, 1));
   const double shortest = 4 * graph.noise;
   return without_short_lines(std::move(graph), shortest);
 }
