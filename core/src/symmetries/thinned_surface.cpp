@@ -60,6 +60,7 @@ Cloud sampled(Cloud cloud, SurfaceSamples& sampling, const Context& context) {
 ThinnedSurface::ThinnedSurface(const Cloud& cloud, Index count, const Context& context)
     : cloud_(sampled(cloud, sampling_, context.stage(0, 0.1))),
       surfels_(cloud_, std::min(count, cloud_.points.size() / 2), context.stage(0.1, 0.5)),
+      map_(surfels_),
       points_(surface_of(surfels_.positions(surfels_.size()), noise_, context.stage(0.5, 1))),
       near_(points_.size()) {
   // Samples of faces come behind the cloud's own points.

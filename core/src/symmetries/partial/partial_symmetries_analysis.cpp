@@ -12,9 +12,8 @@ namespace symsurf {
 
 namespace {
 
-// Below, a patch slides or turns on its own surface, as flat and round ones do. Bodies that hold
-// least have four times as much.
-constexpr double least_hold = 1e-3;
+// Of a patch: with less it slides or turns on its own surface, as flat and round ones and edges do.
+constexpr double least_hold = 0.04;
 
 // The points of the discs whose votes a cluster holds.
 std::vector<Index> seeds_of(const VoteCluster& cluster,
@@ -38,7 +37,7 @@ bool hardly_moves(const PatchPair& pair, const SurfacePoints& points, double lea
 }
 
 double size_and_score(const PatchPair& pair) {
-  return static_cast<double>(pair.from.size()) * pair.score;
+  return static_cast<double>(pair.from.size()) * pair.hold * pair.score;
 }
 
 struct PartialSearchOptions {
@@ -56,7 +55,8 @@ std::vector<PatchPair> partial_search(const ThinnedSurface& surface,
       static_cast<Index>(std::ceil(options.minimum_size * static_cast<double>(surface.size())));
   const std::vector<TransformationVote> votes =
       transformation_votes(surface, options.votes, context.stage(0, 0.4));
-  constexpr std::size_t most_clusters = 40;
+  if (getenv("DBGT")) { double tx,ty,tz; sscanf(getenv("DBGT"),"%lf,%lf,%lf",&tx,&ty,&tz); int c=0; double w=0; for (auto& v : votes) { Eigen::Matrix4d M=surface.in_input_units(v.map); if ((M.topLeftCorner<3,3>()-Eigen::Matrix3d::Identity()).norm()<0.3 && (M.topRightCorner<3,1>()-Eigen::Vector3d(tx,ty,tz)).norm()<0.4) {++c; w+=v.weight; fprintf(stderr,"   vote %.2f %.2f %.2f w %.2f R %.2f\n",M(0,3),M(1,3),M(2,3),v.weight,(M.topLeftCorner<3,3>()-Eigen::Matrix3d::Identity()).norm());}} fprintf(stderr,"votes near truth %d weight %.2f tol %.4f spacing %.4f radius %.4f\n",c,w,surface.tolerance(),surface.spacing(),options.votes.radius); }
+  const std::size_t most_clusters = 3 * static_cast<std::size_t>(options.count);
   const std::vector<VoteCluster> clusters =
       vote_clusters(votes, most_clusters, context.stage(0.4, 0.6));
   const PatchGrowth growth(surface, options.votes.scales);
@@ -70,6 +70,7 @@ std::vector<PatchPair> partial_search(const ThinnedSurface& surface,
                  }
                });
   std::vector<PatchPair> found;
+  if (getenv("DBG")) for (auto& pair : grown) if (pair) { Eigen::Matrix4d M = surface.in_input_units(pair->map); fprintf(stderr, "  grown %zu score %.3f hold %.3f  t %.3f %.3f %.3f R %.2f %.2f %.2f moves %d\n", pair->from.size(), pair->score, pair->hold, M(0,3), M(1,3), M(2,3), M(0,0), M(1,1), M(2,2), !hardly_moves(*pair, surface.points(), options.votes.radius)); }
   for (std::optional<PatchPair>& pair : grown)
     if (pair && pair->score >= options.minimum_score && pair->hold > least_hold &&
         !hardly_moves(*pair, surface.points(), options.votes.radius))

@@ -12,9 +12,8 @@ namespace symsurf {
 struct PatchPair {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
   std::vector<Index> from, onto;  ///< points of the patch, ascending; the nearest to their images
-  double score = 0;               ///< 0..1: how close images come to the surface
-  double hold =
-      0;  ///< 0: the patch can slide on the surface; a ball patch turns, a flat one glides
+  double score = 0;  ///< 0..1: how close images come to the surface, of how close its points do
+  double hold = 0;  ///< as PatchGrowth::hold
 };
 
 /// Fits maps to the surface and grows the patch on which they hold: iterative closest points with
@@ -36,11 +35,20 @@ class PatchGrowth {
   };
   Landing landing(const Eigen::Affine3d& map, Index i, double tolerance) const;
 
-  /// The map after some Gauss-Newton steps on these points, and how little they can slide.
+  /// The share of these points whose images agree.
+  double share(const Eigen::Affine3d& map, const std::vector<Index>& points,
+               double tolerance) const;
+
+  /// The map after some Gauss-Newton steps on these points.
   struct Fit {
     Eigen::Affine3d map;
-    double hold;
+    /// The motion that the points resist least, by a few tolerances.
+    Eigen::Affine3d slide = Eigen::Affine3d::Identity();
   };
+  /// The share of these points that come off the surface whichever way their images slide: 0 of
+  /// planes, balls, edges and bars, which slide on themselves.
+  double hold(const Fit& fit, const std::vector<Index>& points, double tolerance) const;
+
   Fit fitted(const Eigen::Affine3d& map, const std::vector<Index>& points, double tolerance,
              int steps) const;
 
@@ -50,6 +58,7 @@ class PatchGrowth {
 
   const ThinnedSurface& surface_;
   bool scales_;
+  std::vector<double> ceilings_;  // how close each point comes to the surface of the others
 };
 
 }  // namespace symsurf
