@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "spatial/kd_tree.h"
-#include "symmetries/partial/patch_growth.h"
+#include "symmetries/partial/surface_fit.h"
 
 namespace symsurf {
 
@@ -24,7 +24,7 @@ constexpr double least_hold = 0.1;
 class VoteCheck {
  public:
   VoteCheck(const ThinnedSurface& surface, const VoteOptions& options)
-      : surface_(surface), growth_(surface, options.scales), radius_(options.radius) {}
+      : surface_(surface), fit_(surface, options.scales), radius_(options.radius) {}
 
   // Those of the surface about a point that are looked at.
   std::vector<Index> about(Index point) const {
@@ -50,9 +50,9 @@ class VoteCheck {
       for (Index i = begin; i < end; ++i) {
         const double tolerance = surface_.tolerance();
         const std::vector<Index> points = about(i);
-        const PatchGrowth::Fit fit =
-            growth_.fitted(Eigen::Affine3d::Identity(), points, tolerance, 1);
-        held[i] = growth_.hold(fit, points, tolerance) > least_hold;
+        const SurfaceFit::Fit fit =
+            fit_.fitted(Eigen::Affine3d::Identity(), points, tolerance, 1);
+        held[i] = fit_.hold(fit, points, tolerance) > least_hold;
       }
     });
     std::vector<Index> found;
@@ -66,16 +66,16 @@ class VoteCheck {
     constexpr double wide = 4, most = 0.6, half = 0.5;
     const double tolerance = surface_.tolerance();
     const std::vector<Index> first(about.begin(), about.begin() + std::ssize(about) / early);
-    if (growth_.share(vote.map, first, wide * tolerance) < half) return {};
-    vote.map = growth_.fitted(vote.map, about, wide * tolerance, 2).map;
-    if (growth_.share(vote.map, first, 2 * tolerance) < half) return {};
-    const PatchGrowth::Fit fit = growth_.fitted(vote.map, about, 2 * tolerance, 3);
+    if (fit_.share(vote.map, first, wide * tolerance) < half) return {};
+    vote.map = fit_.fitted(vote.map, about, wide * tolerance, 2).map;
+    if (fit_.share(vote.map, first, 2 * tolerance) < half) return {};
+    const SurfaceFit::Fit fit = fit_.fitted(vote.map, about, 2 * tolerance, 3);
     vote.map = fit.map;
-    const double agreeing = growth_.share(vote.map, about, tolerance);
+    const double agreeing = fit_.share(vote.map, about, tolerance);
     if (agreeing < most) return {};
-    const double hold = growth_.hold(fit, about, tolerance);
+    const double hold = fit_.hold(fit, about, tolerance);
     if (hold < least_hold) return {};
-    vote.weight = agreeing * hold;
+    vote.weight = agreeing * hold * hold;
     return vote;
   }
 
@@ -84,7 +84,7 @@ class VoteCheck {
   static constexpr double reach = 1.2;   // radii
 
   const ThinnedSurface& surface_;
-  PatchGrowth growth_;
+  SurfaceFit fit_;
   double radius_;
 };
 
@@ -114,7 +114,8 @@ std::vector<Disc> described_discs(const ThinnedSurface& surface, const std::vect
 std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surface,
                                                      const VoteOptions& options,
                                                      const Context& context) {
-  constexpr Index alike = 8, most_asking = 2000;
+  constexpr Index most_asking = 2000;
+  constexpr std::size_t alike = 8, looked_at = 64;  // points, and of which those that are apart
   constexpr double greatest_residual = 0.7;
   constexpr std::size_t most_turns = 4;
   std::vector<double> ratios{1};
@@ -147,13 +148,16 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
       const Disc& disc = found[k];
       if (k % stride != 0) continue;
       likest.clear();
-      const auto wanted = static_cast<std::size_t>(alike);
       tree.search(invariants[k], infinity, [&](std::uint32_t other, double squared) {
         const double apart = (all.point(found[other].point) - all.point(disc.point)).norm();
         if (apart > disc.signature.radius)
-          keep_best(likest, wanted, Neighbour{static_cast<Index>(other), squared});
-        return likest.size() < wanted ? infinity
+          keep_best(likest, looked_at, Neighbour{static_cast<Index>(other), squared});
+        return likest.size() < looked_at ? infinity
                                       : Invariants::at_most(likest.back().squared_distance);
+      });
+      suppress_non_maxima(likest, alike, [&](const Neighbour& a, const Neighbour& b) {
+        const Vector3 x = all.point(found[a.index].point), y = all.point(found[b.index].point);
+        return (x - y).norm() < disc.signature.radius / 2;
       });
       const std::vector<Index> about = check.about(disc.point);
       for (const Neighbour& other : likest)
@@ -176,7 +180,6 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
   });
   std::vector<TransformationVote> votes;
   for (const auto& part : parts) votes.insert(votes.end(), part.begin(), part.end());
-  if (getenv("DBG")) fprintf(stderr, "discs %zu asking %ld votes %zu\n", found.size(), (long)((asking+stride-1)/stride), votes.size());
   return votes;
 }
 
