@@ -1,5 +1,5 @@
-"""A facade with a grid of windows, as a laser scanner sees it: from two stations, with noise along the rays and
-with areas that something in front hides."""
+"""A facade with a grid of windows, as a laser scanner sees it: from two stations, with noise along
+the rays and with areas that something in front hides."""
 
 from __future__ import annotations
 
@@ -66,7 +66,8 @@ def _scanned(boxes: Array, size: Array, rng: np.random.Generator) -> Points:
     points = []
     for side in (-1, 1):
         station = np.array([side * 0.3 * size[0], -0.4 * size[1], 0.9 * size.max()])
-        aims = np.column_stack([rng.uniform(-0.5, 0.5, size=(4 * COUNT, 2)) * size, np.zeros(4 * COUNT)])
+        aims = np.zeros((4 * COUNT, 3))
+        aims[:, :2] = rng.uniform(-0.5, 0.5, size=(4 * COUNT, 2)) * size
         rays = aims - station
         length = np.linalg.norm(rays, axis=1)
         # Of those spread evenly over the wall, as many as are even over the angle.

@@ -39,8 +39,7 @@ Points smoothed(const SurfacePoints& surface, const Cloud& cloud, const Context&
       const LocalPlane plane = plane_through(all, around);
       QuadraticFit fit;
       for (const Neighbour& n : around) {
-        const Vector3 at =
-            plane.axes.transpose() * (all.row(n.index).transpose() - x) / radius;
+        const Vector3 at = plane.axes.transpose() * (all.row(n.index).transpose() - x) / radius;
         fit.add(at.y(), at.z(), at.x(), 1 - n.squared_distance / (radius * radius));
       }
       constexpr double ridge = 0.1;  // points
@@ -69,7 +68,8 @@ ThinnedSurface::ThinnedSurface(const Cloud& cloud, Index count, const Context& c
     : cloud_(sampled(cloud, sampling_, context.stage(0, 0.1))),
       surfels_(cloud_, std::min(count, cloud_.points.size() / 2), context.stage(0.1, 0.5)),
       map_(surfels_),
-      points_(surface_of(surfels_.positions(surfels_.size()), cloud_, noise_, context.stage(0.5, 1))),
+      points_(
+          surface_of(surfels_.positions(surfels_.size()), cloud_, noise_, context.stage(0.5, 1))),
       near_(points_.size()) {
   // Samples of faces come behind the cloud's own points.
   for (Index i = 0; i < cloud.points.size(); ++i) {

@@ -157,9 +157,8 @@ std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignatur
     const double left = std::max(0.0, squares - 2 * overlaps[k]) + mean;
     found.push_back({(k + (before - after) / (2 * bend)) * step, std::sqrt(2 * left / squares)});
   }
-  std::stable_sort(found.begin(), found.end(), [](const DiscMatch& a, const DiscMatch& b) {
-    return a.residual < b.residual;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const DiscMatch& a, const DiscMatch& b) { return a.residual < b.residual; });
   return found;
 }
 

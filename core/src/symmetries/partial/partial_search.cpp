@@ -63,9 +63,9 @@ class PartialSearch {
     const std::vector<TransformationVote> votes =
         transformation_votes(surface_, options_.votes, context.stage(0, 0.7));
     std::vector<PatchPair> candidates;
-    for (const VoteCluster& cluster :
-         vote_clusters(votes, most_clusters, context.stage(0.7, 1))) {
-      PatchPair candidate{cluster.map};
+    for (const VoteCluster& cluster : vote_clusters(votes, most_clusters, context.stage(0.7, 1))) {
+      PatchPair candidate;
+      candidate.map = cluster.map;
       for (const Index v : cluster.votes)
         points.tree.within(points.point(votes[v].from), options_.votes.radius / 2,
                            [&](Index i, double) { candidate.from.push_back(i); });
@@ -85,8 +85,9 @@ class PartialSearch {
       for (std::size_t b = 0; b < count; ++b)
         for (int ways = 0; ways < 4; ++ways) {
           const bool back = ways & 1, then_back = ways & 2;
-          PatchPair pair{(then_back ? found[b].map.inverse() : found[b].map) *
-                         (back ? found[a].map.inverse() : found[a].map)};
+          PatchPair pair;
+          pair.map = (then_back ? found[b].map.inverse() : found[b].map) *
+                     (back ? found[a].map.inverse() : found[a].map);
           if (!(pair.map.linear().determinant() < 0 ? options_.votes.reflections
                                                     : options_.votes.motions))
             continue;
@@ -150,9 +151,8 @@ class PartialSearch {
     std::stable_sort(pairs.begin(), pairs.end(), [](const PatchPair& a, const PatchPair& b) {
       return held_points(a) > held_points(b);
     });
-    suppress_non_maxima(pairs, pairs.size(), [&](const PatchPair& a, const PatchPair& b) {
-      return are_alike(a, b);
-    });
+    suppress_non_maxima(pairs, pairs.size(),
+                        [&](const PatchPair& a, const PatchPair& b) { return are_alike(a, b); });
   }
 
   const ThinnedSurface& surface_;

@@ -14,10 +14,9 @@ struct PartialSearchOptions {
   Index count = 0;           // most that are found
 };
 
-/// The partial symmetries of a surface (Mitra et al. 2006): patches that a map takes to other places
-/// of the surface. Those first in which most of the surface tells the map.
+/// The partial symmetries of a surface (Mitra et al. 2006): patches that a map takes to other
+/// places of the surface. Those first in which most of the surface tells the map.
 std::vector<PatchPair> partial_patches(const ThinnedSurface& surface,
-                                       const PartialSearchOptions& options,
-                                       const Context& context);
+                                       const PartialSearchOptions& options, const Context& context);
 
 }  // namespace symsurf

@@ -44,7 +44,7 @@ std::optional<PatchPair> PatchGrowth::grown(const Eigen::Affine3d& map,
   for (const double width : {wide, 2.0, 1.5})
     pair.map = fit_.fitted(pair.map, seeds, width * tolerance_, 2).map;
   if (fit_.share(pair.map, seeds, tolerance_) < most_of_seeds) return {};
-  constexpr int rounds = 8, last_steps = 4;
+  constexpr int rounds = 8, last_steps = 4, slides = 2;
   for (int round = 0; round < rounds; ++round) {
     context.check();
     const std::size_t before = pair.from.size();
@@ -56,7 +56,7 @@ std::optional<PatchPair> PatchGrowth::grown(const Eigen::Affine3d& map,
   }
   if (static_cast<Index>(pair.from.size()) < least) return {};
   const SurfaceFit::Fit last = fit_.fitted(pair.map, pair.from, tolerance_, last_steps);
-  pair.hold = fit_.hold(last, pair.from, tolerance_);
+  pair.hold = fit_.hold(last, pair.from, tolerance_, slides);
   pair.map = fit_.simplest(last.map, pair.from, tolerance_);
   score(pair);
   return pair;

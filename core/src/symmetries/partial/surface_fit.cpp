@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -57,7 +56,7 @@ Eigen::Affine3d plain(const Eigen::Affine3d& map, const Vector3& point) {
 }  // namespace
 
 SurfaceFit::Landing SurfaceFit::landing(const Eigen::Affine3d& map, Index i,
-                                          double tolerance) const {
+                                        double tolerance) const {
   const SurfacePoints& all = surface_.points();
   const Vector3 image = map * all.point(i);
   const double rim = past_rim * surface_.spacing();
@@ -73,34 +72,38 @@ SurfaceFit::Landing SurfaceFit::landing(const Eigen::Affine3d& map, Index i,
 }
 
 double SurfaceFit::share(const Eigen::Affine3d& map, const std::vector<Index>& points,
-                          double tolerance) const {
+                         double tolerance) const {
   const auto agrees = [&](Index i) { return landing(map, i, tolerance).agrees; };
   return static_cast<double>(std::count_if(points.begin(), points.end(), agrees)) /
          static_cast<double>(points.size());
 }
 
-double SurfaceFit::hold(const Fit& fit, const std::vector<Index>& points,
-                         double tolerance) const {
+double SurfaceFit::hold(const Fit& fit, const std::vector<Index>& points, double tolerance,
+                        int slides) const {
   const auto agree = [&](const Eigen::Affine3d& map, Index i) {
     return landing(map, i, tolerance).agrees;
   };
-  std::array<Index, 3> held{};
+  // Where a bar is as thick as one of the slides, its sides change places.
+  std::vector<Eigen::Affine3d> there(slides), back(slides);
+  Eigen::Affine3d slide = fit.slide;
+  for (int k = 0; k < slides; ++k, slide = slide * slide) {
+    there[k] = slide * fit.map;
+    back[k] = slide.inverse() * fit.map;
+  }
+  Index agreeing = 0;
+  std::vector<Index> held(slides, 0);
   for (const Index i : points) {
     if (!agree(fit.map, i)) continue;
-    ++held[0];
-    Eigen::Affine3d there = fit.slide * fit.map, back = fit.slide.inverse() * fit.map;
-    for (int k = 1; k < 3; ++k) {
-      if (!agree(there, i) && !agree(back, i)) ++held[k];
-      there = fit.slide * there;
-      back = fit.slide.inverse() * back;
-    }
+    ++agreeing;
+    for (int k = 0; k < slides; ++k)
+      if (!agree(there[k], i) && !agree(back[k], i)) ++held[k];
   }
-  return held[0] > 0 ? static_cast<double>(std::max(held[1], held[2])) / static_cast<double>(held[0])
-                     : 0;
+  const Index most = *std::max_element(held.begin(), held.end());
+  return agreeing > 0 ? static_cast<double>(most) / static_cast<double>(agreeing) : 0;
 }
 
 SurfaceFit::Fit SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vector<Index>& points,
-                                     double tolerance, int steps) const {
+                                   double tolerance, int steps) const {
   const SurfacePoints& all = surface_.points();
   Fit fit{start};
   const Vector3 mean = centroid(all, points);
@@ -141,7 +144,8 @@ SurfaceFit::Fit SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vect
     const Vector7 move = -products.ldlt().solve(pull);
     Eigen::Affine3d change = moved(move.head<6>(), extent, pivot);
     const double scale = std::clamp(1 + move[6] / extent, 0.8, 1.25);
-    change = change * Eigen::Translation3d(pivot) * Eigen::Scaling(scale) * Eigen::Translation3d(-pivot);
+    change =
+        change * Eigen::Translation3d(pivot) * Eigen::Scaling(scale) * Eigen::Translation3d(-pivot);
     fit.map = change * fit.map;
   }
   return fit;

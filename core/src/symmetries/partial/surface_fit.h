@@ -37,8 +37,9 @@ class SurfaceFit {
              int steps) const;
 
   /// The share of these points that come off the surface whichever way their images slide: next to
-  /// none of planes, balls, edges and bars, which slide on themselves.
-  double hold(const Fit& fit, const std::vector<Index>& points, double tolerance) const;
+  /// none of planes, balls, edges and bars, which slide on themselves. The most of so many slides,
+  /// each twice as long as the one before.
+  double hold(const Fit& fit, const std::vector<Index>& points, double tolerance, int slides) const;
 
   /// A translation or reflection in place of a motion or glide that fits these points no better.
   Eigen::Affine3d simplest(const Eigen::Affine3d& map, const std::vector<Index>& points,

@@ -17,7 +17,8 @@ namespace {
 using Invariants = KdTree<HeightSignature::length>;
 
 // Of the points about one whose map is looked at, the share that hold it: below it slides.
-constexpr double least_hold = 0.1;
+constexpr double least_vote_hold = 0.1;
+constexpr int slides = 3;  // a smooth body is held by long ones
 
 // What the map of a pair becomes when it is fitted to the surface about its points; nothing where
 // that does not lie on the surface then.
@@ -31,7 +32,8 @@ class VoteCheck {
     constexpr std::size_t enough = 48;
     std::vector<Index> within;
     const SurfacePoints& all = surface_.points();
-    all.tree.within(all.point(point), reach * radius_, [&](Index i, double) { within.push_back(i); });
+    all.tree.within(all.point(point), reach * radius_,
+                    [&](Index i, double) { within.push_back(i); });
     std::sort(within.begin(), within.end());
     std::vector<Index> few;
     const std::size_t stride = 1 + within.size() / enough;
@@ -50,9 +52,8 @@ class VoteCheck {
       for (Index i = begin; i < end; ++i) {
         const double tolerance = surface_.tolerance();
         const std::vector<Index> points = about(i);
-        const SurfaceFit::Fit fit =
-            fit_.fitted(Eigen::Affine3d::Identity(), points, tolerance, 1);
-        held[i] = fit_.hold(fit, points, tolerance) > least_hold;
+        const SurfaceFit::Fit fit = fit_.fitted(Eigen::Affine3d::Identity(), points, tolerance, 1);
+        held[i] = fit_.hold(fit, points, tolerance, slides) > least_vote_hold;
       }
     });
     std::vector<Index> found;
@@ -73,15 +74,15 @@ class VoteCheck {
     vote.map = fit.map;
     const double agreeing = fit_.share(vote.map, about, tolerance);
     if (agreeing < most) return {};
-    const double hold = fit_.hold(fit, about, tolerance);
-    if (hold < least_hold) return {};
+    const double hold = fit_.hold(fit, about, tolerance, slides);
+    if (hold < least_vote_hold) return {};
     vote.weight = agreeing * hold * hold;
     return vote;
   }
 
  private:
   static constexpr std::size_t early = 4;
-  static constexpr double reach = 1.2;   // radii
+  static constexpr double reach = 1.2;  // radii
 
   const ThinnedSurface& surface_;
   SurfaceFit fit_;
@@ -153,7 +154,7 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
         if (apart > disc.signature.radius)
           keep_best(likest, looked_at, Neighbour{static_cast<Index>(other), squared});
         return likest.size() < looked_at ? infinity
-                                      : Invariants::at_most(likest.back().squared_distance);
+                                         : Invariants::at_most(likest.back().squared_distance);
       });
       suppress_non_maxima(likest, alike, [&](const Neighbour& a, const Neighbour& b) {
         const Vector3 x = all.point(found[a.index].point), y = all.point(found[b.index].point);
@@ -230,7 +231,8 @@ std::vector<VoteCluster> vote_clusters(const std::vector<TransformationVote>& vo
   parallel_for(context, static_cast<Index>(densities.size()), grain, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       auto& [density, v] = densities[k] = {0, k * stride};
-      around(places[v], [&](Index other, double kernel) { density += kernel * votes[other].weight; });
+      around(places[v],
+             [&](Index other, double kernel) { density += kernel * votes[other].weight; });
     }
   });
   std::stable_sort(densities.begin(), densities.end(),
