@@ -19,9 +19,8 @@ constexpr double least_hold = 0.04;
 constexpr std::size_t most_clusters = 150, most_composed = 100;  // that are grown
 constexpr std::size_t composed = 24;                             // the best, with each other
 
-// How many points tell the map.
-double held_points(const PatchPair& pair) {
-  return static_cast<double>(pair.from.size()) * pair.hold * pair.score;
+double size_and_score(const PatchPair& pair) {
+  return static_cast<double>(pair.from.size()) * pair.score;
 }
 
 // Every so many of the points, about 100.
@@ -95,9 +94,10 @@ class PartialSearch {
           const std::vector<Index> few = sample_of(patch);
           for (const Index i : few)
             if (fit_.landing(pair.map, i, 2 * surface_.tolerance()).agrees) pair.from.push_back(i);
-          pair.score = static_cast<double>(pair.from.size()) / static_cast<double>(few.size());
-          pair.hold = static_cast<double>(patch.size()) / static_cast<double>(few.size());
-          if (held_points(pair) < static_cast<double>(least_) / 2 || hardly_moves(pair)) continue;
+          // So many points it stands for each of.
+          pair.score = static_cast<double>(patch.size()) / static_cast<double>(few.size());
+          if (size_and_score(pair) < static_cast<double>(least_) / 2 || hardly_moves(pair))
+            continue;
           all.push_back(std::move(pair));
         }
     best_of(all);
@@ -149,7 +149,7 @@ class PartialSearch {
 
   void best_of(std::vector<PatchPair>& pairs) const {
     std::stable_sort(pairs.begin(), pairs.end(), [](const PatchPair& a, const PatchPair& b) {
-      return held_points(a) > held_points(b);
+      return size_and_score(a) > size_and_score(b);
     });
     suppress_non_maxima(pairs, pairs.size(),
                         [&](const PatchPair& a, const PatchPair& b) { return are_alike(a, b); });

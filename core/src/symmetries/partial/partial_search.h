@@ -15,7 +15,7 @@ struct PartialSearchOptions {
 };
 
 /// The partial symmetries of a surface (Mitra et al. 2006): patches that a map takes to other
-/// places of the surface. Those first in which most of the surface tells the map.
+/// places of the surface. The largest that fit well first.
 std::vector<PatchPair> partial_patches(const ThinnedSurface& surface,
                                        const PartialSearchOptions& options, const Context& context);
 
