@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 import symsurf
 
+from . import scans
 from .case import Case, Figures, at_least, at_most
 from .poses import Points, random_rotation
 from .scenes import SCENES
@@ -111,11 +112,40 @@ def _scene(name: str, rng: np.random.Generator) -> Figures:
     return {"found": float(share), "degrees": max(errors)[0], "seconds": seconds}
 
 
+def _scan(_: str, rng: np.random.Generator) -> Figures:
+    """The share of pairs of windows that a map which is found takes to each other, straight or
+    mirrored."""
+    scan = scans.facade(rng)
+    start = time.process_time()
+    found = symsurf.partial_symmetries(scan.points, threads=1, count=100).transformations
+    seconds = time.process_time() - start
+    pairs = scan.pairs()
+    share = np.mean([_joins(found, one, other, scan.diagonal) for one, other in pairs])
+    return {"found": float(share), "windows": len(scan.windows), "seconds": seconds}
+
+
+def _joins(
+    found: list[symsurf.Transformation], one: Points, other: Points, diagonal: float
+) -> bool:
+    for mirrored in (1.0, -1.0):
+        true = np.diag([mirrored, 1, 1, 1])
+        true[:3, 3] = other - true[:3, :3] @ one
+        for each in found:
+            for matrix in (each.matrix, np.linalg.inv(each.matrix)):
+                angle, offset = _error(matrix, true, np.append(one, 1), diagonal)
+                if np.linalg.det(matrix[:3, :3]) * mirrored > 0 and angle < 1 and offset < 0.01:
+                    return True
+    return False
+
+
 KINDS = ("reflection", "rotation", "translation")
 BARS = {"found": at_least(1), "degrees": at_most(1), "seconds": at_most(3)}
 CASES = (
-    Case("partial symmetries", KINDS, lambda kind, rng: _trial(kind, rng, 0), BARS, trials=50),
-    Case("partial symmetries: noise 0.5 %", KINDS, lambda kind, rng: _trial(kind, rng, 0.005),
-         {"seconds": at_most(3)}, trials=50),
-    Case("partial symmetries: scenes", tuple(SCENES), _scene, {"found": at_least(1)}),
+    Case("neighbours, partial symmetries", KINDS, lambda kind, rng: _trial(kind, rng, 0), BARS,
+         trials=50),
+    Case("neighbours, partial symmetries: noise 0.5 %", KINDS,
+         lambda kind, rng: _trial(kind, rng, 0.005), {"seconds": at_most(3)}, trials=50),
+    Case("neighbours, partial symmetries: scenes", tuple(SCENES), _scene, {"found": at_least(1)}),
+    Case("neighbours, partial symmetries: scanned facade", ("facade",), _scan,
+         {"found": at_least(0.9)}),
 )  # fmt: skip

@@ -15,25 +15,31 @@ namespace {
 // Spacings: noise beyond shows in the normals of a dozen points, and is smoothed over so far.
 constexpr double noisy = 0.25, reach = 3.5;
 
-// Each point on the quadratic surface fitted to those around it, weighted less the farther away:
-// moving least squares (Levin 2003).
-Points smoothed(const SurfacePoints& surface, const Context& context) {
+// Each point on the quadratic surface fitted to those of the cloud around it, weighted less the
+// farther away: moving least squares (Levin 2003).
+Points smoothed(const SurfacePoints& surface, const Cloud& cloud, const Context& context) {
+  constexpr Index several = 4;  // of the cloud for each of the thinned points
+  const std::vector<Index> rows =
+      spread_along_curve(cloud.points, several * surface.size(), context.stage(0, 0.2));
+  Points all(static_cast<Index>(rows.size()), 3);
+  for (Index k = 0; k < all.rows(); ++k)
+    all.row(k) = cloud.frame.to_frame(cloud.points[rows[k]]).transpose();
+  const PointTree tree(all, context.stage(0.2, 0.4));
   const double radius = reach * surface.spacing;
   Points moved = surface.points;
   constexpr Index grain = 256;
-  parallel_for(context, surface.size(), grain, [&](Index begin, Index end) {
+  parallel_for(context.stage(0.4, 1), surface.size(), grain, [&](Index begin, Index end) {
     std::vector<Neighbour> around;
     for (Index i = begin; i < end; ++i) {
       const Vector3 x = surface.point(i);
       around.clear();
-      surface.tree.within(x, radius, [&](Index j, double squared) {
-        around.push_back({j, squared});
-      });
+      tree.within(x, radius, [&](Index j, double squared) { around.push_back({j, squared}); });
+      if (around.empty()) continue;
       std::sort(around.begin(), around.end());
-      const LocalPlane plane = plane_through(surface.points, around);
+      const LocalPlane plane = plane_through(all, around);
       QuadraticFit fit;
       for (const Neighbour& n : around) {
-        const Vector3 at = plane.axes.transpose() * (surface.point(n.index) - x) / radius;
+        const Vector3 at = plane.axes.transpose() * (all.row(n.index).transpose() - x) / radius;
         fit.add(at.y(), at.z(), at.x(), 1 - n.squared_distance / (radius * radius));
       }
       constexpr double ridge = 0.1;  // points
@@ -43,11 +49,12 @@ Points smoothed(const SurfacePoints& surface, const Context& context) {
   return moved;
 }
 
-SurfacePoints surface_of(Points positions, double& noise, const Context& context) {
+SurfacePoints surface_of(Points positions, const Cloud& cloud, double& noise,
+                         const Context& context) {
   SurfacePoints surface(std::move(positions), context.stage(0, 0.4));
   noise = surface.noise;
   if (!(noise > noisy * surface.spacing)) return surface;
-  return {smoothed(surface, context.stage(0.4, 0.6)), context.stage(0.6, 1)};
+  return {smoothed(surface, cloud, context.stage(0.4, 0.6)), context.stage(0.6, 1)};
 }
 
 Cloud sampled(Cloud cloud, SurfaceSamples& sampling, const Context& context) {
@@ -60,7 +67,9 @@ Cloud sampled(Cloud cloud, SurfaceSamples& sampling, const Context& context) {
 ThinnedSurface::ThinnedSurface(const Cloud& cloud, Index count, const Context& context)
     : cloud_(sampled(cloud, sampling_, context.stage(0, 0.1))),
       surfels_(cloud_, std::min(count, cloud_.points.size() / 2), context.stage(0.1, 0.5)),
-      points_(surface_of(surfels_.positions(surfels_.size()), noise_, context.stage(0.5, 1))),
+      map_(surfels_),
+      points_(
+          surface_of(surfels_.positions(surfels_.size()), cloud_, noise_, context.stage(0.5, 1))),
       near_(points_.size()) {
   // Samples of faces come behind the cloud's own points.
   for (Index i = 0; i < cloud.points.size(); ++i) {

@@ -27,6 +27,9 @@ class ThinnedSurface {
   /// The area of the surface, diagonals squared.
   double area() const { return static_cast<double>(size()) * spacing() * spacing(); }
 
+  /// The thinned point nearest to x, to half a spacing; -1 where none lies within one and a half.
+  Index nearest(const Vector3& x) const { return map_.nearest(x); }
+
   /// How far off a surface one of the thinned points may lie for its noise and their spacing.
   double tolerance() const;
 
@@ -43,6 +46,7 @@ class ThinnedSurface {
   SurfaceSamples sampling_;
   Cloud cloud_;
   Surfels surfels_;
+  SurfelMap map_;
   double noise_ = 0;  // before it was smoothed away
   SurfacePoints points_;
   std::vector<std::vector<Index>> near_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_set>
 
-#include "base/eigenvectors.h"
 #include "base/least_squares.h"
 #include "base/math.h"
 
@@ -65,45 +65,38 @@ HeightSignature HeightSignature::from_behind() const {
   return other;
 }
 
-DiscSamples::DiscSamples(const SurfacePoints& surface, double radius, const Context& context)
-    : radius_(radius), points_(thinned(surface, radius)), tree_(points_, context) {}
+SurfaceDiscs::SurfaceDiscs(const SurfacePoints& surface, double radius)
+    : surface_(surface), radius_(radius) {}
 
-Points DiscSamples::thinned(const SurfacePoints& surface, double radius) {
-  constexpr Index enough = 150, most_looked_at = 64;  // samples of a disc, discs
-  const std::vector<std::int32_t>& order = surface.tree.order();
-  const Index size = surface.size(), looked_at = std::min(size, most_looked_at);
-  Index held = 0;
-  for (Index k = 0; k < looked_at; ++k)
-    surface.tree.within(surface.point(order[k * size / looked_at]), radius,
-                        [&](Index, double) { ++held; });
-  const Index stride = std::max<Index>(1, held / (enough * std::max<Index>(1, looked_at)));
-  if (stride == 1) return surface.points;
-  Points chosen((size + stride - 1) / stride, 3);
-  for (Index k = 0; k < chosen.rows(); ++k) chosen.row(k) = surface.points.row(order[k * stride]);
-  return chosen;
+std::vector<SurfaceDiscs::Oriented> SurfaceDiscs::connected(Index i) const {
+  constexpr double facing_away = -0.3;  // cosine: the sides of a square bar stand upright
+  const Vector3 x = surface_.point(i), own = surface_.normal(i);
+  std::unordered_set<Index> seen{i};
+  std::vector<Oriented> reached{{i, own}};
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (int n = 0; n < SurfacePoints::ring; ++n) {
+      const Index other = surface_.neighbours(reached[k].point, n);
+      if (!((surface_.point(other) - x).squaredNorm() < radius_ * radius_)) continue;
+      if (!seen.insert(other).second) continue;
+      Vector3 normal = surface_.normal(other);
+      if (normal.dot(reached[k].normal) < 0) normal = -normal;
+      if (normal.dot(own) > facing_away) reached.push_back({other, normal});
+    }
+  return reached;
 }
 
-std::optional<HeightSignature> DiscSamples::about(const Vector3& x) const {
-  constexpr std::size_t enough = 20;
+std::optional<HeightSignature> SurfaceDiscs::about(Index i) const {
+  constexpr std::size_t enough = 20, most = 150;
   const double radius = radius_;
-  std::vector<Neighbour> around;
-  tree_.within(x, radius, [&](Index j, double squared) { around.push_back({j, squared}); });
-  if (around.size() < enough) return {};
-  std::sort(around.begin(), around.end());
-  Vector3 mean = Vector3::Zero();
-  double weights = 0;
-  Matrix3 scatter = Matrix3::Zero();
-  for (const Neighbour& n : around) {
-    const double weight = 1 - n.squared_distance / (radius * radius);
-    const Vector3 d = (point(n.index) - x) / radius;
-    mean += weight * d;
-    scatter += weight * d * d.transpose();
-    weights += weight;
-  }
-  mean /= weights;
-  const LeastEigen least = least_eigen_of(scatter / weights - mean * mean.transpose());
-  if (!(least.next > 1e-6 * least.greatest)) return {};
-  Vector3 normal = least.vector;
+  const Vector3 x = surface_.point(i);
+  const std::vector<Oriented> all = connected(i);
+  if (all.size() < enough) return {};
+  std::vector<Oriented> around;
+  for (std::size_t k = 0; k < all.size(); k += 1 + all.size() / most) around.push_back(all[k]);
+  Vector3 normal = Vector3::Zero();
+  for (const Oriented& sample : around) normal += sample.normal;
+  if (!(normal.norm() > 0)) return {};
+  normal.normalize();
 
   HeightSignature signature;
   signature.radius = radius;
@@ -111,8 +104,8 @@ std::optional<HeightSignature> DiscSamples::about(const Vector3& x) const {
     signature.frame = frame_along(normal);
     Eigen::Matrix<double, terms, terms> products = Eigen::Matrix<double, terms, terms>::Zero();
     Row right = Row::Zero();
-    for (const Neighbour& n : around) {
-      const Vector3 at = signature.frame.transpose() * (point(n.index) - x) / radius;
+    for (const Oriented& sample : around) {
+      const Vector3 at = signature.frame.transpose() * (surface_.point(sample.point) - x) / radius;
       const Row row = zernike(at.x(), at.y());
       products.selfadjointView<Eigen::Lower>().rankUpdate(row);
       right += at.z() * row;
@@ -132,8 +125,8 @@ std::optional<HeightSignature> DiscSamples::about(const Vector3& x) const {
   return signature.even[0] < 0 ? signature.from_behind() : signature;
 }
 
-std::optional<DiscMatch> best_match(const HeightSignature& from, const HeightSignature& onto,
-                                    bool reflected) {
+std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignature& onto,
+                               bool reflected) {
   std::array<std::complex<double>, 5> by_order{};
   double squares = 0, mean = 0;
   for (int w = 0; w < HeightSignature::turning; ++w) {
@@ -146,24 +139,27 @@ std::optional<DiscMatch> best_match(const HeightSignature& from, const HeightSig
     mean += gap * gap;
   }
   if (!(squares > 0)) return {};
-  const auto overlap = [&](double angle) {
-    double sum = 0;
-    for (int m = 1; m <= 4; ++m)
-      sum += by_order[m].real() * std::cos(m * angle) + by_order[m].imag() * std::sin(m * angle);
-    return sum;
-  };
   constexpr int steps = 36;
-  std::array<double, steps> values;
   constexpr double step = 2 * std::numbers::pi / steps;
-  for (int k = 0; k < steps; ++k) values[k] = overlap(k * step);
-  const auto greatest = std::max_element(values.begin(), values.end());
-  const auto k = static_cast<int>(greatest - values.begin());
-  const double before = values[(k + steps - 1) % steps], after = values[(k + 1) % steps];
-  const double bend = before - 2 * *greatest + after;
-  if (!(bend < 0)) return {};
-  const double angle = (k + (before - after) / (2 * bend)) * step;
-  const double left = std::max(0.0, squares - 2 * overlap(angle)) + mean;
-  return DiscMatch{angle, std::sqrt(2 * left / squares)};
+  static const auto turned = [] {
+    std::array<std::complex<double>, steps> unit;
+    for (int k = 0; k < steps; ++k) unit[k] = std::polar(1.0, -k * step);
+    return unit;
+  }();
+  std::array<double, steps> overlaps{};
+  for (int k = 0; k < steps; ++k)
+    for (int m = 1; m <= 4; ++m) overlaps[k] += (by_order[m] * turned[m * k % steps]).real();
+  std::vector<DiscMatch> found;
+  for (int k = 0; k < steps; ++k) {
+    const double before = overlaps[(k + steps - 1) % steps], after = overlaps[(k + 1) % steps];
+    const double bend = before - 2 * overlaps[k] + after;
+    if (!(overlaps[k] >= before && overlaps[k] > after && bend < 0)) continue;
+    const double left = std::max(0.0, squares - 2 * overlaps[k]) + mean;
+    found.push_back({(k + (before - after) / (2 * bend)) * step, std::sqrt(2 * left / squares)});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const DiscMatch& a, const DiscMatch& b) { return a.residual < b.residual; });
+  return found;
 }
 
 Eigen::Affine3d laid_onto(const HeightSignature& from, const HeightSignature& onto, bool reflected,

@@ -32,24 +32,24 @@ struct HeightSignature {
   HeightSignature from_behind() const;
 };
 
-/// Describes a surface about points by those of it within a radius. Where discs hold more than some
-/// hundred on average, as they do if they are large or if surfaces cross, of every so many.
-class DiscSamples {
+/// Describes a surface about its points by what is connected with them within a radius and does not
+/// face away: of a thin bar the side that a point is on.
+class SurfaceDiscs {
  public:
-  DiscSamples(const SurfacePoints& surface, double radius, const Context& context);
+  SurfaceDiscs(const SurfacePoints& surface, double radius);
 
   /// Seen from the side on which the disc is a bowl; none where it holds few points.
-  std::optional<HeightSignature> about(const Vector3& x) const;
-
-  Index size() const { return points_.rows(); }
+  std::optional<HeightSignature> about(Index i) const;
 
  private:
-  static Points thinned(const SurfacePoints& surface, double radius);
-  Vector3 point(Index i) const { return points_.row(i).transpose(); }
+  struct Oriented {
+    Index point;
+    Vector3 normal;
+  };
+  std::vector<Oriented> connected(Index i) const;
 
+  const SurfacePoints& surface_;
   double radius_;
-  Points points_;
-  PointTree tree_;
 };
 
 /// A turn of one disc that lays it on another, reflected or not.
@@ -58,9 +58,10 @@ struct DiscMatch {
   double residual = 0;  ///< of what is left, to the mean length of the two signatures
 };
 
-/// The best turn.
-std::optional<DiscMatch> best_match(const HeightSignature& from, const HeightSignature& onto,
-                                    bool reflected);
+/// The turns that fit better than those next to them, the best first: a corner has three, the end
+/// of a square bar four.
+std::vector<DiscMatch> matches(const HeightSignature& from, const HeightSignature& onto,
+                               bool reflected);
 
 /// The similarity that lays one disc on the other.
 Eigen::Affine3d laid_onto(const HeightSignature& from, const HeightSignature& onto, bool reflected,

@@ -1,96 +1,13 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/math.h"
-#include "base/parallel.h"
 #include "symmetries/analysis_registry.h"
-#include "symmetries/partial/patch_growth.h"
-#include "symmetries/partial/transformation_votes.h"
+#include "symmetries/partial/partial_search.h"
 
 namespace symsurf {
 
 namespace {
-
-// Below, a patch slides or turns on its own surface, as flat and round ones do. Bodies that hold
-// least have four times as much.
-constexpr double least_hold = 1e-3;
-
-// The points of the discs whose votes a cluster holds.
-std::vector<Index> seeds_of(const VoteCluster& cluster,
-                            const std::vector<TransformationVote>& votes,
-                            const SurfacePoints& points, double radius) {
-  std::vector<Index> seeds;
-  for (const Index v : cluster.votes)
-    points.tree.within(points.point(votes[v].from), radius,
-                       [&](Index i, double) { seeds.push_back(i); });
-  std::sort(seeds.begin(), seeds.end());
-  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-  return seeds;
-}
-
-// Whether a map hardly moves most of the patch, as the identity does.
-bool hardly_moves(const PatchPair& pair, const SurfacePoints& points, double least) {
-  std::vector<double> moved;
-  for (const Index i : pair.from)
-    moved.push_back((pair.map * points.point(i) - points.point(i)).norm());
-  return median(std::move(moved)) < least;
-}
-
-double size_and_score(const PatchPair& pair) {
-  return static_cast<double>(pair.from.size()) * pair.score;
-}
-
-struct PartialSearchOptions {
-  VoteOptions votes;
-  double minimum_size = 0.03;  // of a patch: share of the surface
-  double minimum_score = 0.8;
-  Index count = 20;  // most that are found
-};
-
-// The partial symmetries of a surface (Mitra et al. 2006): the largest patches that a map takes to
-// other places of the surface, the best first.
-std::vector<PatchPair> partial_search(const ThinnedSurface& surface,
-                                      const PartialSearchOptions& options, const Context& context) {
-  const auto least =
-      static_cast<Index>(std::ceil(options.minimum_size * static_cast<double>(surface.size())));
-  const std::vector<TransformationVote> votes =
-      transformation_votes(surface, options.votes, context.stage(0, 0.4));
-  constexpr std::size_t most_clusters = 40;
-  const std::vector<VoteCluster> clusters =
-      vote_clusters(votes, most_clusters, context.stage(0.4, 0.6));
-  const PatchGrowth growth(surface, options.votes.scales);
-  std::vector<std::optional<PatchPair>> grown(clusters.size());
-  parallel_for(context.stage(0.6, 0.95), static_cast<Index>(clusters.size()), 1,
-               [&](Index begin, Index end) {
-                 for (Index k = begin; k < end; ++k) {
-                   const std::vector<Index> seeds =
-                       seeds_of(clusters[k], votes, surface.points(), options.votes.radius / 2);
-                   grown[k] = growth.grown(clusters[k].map, seeds, least, context);
-                 }
-               });
-  std::vector<PatchPair> found;
-  for (std::optional<PatchPair>& pair : grown)
-    if (pair && pair->score >= options.minimum_score && pair->hold > least_hold &&
-        !hardly_moves(*pair, surface.points(), options.votes.radius))
-      found.push_back(std::move(*pair));
-  std::stable_sort(found.begin(), found.end(), [](const PatchPair& a, const PatchPair& b) {
-    return size_and_score(a) > size_and_score(b);
-  });
-  const double same = surface.spacing();
-  const auto alike = [&](const PatchPair& a, const PatchPair& b) {
-    double straight = 0, back = 0;
-    const Eigen::Affine3d inverse = b.map.inverse();
-    for (const Index i : a.from) {
-      const Vector3 x = surface.points().point(i);
-      straight = std::max(straight, (a.map * x - b.map * x).norm());
-      back = std::max(back, (a.map * x - inverse * x).norm());
-    }
-    return std::min(straight, back) < same;
-  };
-  suppress_non_maxima(found, static_cast<std::size_t>(options.count), alike);
-  return found;
-}
 
 // Radians and diagonals: what a fitted map may miss the symmetry by that it is named after.
 constexpr double same_angle = 0.02, same_length = 0.01;
@@ -106,7 +23,7 @@ void run_partial_symmetries(const ColouredCloud& cloud, const ParameterValues& v
   options.minimum_size = values.real("minimum_size");
   options.minimum_score = values.real("minimum_score");
   options.count = values.integer("count");
-  const std::vector<PatchPair> found = partial_search(surface, options, context.stage(0.2, 1));
+  const std::vector<PatchPair> found = partial_patches(surface, options, context.stage(0.2, 1));
 
   const Index count = cloud.points.size();
   Eigen::VectorXd best = Eigen::VectorXd::Constant(count, -1), side = best;
@@ -154,7 +71,7 @@ AnalysisImplementation partial_symmetries_analysis() {
                       "The least share of the surface that a patch covers."),
       Parameter::real("minimum_score", 0.8, 0, 1, "",
                       "How close to the surface the images of a patch must come."),
-      Parameter::integer("count", 20, 1, 1000, "", "The most transformations that are found."),
+      Parameter::integer("count", 50, 1, 1000, "", "The most transformations that are found."),
       Parameter::real("disc", 0.015, 0.001, 0.1, "",
                       "The share of the surface in the disc that a point is known by."),
       Parameter::integer("points", 10000, 500, 200000, "points",

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "symmetries/thinned_surface.h"
+#include "symmetries/partial/surface_fit.h"
 
 namespace symsurf {
 
@@ -12,44 +12,27 @@ namespace symsurf {
 struct PatchPair {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
   std::vector<Index> from, onto;  ///< points of the patch, ascending; the nearest to their images
-  double score = 0;               ///< 0..1: how close images come to the surface
-  double hold =
-      0;  ///< 0: the patch can slide on the surface; a ball patch turns, a flat one glides
+  double score = 0;  ///< 0..1: how close images come to the surface, of how close its points do
+  double hold = 0;   ///< as SurfaceFit::hold
 };
 
-/// Fits maps to the surface and grows the patch on which they hold: iterative closest points with
-/// point-to-plane residuals (Chen and Medioni 1992) and Mitra et al.'s patch growing (2006).
+/// Grows the patch on which a map holds (Mitra et al. 2006), and fits the map to it.
 class PatchGrowth {
  public:
-  PatchGrowth(const ThinnedSurface& surface, bool scales);
+  explicit PatchGrowth(const SurfaceFit& fit);
 
   /// From some points that the map takes about to the surface; nothing where the map does not hold
   /// on most of them, or on fewer than `least` points after growing.
   std::optional<PatchPair> grown(const Eigen::Affine3d& map, const std::vector<Index>& seeds,
                                  Index least, const Context& context) const;
 
-  /// Where a map takes a point of the surface.
-  struct Landing {
-    Index partner = -1;  ///< nearest to the image; -1: none near
-    double off = 0;      ///< the image from the partner's plane, diagonals
-    bool agrees = false;
-  };
-  Landing landing(const Eigen::Affine3d& map, Index i, double tolerance) const;
-
-  /// The map after some Gauss-Newton steps on these points, and how little they can slide.
-  struct Fit {
-    Eigen::Affine3d map;
-    double hold;
-  };
-  Fit fitted(const Eigen::Affine3d& map, const std::vector<Index>& points, double tolerance,
-             int steps) const;
-
  private:
-  std::vector<Index> agreeing(const Eigen::Affine3d& map, const std::vector<Index>& seeds,
-                              double tolerance) const;
+  std::vector<Index> agreeing(const Eigen::Affine3d& map, const std::vector<Index>& seeds) const;
+  void score(PatchPair& pair) const;
 
-  const ThinnedSurface& surface_;
-  bool scales_;
+  const SurfaceFit& fit_;
+  double tolerance_;
+  std::vector<double> ceilings_;  // how close each point comes to the surface of the others
 };
 
 }  // namespace symsurf
