@@ -28,5 +28,5 @@ if __name__ == "__main__":
     plotter.set_background("white")
     plotter.add_mesh(mesh, scalars="colours", rgb=True, lighting=True)
     plotter.view_xy()
-    plotter.camera.zoom(1.6)
+    plotter.camera.zoom(1.05)
     plotter.screenshot(Path(sys.argv[1]) / "recurring_noise.png")

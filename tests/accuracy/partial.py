@@ -120,13 +120,11 @@ def _scan(_: str, rng: np.random.Generator) -> Figures:
     found = symsurf.partial_symmetries(scan.points, threads=1, count=100).transformations
     seconds = time.process_time() - start
     pairs = scan.pairs()
-    share = np.mean([_joins(found, one, other, scan.diagonal) for one, other in pairs])
+    share = np.mean([joins(found, one, other, scan.diagonal) for one, other in pairs])
     return {"found": float(share), "windows": len(scan.windows), "seconds": seconds}
 
 
-def _joins(
-    found: list[symsurf.Transformation], one: Points, other: Points, diagonal: float
-) -> bool:
+def joins(found: list[symsurf.Transformation], one: Points, other: Points, diagonal: float) -> bool:
     for mirrored in (1.0, -1.0):
         true = np.diag([mirrored, 1, 1, 1])
         true[:3, 3] = other - true[:3, :3] @ one
