@@ -7,10 +7,8 @@
 #include <ctime>
 #include <numbers>
 
-#include "cloud/surface_points.h"
 #include "random_cloud.h"
 #include "symmetries/exact_isometries.h"
-#include "symmetries/partial/height_signature.h"
 
 namespace symsurf {
 namespace {
@@ -49,26 +47,16 @@ TEST(CrowdedPoints, HaveTheIsometriesOfTheirMiddles) {
   EXPECT_LT(taken, usual);
 }
 
-// The mean number of samples in a disc about the points.
-double held_by(const DiscSamples& samples, const Points& points, double radius) {
-  const PointTree tree(points);
-  Index held = 0;
-  for (Index i = 0; i < points.rows(); ++i)
-    tree.within(points.row(i).transpose(), radius, [&](Index, double) { ++held; });
-  return static_cast<double>(held) / static_cast<double>(points.rows()) *
-         static_cast<double>(samples.size()) / static_cast<double>(points.rows());
-}
-
-TEST(CrowdedPoints, AreDescribedBySomeHundredOfThem) {
-  constexpr double radius = 0.5;
+TEST(CrowdedPoints, HaveSmallDiscsWhereSurfacesCross) {
   RandomCloud random(1);
-  const Points crossing = random.box(20'000);  // as surfaces that cross everywhere
-  const DiscSamples some(SurfacePoints(crossing, {}), radius, {});
-  EXPECT_LT(held_by(some, crossing, radius), 400);
-  EXPECT_GT(held_by(some, crossing, radius), 100);
-  Points sheet = random.box(1000);
-  sheet.col(2).setZero();
-  EXPECT_EQ(DiscSamples(SurfacePoints(sheet, {}), 0.2, {}).size(), sheet.rows());
+  const Points crossing = random.box(10'000);  // everywhere
+  Points sheet = random.box(10'000);
+  for (Index i = 0; i < sheet.rows(); ++i)
+    sheet(i, 2) = 0.2 * std::sin(3 * sheet(i, 0)) + 0.15 * std::cos(4 * sheet(i, 1) + sheet(i, 0));
+  const auto seconds = [&](const Points& points) {
+    return seconds_of([&] { analyse("partial_symmetries", points, {}, Context(nullptr, 1)); });
+  };
+  EXPECT_LT(seconds(crossing), 40 * seconds(sheet));
 }
 
 TEST(CrowdedPoints, HaveAFewPartsComparedThatRecur) {
