@@ -347,8 +347,7 @@ Result MirrorScore::ranked(const std::string& method,
     else
       tell(one.mirror->kind(), one.fit, result);
   }
-  // Of a mirror that others fit no better, none is surer.
-  for (Result& other : best.candidates) other.score = std::min(other.score, best.score);
+  cap_candidates(best);
   return best;
 }
 
@@ -372,5 +371,9 @@ double statistic(const Result& result, const char* name) {
 }
 
 bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
+
+void cap_candidates(Result& result) {
+  for (Result& other : result.candidates) other.score = std::min(other.score, result.score);
+}
 
 }  // namespace symsurf

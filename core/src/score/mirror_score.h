@@ -129,4 +129,7 @@ double statistic(const Result& result, const char* name);
 /// Whether every point that the result's mirror moves has an exact partner: no mirror is better.
 bool is_exact(const Result& result);
 
+/// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
+void cap_candidates(Result& result);
+
 }  // namespace symsurf

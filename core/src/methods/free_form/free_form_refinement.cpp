@@ -24,6 +24,13 @@ struct Smoothing {
   double most_missed;   // a patch whose data miss by more, in the median, is none
 };
 
+// So many that noise averages out.
+Index around_a_patch(const SearchCloud& cloud) {
+  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
+  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
+  return static_cast<Index>(std::min(most, least * excess * excess));
+}
+
 double median_miss(const std::vector<Carried>& data) {
   std::vector<double> squared;
   for (const Carried& c : data) squared.push_back(c.miss.squaredNorm());
@@ -179,9 +186,9 @@ bool is_flat(const GrownSurface& surface) { return flatness(surface) > flat_enou
 void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
   std::size_t matched = 0;
   for (int round = 0; round < rounds; ++round) {
-    const Smoothing smoothing = surface.exact
-                                    ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
-                                    : Smoothing{75, 0.08, 0.6 * cloud.spacing, 1};
+    const Smoothing smoothing =
+        surface.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
+                      : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
     const bool fresh = !surface.mirror;
     if (!surface.exact) drop_small_components(cloud, surface.carried);
     surface.mirror = fitted(cloud, surface.carried,
