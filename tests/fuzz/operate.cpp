@@ -41,9 +41,15 @@ void expect_as_described(const OperationResult& result, const Operation& operati
                                  : result.faces.rows() == faces.rows(),
            "faces stay");
   }
-  expect(result.points.allFinite(), "points are finite");
-  if (!operation.moves_points)
-    expect(result.points.topRows(points.rows()) == points, "points stay where they are");
+  for (Index i = 0; i < rows; ++i) {
+    const bool is_given = !result.is_other_shape() && i < points.rows();
+    if (is_given && !points.row(i).allFinite())
+      expect(!result.points.row(i).allFinite(), "what is not finite stays so");
+    else
+      expect(result.points.row(i).allFinite() &&
+                 (!is_given || operation.moves_points || result.points.row(i) == points.row(i)),
+             "points are finite, and stay where they are");
+  }
   for (const Index corner : result.faces.reshaped())
     expect(corner >= 0 && corner < rows, "a face's corner is a point");
   expect_sources(result.point_sources, rows, points.rows());
