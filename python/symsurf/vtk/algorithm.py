@@ -149,6 +149,13 @@ class Algorithm(VTKPythonAlgorithmBase):
         self.UpdateProgress(fraction)
         return not self.GetAbortExecute()
 
+    def _warn_of(self, statistics: Mapping[str, Any], consequence: str = "") -> None:
+        """Of points that were left out, and of what the core warns of."""
+        if count := statistics.get("nonfinite_points"):
+            self._warn(f"{count} points are not finite and were left out{consequence}")
+        if "warning" in statistics:
+            self._warn(statistics["warning"])
+
     def _warn(self, message: str) -> None:
         self._say("WarningEvent", f"Warning: {type(self).__name__}: {message}\n")
 

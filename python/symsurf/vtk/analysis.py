@@ -73,8 +73,7 @@ class SymmetryAnalysis(Algorithm):
                 colours=colours,
                 **chosen,
             )
-        if count := result.statistics.get("nonfinite_points"):
-            self._warn(f"{count} points are not finite and were left out")
+        self._warn_of(result.statistics)
         shape.ShallowCopy(source)
         _add_arrays(shape, analyses()[result.analysis], result)
         add_values(shape.GetFieldData(), result.statistics | {"analysis": result.analysis})

@@ -95,11 +95,7 @@ class MirrorDetection(Algorithm):
                 progress=self._progress,
                 **self._chosen("method", methods()),
             )
-        count = result.statistics.get("nonfinite_points")
-        if count:
-            self._warn(f"{count} points are not finite and were left out; they have no partners")
-        if "warning" in result.statistics:
-            self._warn(result.statistics["warning"])
+        self._warn_of(result.statistics, "; they have no partners")
         return result
 
 

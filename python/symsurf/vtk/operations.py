@@ -87,8 +87,7 @@ class MirrorOperation(Algorithm):
             lambda fraction: self._progress(before + (1 - before) * fraction),
             parameters,
         )
-        if count := result["statistics"].get("nonfinite_points"):
-            self._warn(f"{count} points are not finite and were left out")
+        self._warn_of(result["statistics"])
         added = _set_operated(outputs[0], shape, faces, operation, result)
         if operation.adds_points:
             _set_patch(outputs[1], added, len(points))
@@ -103,6 +102,8 @@ class MirrorOperation(Algorithm):
                 threads=self._options["number_of_threads"],
                 progress=lambda fraction: self._progress(_FOUND_AT * fraction),
             )
+        if "warning" in result.statistics:
+            self._warn(result.statistics["warning"])
         mirror, warning = found_mirror(result, self._options["require_found"])
         if warning:
             self._warn(warning)
