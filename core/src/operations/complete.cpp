@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/disjoint_sets.h"
 #include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
@@ -148,26 +149,21 @@ class Completion {
 
   // Leaves out the parts whose rim the shape does not surround.
   void keep_holes() {
-    std::vector<Index> part(input_.points.size());
-    std::iota(part.begin(), part.end(), 0);
-    const auto root = [&](Index i) {
-      while (part[i] != i) i = part[i] = part[part[i]];
-      return i;
-    };
+    DisjointSets parts(input_.points.size());
     Triangles kept(static_cast<Index>(faces_.size()), 3);
     for (Index k = 0; k < kept.rows(); ++k) {
       const Index* corner = input_.faces[faces_[k]];
       kept.row(k) << corner[0], corner[1], corner[2];
-      for (int c = 0; c < 2; ++c) part[root(corner[c])] = root(corner[c + 1]);
+      for (int c = 0; c < 2; ++c) parts.join(corner[c + 1], corner[c]);
     }
     std::vector<bool> is_open(input_.points.size(), false);
     const std::vector<bool> is_rim = TriangleMesh(input_.points, kept).is_boundary();
     for (const Index f : faces_)
       for (int c = 0; c < 3; ++c) {
         const Index i = input_.faces[f][c];
-        if (is_rim[i] && !added_.meets_mesh[i]) is_open[root(i)] = true;
+        if (is_rim[i] && !added_.meets_mesh[i]) is_open[parts.root(i)] = true;
       }
-    std::erase_if(faces_, [&](Index f) { return is_open[root(input_.faces[f][0])]; });
+    std::erase_if(faces_, [&](Index f) { return is_open[parts.root(input_.faces[f][0])]; });
   }
 
   // Appends the points, bent to meet the shape over `reach`, and the faces.

@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <string>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "cloud/distinct_points.h"
 #include "cloud/normals.h"
@@ -59,19 +59,12 @@ double volume_of(PointsView points, TrianglesView faces) {
 std::vector<bool> wound_against_their_images(PointsView points, TrianglesView faces,
                                              const std::vector<signed char>& faces_alike) {
   const DistinctPoints distinct = distinct_points(points, Context());
-  std::vector<std::int32_t> part(distinct.first.size());
-  std::iota(part.begin(), part.end(), 0);
-  const auto part_of = [&](Index i) {
-    std::int32_t root = distinct.number[i];
-    while (part[root] != root) root = part[root] = part[part[root]];
-    return root;
-  };
+  DisjointSets parts(static_cast<Index>(distinct.first.size()));
+  const auto part_of = [&](Index i) { return parts.root(distinct.number[i]); };
   for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 2; ++c) {
-      const std::int32_t one = part_of(faces[f][c]), other = part_of(faces[f][c + 1]);
-      part[std::max(one, other)] = std::min(one, other);
-    }
-  std::vector<Index> balance(part.size(), 0);
+    for (int c = 0; c < 2; ++c)
+      parts.join(distinct.number[faces[f][c]], distinct.number[faces[f][c + 1]]);
+  std::vector<Index> balance(parts.size(), 0);
   for (Index i = 0; i < points.size(); ++i) balance[part_of(i)] += faces_alike[i];
   std::vector<bool> against(points.size());
   for (Index i = 0; i < points.size(); ++i) against[i] = balance[part_of(i)] < 0;

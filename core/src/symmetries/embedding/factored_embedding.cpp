@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/sparse_eigen.h"
@@ -23,36 +24,17 @@ constexpr double reach = 4;  // localizations beyond which a correspondence, 1e-
 constexpr double least_eigenvalue = 1e-9;  // of the largest: others are rounding
 constexpr double partner_reach = 2e-6;     // diameters: twice the rounding of exact maps
 
-// By their first points.
-std::vector<Index> renumbered(std::vector<Index> names) {
-  std::vector<Index> number(names.size(), -1);
-  Index count = 0;
-  for (Index& name : names) {
-    if (number[name] < 0) number[name] = count++;
-    name = number[name];
-  }
-  return names;
-}
-
 // The points that chains of exact partners join, numbered by their first ones.
 std::vector<Index> exact_orbits(PointsView points, const PointTree& tree,
                                 const NearSymmetries& symmetries) {
-  std::vector<Index> root(points.size());
-  std::iota(root.begin(), root.end(), Index{0});
-  const auto root_of = [&](Index i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  DisjointSets orbits(points.size());
   const double limit = partner_reach * symmetries.diameter;
   for (const Eigen::Isometry3d& map : symmetries.generators)
     for (Index i = 0; i < points.size(); ++i) {
       const Index j = tree.nearest(map * points[i], limit * limit).index;
-      if (j < 0) continue;
-      const Index one = root_of(i), other = root_of(j);
-      root[std::max(one, other)] = std::min(one, other);
+      if (j >= 0) orbits.join(i, j);
     }
-  for (Index i = 0; i < points.size(); ++i) root[i] = root_of(i);
-  return renumbered(root);
+  return orbits.numbered();
 }
 
 // One point of each orbit of exact partners, or all points.

@@ -51,12 +51,6 @@ Eigen::Vector<double, HeightSignature::length> HeightSignature::invariants() con
   return all;
 }
 
-double HeightSignature::waviness() const {
-  double squared = 0;
-  for (const auto& wave : waves) squared += std::norm(wave);
-  return std::sqrt(squared);
-}
-
 HeightSignature HeightSignature::from_behind() const {
   HeightSignature other = *this;
   other.frame.rightCols<2>() *= -1;  // a reflection of the disc, and of heights

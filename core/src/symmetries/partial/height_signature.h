@@ -26,8 +26,6 @@ struct HeightSignature {
   std::array<std::complex<double>, turning> waves{};
 
   Eigen::Vector<double, length> invariants() const;
-  /// The length of all that a turn changes.
-  double waviness() const;
   /// The same surface seen from its other side.
   HeightSignature from_behind() const;
 };

@@ -124,11 +124,12 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
   const VoteCheck check(surface, options);
   const std::vector<Index> held = check.held_points(context.stage(0, 0.2));
   std::vector<std::vector<Disc>> discs;
-  for (std::size_t k = 0; k < ratios.size(); ++k)
-    discs.push_back(described_discs(
-        surface, held, options.radius * ratios[k],
-        context.stage(0.5 * static_cast<double>(k) / static_cast<double>(ratios.size()),
-                      0.5 * static_cast<double>(k + 1) / static_cast<double>(ratios.size()))));
+  const Context describing = context.stage(0.2, 0.5);
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    const double each = 1 / static_cast<double>(ratios.size()), at = each * static_cast<double>(k);
+    discs.push_back(described_discs(surface, held, options.radius * ratios[k],
+                                    describing.stage(at, at + each)));
+  }
   std::vector<Disc> found;
   for (const auto& scale : discs) found.insert(found.end(), scale.begin(), scale.end());
   if (found.empty()) return {};

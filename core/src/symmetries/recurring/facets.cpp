@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <queue>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "base/eigenvectors.h"
 #include "base/least_squares.h"
 #include "base/math.h"
@@ -14,6 +15,7 @@ namespace symsurf {
 
 SurfaceMoments SurfaceMoments::of_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   SurfaceMoments moments;
+  moments.pieces = 1;
   moments.area = (b - a).cross(c - a).norm() / 2;
   const Vector3 sum = a + b + c;
   moments.sum = moments.area / 3 * sum;
@@ -51,8 +53,7 @@ constexpr double least_left = 0.5, refitted = 1.2;
 class Merging {
  public:
   explicit Merging(const std::vector<SurfaceMoments>& pieces)
-      : moments_(pieces), root_(pieces.size()), age_(pieces.size(), 0) {
-    for (std::size_t i = 0; i < pieces.size(); ++i) root_[i] = static_cast<Index>(i);
+      : moments_(pieces), facets_(static_cast<Index>(pieces.size())), age_(pieces.size(), 0) {
     for (const SurfaceMoments& piece : pieces) bend_.push_back(bend(piece));
   }
 
@@ -63,21 +64,21 @@ class Merging {
       return a == b || !is_open(moments_[a], moments_[b]);
     };
     std::priority_queue<Pair> pairs;
-    const auto push = [&](Index a, Index b, bool is_new, double before) {
+    const auto push = [&](Index a, Index b) {
       if (closed(a, b)) return;
       const double now = cost(a, b);
-      if (now <= limit && (is_new || now > before)) pairs.push({now, a, b, age_[a] + age_[b]});
+      if (now <= limit) pairs.push({now, a, b, age_[a] + age_[b]});
     };
     for (std::size_t begin = 0; begin < adjacent.size(); begin += stretch) {
       context.check();
       for (std::size_t k = begin; k < std::min(adjacent.size(), begin + stretch); ++k)
-        push(root(adjacent[k].first), root(adjacent[k].second), true, 0);
+        push(facets_.root(adjacent[k].first), facets_.root(adjacent[k].second));
     }
     for (std::size_t step = 0; !pairs.empty(); ++step) {
       if (step % stretch == 0) context.check();
       const Pair next = pairs.top();
       pairs.pop();
-      const Index a = root(next.a), b = root(next.b);
+      const Index a = facets_.root(next.a), b = facets_.root(next.b);
       if (closed(a, b)) continue;
       if (age_[a] + age_[b] != next.age) {
         const double now = cost(a, b);
@@ -91,10 +92,8 @@ class Merging {
     }
   }
 
-  Index root(Index piece) {
-    while (root_[piece] != piece) piece = root_[piece] = root_[root_[piece]];
-    return piece;
-  }
+  // Of each piece the number of its facet.
+  std::vector<Index> numbered() { return facets_.numbered(); }
 
  private:
   static constexpr std::size_t stretch = 4096;
@@ -122,7 +121,7 @@ class Merging {
 
   void merge(Index a, Index b) {
     if (moments_[b].pieces > moments_[a].pieces) std::swap(a, b);
-    root_[b] = a;
+    facets_.join(a, b);
     moments_[a] += moments_[b];
     bend_[a] = bend(moments_[a]);
     age_[a] += age_[b] + 1;
@@ -130,22 +129,28 @@ class Merging {
 
   std::vector<SurfaceMoments> moments_;
   std::vector<double> bend_;
-  std::vector<Index> root_, age_;
+  DisjointSets facets_;
+  std::vector<Index> age_;
 };
 
-}  // namespace
+struct Gathered {
+  std::vector<SurfaceMoments> moments;
+  std::vector<std::vector<Index>> members;  // pieces, ascending
+};
 
-namespace {
-
-std::vector<Index> numbered(Merging& merging, std::size_t count) {
-  std::vector<Index> facet(count, -1), number(count, -1);
-  Index next = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    Index& own = number[merging.root(static_cast<Index>(i))];
-    if (own < 0) own = next++;
-    facet[i] = own;
+// The facets that pieces have, by number.
+Gathered gathered(const std::vector<SurfaceMoments>& pieces, const std::vector<Index>& facet) {
+  Gathered all;
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    const auto own = static_cast<std::size_t>(facet[i]);
+    if (own >= all.moments.size()) {
+      all.moments.resize(own + 1);
+      all.members.resize(own + 1);
+    }
+    all.moments[own] += pieces[i];
+    all.members[own].push_back(static_cast<Index>(i));
   }
-  return facet;
+  return all;
 }
 
 std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
@@ -161,10 +166,10 @@ std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjac
         adjacent, off * off,
         [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
   };
-  // Radians of what noise turns: what fits well goes sooner.
+  // What fits well goes sooner.
   absorb(vague, near_plane * noise);
   absorb(vaguest, infinity);
-  return numbered(merging, pieces.size());
+  return merging.numbered();
 }
 
 // Great facets take pieces of lesser ones that lie in their planes. What has lost much is taken
@@ -172,31 +177,21 @@ std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjac
 std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::vector<Index> facet,
                          double slab) {
   const std::size_t count = pieces.moments.size();
-  std::vector<std::vector<Index>> touching(count), members;
+  std::vector<std::vector<Index>> touching(count);
   for (const auto& [a, b] : pieces.adjacent) {
     touching[a].push_back(b);
     touching[b].push_back(a);
   }
-  std::vector<SurfaceMoments> moments;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto own = static_cast<std::size_t>(facet[i]);
-    if (own >= moments.size()) {
-      moments.resize(own + 1);
-      members.resize(own + 1);
-    }
-    moments[own] += pieces.moments[i];
-    members[own].push_back(static_cast<Index>(i));
-  }
+  const auto [moments, members] = gathered(pieces.moments, facet);
   std::vector<Index> order(moments.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Index>(k);
+  std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return moments[a].area > moments[b].area; });
+                   [&areas = moments](Index a, Index b) { return areas[a].area > areas[b].area; });
   std::vector<Index> rank(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<Index>(k);
   for (const Index own : order) {
     std::vector<Index> open;
     SurfaceMoments left;
-    left.pieces = 0;
     for (const Index piece : members[own])
       if (facet[piece] == own) {
         open.push_back(piece);
@@ -231,9 +226,7 @@ std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::ve
 
 std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, double noise,
                              const Context& context) {
-  // Diagonals: what single precision makes of coordinates.
-  constexpr double rounding = 1e-7;
-  const double deviation = std::max(rounding, flat * noise);
+  const double deviation = std::max(coordinate_rounding, flat * noise);
   std::vector<Index> facet = merged(pieces.moments, pieces.adjacent, deviation, noise, context);
   if (noise == 0) return facet;
   facet = grown(points, pieces, std::move(facet), in_plane * noise);
@@ -243,10 +236,7 @@ std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, dou
     Index fresh = static_cast<Index>(joined.size());
     Index& at = facet[i] < 0 ? fresh : number[facet[i]];
     if (at < 0) at = fresh;
-    if (at == static_cast<Index>(joined.size())) {
-      joined.emplace_back();
-      joined.back().pieces = 0;
-    }
+    if (at == static_cast<Index>(joined.size())) joined.emplace_back();
     joined[at] += pieces.moments[i];
     own[i] = at;
   }
@@ -267,21 +257,12 @@ double noise_of(PointsView points, const SurfacePieces& pieces, const Context& c
   merging.run(
       pieces.adjacent, infinity,
       [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; }, context);
-  const std::vector<Index> patch = numbered(merging, pieces.moments.size());
-  std::vector<SurfaceMoments> moments;
-  std::vector<std::vector<Index>> members;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const auto own = static_cast<std::size_t>(patch[i]);
-    if (own >= moments.size()) {
-      moments.resize(own + 1);
-      members.resize(own + 1);
-    }
-    moments[own] += pieces.moments[i];
-    members[own].insert(members[own].end(), pieces.points[i].begin(), pieces.points[i].end());
-  }
+  const auto [moments, members] = gathered(pieces.moments, merging.numbered());
   std::vector<double> deviations;
   for (std::size_t p = 0; p < members.size(); ++p) {
-    std::vector<Index>& own = members[p];
+    std::vector<Index> own;
+    for (const Index piece : members[p])
+      own.insert(own.end(), pieces.points[piece].begin(), pieces.points[piece].end());
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
     if (own.size() < least || !(moments[p].area > 0)) continue;

@@ -8,9 +8,12 @@
 
 namespace symsurf {
 
-/// Moments of a piece of surface up to the second, about the origin.
+/// Diagonals: what single precision makes of coordinates.
+inline constexpr double coordinate_rounding = 1e-7;
+
+/// Moments up to the second, about the origin, of pieces of a surface.
 struct SurfaceMoments {
-  double area = 0, pieces = 1;
+  double area = 0, pieces = 0;
   Vector3 sum = Vector3::Zero();
   Matrix3 products = Matrix3::Zero();
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "spatial/voxel_grid.h"
@@ -16,9 +17,6 @@
 namespace symsurf {
 
 namespace {
-
-// Diagonals: what single precision makes of coordinates.
-constexpr double rounding = 1e-7;
 
 // An edge with its faces and the unit vectors across it into these.
 struct MeshEdge {
@@ -128,7 +126,7 @@ class LineExtraction {
         pieces_.adjacent.emplace_back(edge.faces[0], edge.faces[k]);
     const Points rows = rows_of(positions_);
     noise_ = has_exact_planes() ? 0 : noise_of(rows, pieces_, context.stage(0, 0.4));
-    if (noise_ < rounding) noise_ = 0;
+    if (noise_ < coordinate_rounding) noise_ = 0;
     facet_ = facets_of(rows, pieces_, noise_, context.stage(0.4, 0.8));
     neighbours_.resize(faces_.size());
     for (const auto& [a, b] : pieces_.adjacent)
@@ -174,7 +172,6 @@ class LineExtraction {
     const Index round = rounds_++;
     std::vector<Index> found;
     SurfaceMoments moments;
-    moments.pieces = 0;
     const auto add = [&](Index face) {
       if (facet_[face] != facet || mark_[face] == round) return;
       mark_[face] = round;
@@ -338,8 +335,8 @@ class LineExtraction {
     return wings;
   }
 
-  // Of noise: how far facets may lie off their plane, what is no facet by its area, how far a place
-  // is moved, how long a stretch has a direction. And radians that a plane may be uncertain by.
+  // Standard deviations of the noise: how far a place is moved, how long a stretch has a direction.
+  // And radians that a plane may be uncertain by.
   static constexpr double farthest = 4, stretch = 6, certain = 0.05;
 
   PointsView points_;
@@ -354,37 +351,33 @@ class LineExtraction {
   std::unordered_map<Index, std::vector<Index>> twins_;  // all points at the places of edges
 };
 
-// Lines that are shorter than noise can tell from a point are their corners.
+// Lines that are shorter than noise moves their ends become corners.
 FeatureLines without_short_lines(FeatureLines graph, double shortest) {
-  std::vector<Index> root(graph.corners.size());
-  for (std::size_t k = 0; k < root.size(); ++k) root[k] = static_cast<Index>(k);
-  const auto root_of = [&](Index corner) {
-    while (root[corner] != corner) corner = root[corner] = root[root[corner]];
-    return corner;
-  };
+  const auto count = static_cast<Index>(graph.corners.size());
+  DisjointSets joined(count);
   std::vector<FeatureLine> kept;
   for (FeatureLine& line : graph.lines) {
     if (line.length >= shortest) {
       kept.push_back(std::move(line));
     } else if (line.has_ends()) {
-      const Index a = root_of(line.start), b = root_of(line.end);
-      root[std::max(a, b)] = std::min(a, b);
+      const Index a = joined.root(line.start), b = joined.root(line.end);
+      joined.join(std::min(a, b), std::max(a, b));
     }
   }
-  std::vector<Vector3> sum(root.size(), Vector3::Zero());
-  std::vector<double> count(root.size(), 0);
-  for (std::size_t k = 0; k < root.size(); ++k) {
-    sum[root_of(static_cast<Index>(k))] += graph.corners[k];
-    ++count[root_of(static_cast<Index>(k))];
+  std::vector<Vector3> sum(count, Vector3::Zero());
+  std::vector<double> members(count, 0);
+  for (Index k = 0; k < count; ++k) {
+    sum[joined.root(k)] += graph.corners[k];
+    ++members[joined.root(k)];
   }
-  for (std::size_t k = 0; k < root.size(); ++k) graph.corners[k] = sum[k] / std::max(1.0, count[k]);
+  for (Index k = 0; k < count; ++k) graph.corners[k] = sum[k] / std::max(1.0, members[k]);
   graph.lines = std::move(kept);
-  graph.at.assign(root.size(), {});
+  graph.at.assign(count, {});
   for (std::size_t number = 0; number < graph.lines.size(); ++number) {
     FeatureLine& line = graph.lines[number];
     if (!line.has_ends()) continue;
-    line.start = root_of(line.start);
-    line.end = root_of(line.end);
+    line.start = joined.root(line.start);
+    line.end = joined.root(line.end);
     line.samples[0] = graph.corners[line.start];
     graph.at[line.start].push_back(static_cast<Index>(number));
     if (line.end != line.start) graph.at[line.end].push_back(static_cast<Index>(number));
@@ -398,8 +391,9 @@ FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
                            const Context& context) {
   FeatureLines graph =
       LineExtraction(points, faces, angle, context.stage(0, 0.9)).run(context.stage(0.9, 1));
-  const double shortest = 4 * graph.noise;
-  return without_short_lines(std::move(graph), shortest);
+  constexpr double shortest = 4;  // standard deviations of the noise
+  const double least = shortest * graph.noise;
+  return without_short_lines(std::move(graph), least);
 }
 
 }  // namespace symsurf

@@ -18,7 +18,7 @@ struct RecurringPart {
   bool is_whole = false;            ///< no other line goes on from it
 
   /// Instances that have all lines.
-  std::size_t complete() const;
+  std::size_t complete_instances() const;
 
   /// What a description by one instance and maps to the others saves.
   double saved() const { return length * static_cast<double>(instances.size() - 1); }

@@ -93,8 +93,8 @@ AnalysisImplementation recurring_parts_analysis() {
       {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
   };
   analysis.shown = "instance";
-  analysis.finds_transforms = true;
   analysis.needs_faces = true;
+  analysis.finds_transforms = true;
   analysis.run = run_recurring_parts;
   return analysis;
 }

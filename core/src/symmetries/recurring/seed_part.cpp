@@ -195,7 +195,7 @@ class PartOfSeed {
 
 }  // namespace
 
-std::size_t RecurringPart::complete() const {
+std::size_t RecurringPart::complete_instances() const {
   return std::count_if(instances.begin(), instances.end(), [&](const Instance& instance) {
     return instance.lines.size() == lines.size();
   });
@@ -207,7 +207,8 @@ std::vector<RecurringPart>::iterator best_part(std::vector<RecurringPart>& parts
   const auto comes_before = [](const RecurringPart& a, const RecurringPart& b) {
     constexpr double more = 1 + 1e-9;
     if (a.is_whole != b.is_whole) return a.is_whole;
-    if (a.complete() != b.complete()) return a.complete() > b.complete();
+    if (a.complete_instances() != b.complete_instances())
+      return a.complete_instances() > b.complete_instances();
     return a.saved() > more * b.saved();
   };
   auto best = parts.end();
