@@ -11,12 +11,17 @@ namespace symsurf {
 
 // Through any size, which the pencils below need as well.
 SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
-  return {eigen.eigenvalues(), eigen.eigenvectors()};
+  const SymmetricEigen<Eigen::Dynamic> eigen = eigen_of(Eigen::MatrixXd(symmetric));
+  return {eigen.values, eigen.vectors};
 }
 
 SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 

@@ -21,6 +21,7 @@ struct SymmetricEigen {
 /// By tridiagonalisation and implicit QR steps (Golub and Van Loan, "Matrix Computations", 8.3).
 SymmetricEigen<2> eigen_of(const Eigen::Matrix2d& symmetric);
 SymmetricEigen<3> eigen_of(const Eigen::Matrix3d& symmetric);
+SymmetricEigen<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric);
 
 /// Of the sum of the products of each row with itself.
 SymmetricEigen<3> eigen_of_scatter(const Points& rows);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
 
 namespace symsurf::perpendicular {
@@ -176,9 +177,7 @@ void match(const SearchCloud& cloud, double precision, GrownSurface& surface) {
 double flatness(const GrownSurface& surface) {
   Matrix3 spread = Matrix3::Zero();
   for (const Carried& c : surface.carried) spread += c.normal * c.normal.transpose();
-  const Vector3 values =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(spread, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[2] / static_cast<double>(surface.carried.size());
+  return eigen_of(spread).values[2] / static_cast<double>(surface.carried.size());
 }
 
 bool is_flat(const GrownSurface& surface) { return flatness(surface) > flat_enough; }

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/eigenvectors.h"
+#include "base/least_squares.h"
 #include "base/math.h"
 #include "methods/parametric/hypotheses.h"
 #include "methods/parametric/shapes.h"
@@ -268,7 +269,7 @@ PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
       asked -= weight * slope * across.dot(flat) * terms;
     }
     products.diagonal().array() += 1e-9 * products.trace() + 1e-300;
-    heights = products.ldlt().solve(asked);
+    heights = solved(products, asked);
   }
   Eigen::Matrix2d curvature;
   curvature << heights[3], heights[4], heights[4], heights[5];

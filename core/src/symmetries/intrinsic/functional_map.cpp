@@ -1,6 +1,5 @@
 #include "symmetries/intrinsic/functional_map.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "spatial/kd_tree.h"
@@ -34,9 +34,14 @@ std::vector<Index> SampledFunctions::images(const FunctionalMap& map) const {
 FunctionalMap SampledFunctions::fitted(const std::vector<Index>& images, Index count) const {
   const auto functions = values_.leftCols(count);
   const Eigen::MatrixXd at_images = weights_.asDiagonal() * functions(images, Eigen::indexing::all);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(functions.transpose() * at_images,
-                                           Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  // The nearest orthogonal matrix, 0 along what the products say nothing about (Higham 1986).
+  const Eigen::MatrixXd products = functions.transpose() * at_images;
+  const auto [squares, vectors] = eigen_of(Eigen::MatrixXd(products.transpose() * products));
+  constexpr double rounding = 1e-14;  // of the largest square
+  const double least = rounding * squares.maxCoeff();
+  const Eigen::VectorXd inverse =
+      (squares.array() > least).select(squares.array().max(least).rsqrt(), 0.0);
+  return products * vectors * inverse.asDiagonal() * vectors.transpose();
 }
 
 FunctionalMap SampledFunctions::refined(std::vector<Index> from, Index first, Index last,

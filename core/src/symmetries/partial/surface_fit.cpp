@@ -1,10 +1,11 @@
 #include "symmetries/partial/surface_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
 #include "base/math.h"
 
 namespace symsurf {
@@ -133,15 +134,14 @@ SurfaceFit::Fit SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vect
     pull /= weights;
     if (step + 1 == steps) {
       // Slippage analysis (Gelfand and Guibas 2004).
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> stiffness(
-          products.topLeftCorner<6, 6>());
+      const auto stiffness = eigen_of(Eigen::MatrixXd(products.topLeftCorner<6, 6>()));
       constexpr double far = 3;  // tolerances
-      fit.slide = moved(far * tolerance * stiffness.eigenvectors().col(0), extent, pivot);
+      fit.slide = moved(far * tolerance * stiffness.vectors.col(0), extent, pivot);
     }
     // What the patch leaves free stays as it is.
     constexpr double ridge = 1e-4;
     products.diagonal().array() += ridge;
-    const Vector7 move = -products.ldlt().solve(pull);
+    const Vector7 move = -solved(products, pull);
     Eigen::Affine3d change = moved(move.head<6>(), extent, pivot);
     const double scale = std::clamp(1 + move[6] / extent, 0.8, 1.25);
     change =

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/eigenvectors.h"
+#include "base/least_squares.h"
 #include "base/math.h"
 #include "methods/plane/plane_candidates.h"
 #include "symmetries/point_group/point_group.h"
@@ -245,7 +246,7 @@ Vector3 centre_of(const std::vector<FoundDirection>& planes) {
     products += plane.z() * plane.z().transpose();
     sum += plane.z().dot(plane.pose.centre) * plane.z();
   }
-  return products.ldlt().solve(sum);
+  return solved(products, sum);
 }
 
 std::vector<FoundDirection> find_axes(const SymmetryTest& test,

@@ -1,6 +1,5 @@
 #include "symmetries/point_group/symmetry_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -61,13 +60,12 @@ class SymmetryFit::Step {
   // Directions that the elements leave free, as along an axis, stay as they are.
   GroupPose taken(const GroupPose& pose) const {
     constexpr double free = 1e-4;  // of the stiffest direction
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(products_);
-    const Vector6& values = solver.eigenvalues();
+    const auto [values, directions] = eigen_of(Eigen::MatrixXd(products_));
     Vector6 step = Vector6::Zero();
     if (!(values[5] > 0)) return pose;
     for (int i = 0; i < 6; ++i)
       if (values[i] > free * values[5])
-        step -= solver.eigenvectors().col(i) * solver.eigenvectors().col(i).dot(pull_) / values[i];
+        step -= directions.col(i) * directions.col(i).dot(pull_) / values[i];
     constexpr double longest = 0.2;  // radians, diagonals: what is longer is no small turn
     if (step.norm() > longest) step *= longest / step.norm();
     GroupPose next = pose;
