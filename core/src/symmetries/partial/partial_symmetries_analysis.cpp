@@ -71,7 +71,7 @@ AnalysisImplementation partial_symmetries_analysis() {
                       "The least share of the surface that a patch covers."),
       Parameter::real("minimum_score", 0.8, 0, 1, "",
                       "How close to the surface the images of a patch must come."),
-      Parameter::integer("count", 50, 1, 1000, "", "The most transformations that are found."),
+      Parameter::integer("count", 100, 1, 1000, "", "The most transformations that are found."),
       Parameter::real("disc", 0.015, 0.001, 0.1, "",
                       "The share of the surface in the disc that a point is known by."),
       Parameter::integer("points", 10000, 500, 200000, "points",

@@ -17,7 +17,7 @@ namespace {
 using Invariants = KdTree<HeightSignature::length>;
 
 // Of the points about one whose map is looked at, the share that hold it: below it slides.
-constexpr double least_vote_hold = 0.1;
+constexpr double least_vote_hold = 0.07;
 constexpr int slides = 3;  // a smooth body is held by long ones
 
 // What the map of a pair becomes when it is fitted to the surface about its points; nothing where
