@@ -13,6 +13,7 @@ import symsurf
 from symsurf import metrics, synthetic
 from symsurf.reading.saved_text import read_text
 from symsurf.saving.truth import read_truth, truth_path
+from symsurf.thesis import tables
 
 SAMPLES = {
     "constant distance": "perpendicular --surface f1 --resolution 10",
@@ -325,7 +326,15 @@ def test_undefined_places_are_skipped_and_counted(tmp_path):
     assert errors.skipped > 0 and errors.counted + errors.skipped == len(result.surface_points)
 
 
-def test_the_demonstration_prints_every_row(tmp_path):
-    printed = shell("demo thesis --no-pictures --output pictures", tmp_path)
-    rows = [line for line in printed.splitlines() if line and not line.startswith("table")]
-    assert len(rows) == (7 + 6 + 6 + 5 + 23) + (5 + 6)
+def test_the_demonstration_prints_every_row_of_the_tables_asked_for(tmp_path):
+    assert len(list(tables.rows())) == (7 + 6 + 6 + 5 + 23) + (5 + 6)
+    printed = shell("demo thesis --tables 5.3 5.1 --no-pictures --output pictures", tmp_path)
+    lines = [line for line in printed.splitlines() if line and not line.startswith("table")]
+    assert len(lines) == 7 + 6
+
+
+def test_tables_that_the_thesis_lacks_are_refused(tmp_path):
+    done = run_here("demo thesis --tables 6.1 --no-pictures", tmp_path)
+    assert done.returncode == 2 and "tables is 6.1; allowed are 5.1, 5.2" in done.stderr
+    done = run_here("demo --tables 5.1 --no-pictures", tmp_path)
+    assert done.returncode == 2 and "tables is given for shapes" in done.stderr

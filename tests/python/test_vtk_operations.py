@@ -112,6 +112,7 @@ def test_finds_the_mirror_where_none_is_connected(operation: symsurf.Operation) 
     np.testing.assert_allclose(points_of(connected.output), points_of(alone.output), atol=1e-12)
     assert error_of(connected) == error_of(alone) == ""
     connected.SetMirrorConnection(None)
+    connected.SetMethod("plane")
     assert error_of(connected) == "" and connected.output.GetNumberOfPoints() > 0
 
 

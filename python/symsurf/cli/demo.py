@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from .._core import InvalidParameter
 from ..batching import processors, threads_of_each
 from ..batching.file_task import FileTask
 from ..batching.report_files import report_tasks, write_report
@@ -34,6 +35,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="real meshes, or the thesis's tables beside its numbers; default %(default)s",
     )
     parser.add_argument(
+        "--tables",
+        nargs="+",
+        metavar="NUMBER",
+        help="of the thesis these alone, such as 5.1; default all",
+    )
+    parser.add_argument(
         "--no-pictures", action="store_true", help="print the tables only, without a report"
     )
     parser.add_argument(
@@ -48,6 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.which == "thesis":
         return demo_thesis.run(arguments)
+    if arguments.tables:
+        raise InvalidParameter("tables is given for shapes; allowed is with thesis")
     if not arguments.no_pictures:
         require_viewer()
         arguments.output.mkdir(parents=True, exist_ok=True)

@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import argparse
 
+from .._core import InvalidParameter
 from ..plotting.drawing import import_pyvista
 from ..thesis.pictures import draw
 from ..thesis.tables import Outcome, measure, rows
 
 
 def run(arguments: argparse.Namespace) -> int:
+    listed = list(rows())
+    if arguments.tables:
+        numbers = list(dict.fromkeys(row.table for row in listed))
+        for table in arguments.tables:
+            if table not in numbers:
+                raise InvalidParameter(f"tables is {table}; allowed are {', '.join(numbers)}")
+        listed = [row for row in listed if row.table in arguments.tables]
     if not arguments.no_pictures:
         import_pyvista()  # missing, it is missed before the tables are made
         arguments.output.mkdir(parents=True, exist_ok=True)
     heading = ""
-    for row in rows():
+    for row in listed:
         outcome = measure(row)
         if heading != (heading := _heading(outcome)):
             print(f"\n{heading}")
