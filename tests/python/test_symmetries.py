@@ -74,6 +74,23 @@ def test_elements_are_a_group_that_keeps_the_centre():
     assert np.allclose([axis.point for axis in found.axes], found.centre)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_of_equal_axes_the_one_with_the_largest_group_counts(seed):
+    # Of the three axes of order 2 of D2d one is that of a rotary reflection.
+    rng = np.random.default_rng(seed)
+
+    def ball(count):
+        points = rng.normal(size=(count, 3))
+        return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+    quarter, half = np.array([[0, -1, 0], [1, 0, 0], [0, 0, -1]]), np.diag([1, -1, -1])
+    turns = [np.linalg.matrix_power(quarter, k) @ h for k in range(4) for h in (np.eye(3), half)]
+    leaning = np.array([[0.35, 0.05, 0.1], [0, 0.15, 0.05], [0.05, 0, 0.2]])
+    studs = [(ball(150) @ leaning + (0.75, 0.35, 0.65)) @ turn.T for turn in turns]
+    found = symsurf.symmetries(np.vstack([ball(2000), *studs]))
+    assert found.group == "D2d" and len(found.planes) == 2
+
+
 # Floors, of 15, below what draws of every part gave: 27 of 30 with noise, 25 of 30 when cut.
 @pytest.mark.parametrize(("damage", "least"), [("noisy", 12), ("cut", 12)])
 def test_damaged_parts_keep_their_group_mostly(damage, least):

@@ -137,22 +137,23 @@ class SymmetrySearch {
     return best;
   }
 
-  // About the axes of the highest order first; where a group fails, those it holds.
+  // About the axes of the highest order first, and of the groups about these the largest: where one
+  // fails, those that it holds and its like about the other axes are left.
   std::optional<Symmetries> axial() const {
     for (auto first = axes_.begin(); first != axes_.end();) {
       const auto last = std::find_if(first, axes_.end(), [&](const FoundDirection& axis) {
         return axis.order != first->order;
       });
-      std::vector<std::vector<Placed>> about_each;
-      for (auto axis = first; axis != last; ++axis)
-        if (auto groups = about(*axis); !groups.empty()) about_each.push_back(std::move(groups));
-      std::stable_sort(about_each.begin(), about_each.end(), [](const auto& a, const auto& b) {
-        return a.front().group.elements.size() > b.front().group.elements.size();
+      std::vector<Placed> groups;
+      for (; first != last; ++first) {
+        const std::vector<Placed> some = about(*first);
+        groups.insert(groups.end(), some.begin(), some.end());
+      }
+      std::stable_sort(groups.begin(), groups.end(), [](const Placed& a, const Placed& b) {
+        return a.group.elements.size() > b.group.elements.size();
       });
-      for (const std::vector<Placed>& groups : about_each)
-        for (const Placed& placed : groups)
-          if (std::optional<Symmetries> found = verified(placed)) return found;
-      first = last;
+      for (const Placed& placed : groups)
+        if (std::optional<Symmetries> found = verified(placed)) return found;
     }
     return {};
   }
