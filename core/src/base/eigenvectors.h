@@ -9,7 +9,7 @@
 namespace symsurf {
 
 // Eigen's decompositions are slow to compile: those that many searches need are compiled once,
-// these and that of semidefinite_solve.h. They look at the lower triangle.
+// these and that of least_squares.h. They look at the lower triangle.
 
 /// Eigenvalues, ascending, and unit eigenvectors, one a column.
 template <int n>

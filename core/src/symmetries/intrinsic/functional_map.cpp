@@ -37,8 +37,8 @@ FunctionalMap SampledFunctions::fitted(const std::vector<Index>& images, Index c
   // The nearest orthogonal matrix, 0 along what the products say nothing about (Higham 1986).
   const Eigen::MatrixXd products = functions.transpose() * at_images;
   const auto [squares, vectors] = eigen_of(Eigen::MatrixXd(products.transpose() * products));
-  constexpr double rounding = 1e-14;  // of the largest square
-  const double least = rounding * squares.maxCoeff();
+  const double least =
+      static_cast<double>(count) * std::numeric_limits<double>::epsilon() * squares.maxCoeff();
   const Eigen::VectorXd inverse =
       (squares.array() > least).select(squares.array().max(least).rsqrt(), 0.0);
   return products * vectors * inverse.asDiagonal() * vectors.transpose();

@@ -133,14 +133,14 @@ class Merging {
   std::vector<Index> age_;
 };
 
-struct Gathered {
+struct PieceGroups {
   std::vector<SurfaceMoments> moments;
   std::vector<std::vector<Index>> members;  // pieces, ascending
 };
 
-// The facets that pieces have, by number.
-Gathered gathered(const std::vector<SurfaceMoments>& pieces, const std::vector<Index>& facet) {
-  Gathered all;
+// The pieces of each facet, and their moments together.
+PieceGroups grouped_by(const std::vector<Index>& facet, const std::vector<SurfaceMoments>& pieces) {
+  PieceGroups all;
   for (std::size_t i = 0; i < facet.size(); ++i) {
     const auto own = static_cast<std::size_t>(facet[i]);
     if (own >= all.moments.size()) {
@@ -182,7 +182,7 @@ std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::ve
     touching[a].push_back(b);
     touching[b].push_back(a);
   }
-  const auto [moments, members] = gathered(pieces.moments, facet);
+  const auto [moments, members] = grouped_by(facet, pieces.moments);
   std::vector<Index> order(moments.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(),
@@ -257,7 +257,7 @@ double noise_of(PointsView points, const SurfacePieces& pieces, const Context& c
   merging.run(
       pieces.adjacent, infinity,
       [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; }, context);
-  const auto [moments, members] = gathered(pieces.moments, merging.numbered());
+  const auto [moments, members] = grouped_by(merging.numbered(), pieces.moments);
   std::vector<double> deviations;
   for (std::size_t p = 0; p < members.size(); ++p) {
     std::vector<Index> own;
