@@ -37,12 +37,17 @@ class Worth(NamedTuple):
     seconds: float
 
 
+def _is_measured(figures: Figures, name: str) -> bool:
+    """Seconds depend on what else runs, and have columns of their own."""
+    return "second" not in name and not np.isnan(figures[name])
+
+
 def _worth(tasks: list[Task], trials: list[Figures]) -> Worth:
     from accuracy.__main__ import CASES
 
     right, errors = 0, []
     for (name, _, _), figures in zip(tasks, trials):
-        bars = {n: bar for n, bar in CASES[name].bars.items() if not np.isnan(figures[n])}
+        bars = {n: bar for n, bar in CASES[name].bars.items() if _is_measured(figures, n)}
         right += all(bar.met(figures[n]) for n, bar in bars.items())
         errors += [figures[n] / bar.limit for n, bar in bars.items() if bar.at_most]
     median = float(np.median(errors)) if errors else np.nan
@@ -50,8 +55,7 @@ def _worth(tasks: list[Task], trials: list[Figures]) -> Worth:
 
 
 def _changed(figures: Figures, others: Figures) -> bool:
-    return any(figures[n] != others.get(n) for n in figures
-               if "second" not in n and not np.isnan(figures[n]))  # fmt: skip
+    return any(figures[n] != others.get(n) for n in figures if _is_measured(figures, n))
 
 
 class Runs:
