@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -150,7 +151,6 @@ TEST(IntrinsicSymmetry, TakesTheLargestPartAndFacesOfAnyKind) {
   EXPECT_LT(error_of(body, merged).mean, 0.03);
 }
 
-// Any plane through its middle mirrors a ball: no function's sign is determined.
 // Front and hind part as meshes of their own, a twentieth of an edge apart.
 TEST(IntrinsicSymmetry, JoinsPartsThatTouch) {
   LimbedBody body = posed_animal(0);
@@ -180,6 +180,61 @@ TEST(IntrinsicSymmetry, JoinsPartsThatTouch) {
   EXPECT_LT(error_of(body, images).mean, 0.03);
 }
 
+// A pair of balls beside a trunk that stands still; a scan's holes cut off such parts.
+TEST(IntrinsicSymmetry, MapsPartsBesideTheBody) {
+  const LimbedBody body = standing_animal();
+  const Index count = body.points.rows(), added = 40;
+  RandomCloud random(0);
+  Points points(count + 2 * added, 3);
+  points.topRows(count) = body.points;
+  for (Index i = 0; i < added; ++i) {
+    points.row(count + i) = (Vector3(12, 10, 3) + random.direction()).transpose();
+    points.row(count + added + i) =
+        points.row(count + i).cwiseProduct(Vector3(-1, 1, 1).transpose());
+  }
+  const AnalysisResult result = analyse("intrinsic_symmetry", points);
+  EXPECT_EQ(verdict(result), "found");
+  EXPECT_GE(std::get<Index>(result.statistics.at("parts")), 3);
+  const Eigen::MatrixXd& images = result.arrays.at("image");
+  double away = 0;
+  for (Index i = 0; i < added; ++i) {
+    ASSERT_GE(images(count + i), 0);
+    away +=
+        (points.row(static_cast<Index>(images(count + i))) - points.row(count + added + i)).norm();
+  }
+  EXPECT_LT(away / added, 0.5);  // half the radius of a ball
+}
+
+// A leaf's patches are flat, or rolled up: turns fit them about as well as reflections.
+TEST(IntrinsicSymmetry, FindsTheMiddleOfASheet) {
+  for (const double roll : {0.0, 1.0}) {
+    RandomCloud random(1);
+    const Index half = 1000;
+    Points flat(2 * half, 3);
+    for (Index i = 0; i < half;) {
+      const double x = random.uniform(0, 3), y = random.uniform(0.01, 1);
+      if (y > 0.9 * std::sin(std::numbers::pi * std::pow(x / 3, 0.7)) * (1 - 0.2 * x / 3)) continue;
+      flat.row(i) << x, y, 0;
+      flat.row(half + i++) << x, -y, 0;
+    }
+    Points points = flat;
+    for (Index i = 0; i < points.rows() && roll > 0; ++i) {  // about a line aslant
+      const double u = (flat(i, 0) + flat(i, 1)) / std::sqrt(2.0),
+                   v = (flat(i, 0) - flat(i, 1)) / std::sqrt(2.0);
+      points.row(i) << std::sin(roll * u) / roll, v, (1 - std::cos(roll * u)) / roll;
+    }
+    const AnalysisResult result = analyse("intrinsic_symmetry", points);
+    ASSERT_EQ(verdict(result), "found") << roll;
+    double away = 0;
+    for (Index i = 0; i < points.rows(); ++i) {
+      const auto image = static_cast<Index>(result.arrays.at("image")(i));
+      away += (flat.row(image) - flat.row((i + half) % points.rows())).norm();
+    }
+    EXPECT_LT(away / static_cast<double>(points.rows()), 0.03) << roll;
+  }
+}
+
+// Any plane through its middle mirrors a ball: no function's sign is determined.
 TEST(IntrinsicSymmetry, SaysNoneOfABall) {
   Points points(3000, 3);
   for (Index i = 0; i < points.rows(); ++i) {

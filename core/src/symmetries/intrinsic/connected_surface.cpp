@@ -3,17 +3,17 @@
 #include <symsurf/context.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/math.h"
 #include "base/sparse_eigen.h"
 #include "cloud/cloud_laplacian.h"
 #include "cloud/distinct_points.h"
-#include "mesh/triangle_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -98,14 +98,8 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
   const DistinctPoints distinct = distinct_points(points, context);
   const Points positions = points.matrix()(distinct.first, Eigen::indexing::all);
   constexpr double of_mesh = 1, of_cloud = 4;  // edges
-  CloudLaplacian whole;
-  if (faces.empty()) {
-    whole = cloud_laplacian(positions, context);
-  } else {
-    const Triangles corners = renamed(faces, distinct.number);
-    static_cast<Laplacian&>(whole) = cotangent_laplacian(positions, corners);
-    whole.triangles = TriangleMesh(positions, corners, context).manifold_faces();
-  }
+  Laplacian whole = faces.empty() ? cloud_laplacian(positions, context)
+                                  : cotangent_laplacian(positions, renamed(faces, distinct.number));
   join_touching_parts(positions, faces.empty() ? of_cloud : of_mesh, whole, context);
 
   const std::vector<Index> part_of = numbered_parts(whole);
@@ -138,11 +132,6 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
   const auto size = static_cast<Index>(kept.size());
   surface.laplacian.stiffness.resize(size, size);
   surface.laplacian.stiffness.setFromTriplets(entries.begin(), entries.end());
-  std::vector<std::array<Index, 3>> triangles;
-  for (const auto& t : whole.triangles.rowwise())
-    if (name[t[0]] >= 0 && name[t[1]] >= 0 && name[t[2]] >= 0)
-      triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
-  surface.triangles = rows_of(triangles);
   return surface;
 }
 
@@ -177,29 +166,66 @@ SurfaceBasis surface_basis(const ConnectedSurface& surface, Index count, const C
   return {values.tail(found), vectors.rightCols(found)};
 }
 
+void part_contacts(const SurfaceBasis& basis, ConnectedSurface& surface) {
+  // Weighed as the global point signature does (Rustamov 2007), functions of a surface rise about
+  // as steeply anywhere.
+  constexpr double steep = 2.5;  // medians
+  struct Link {
+    double rise;
+    Index from, to;
+    auto operator<=>(const Link&) const = default;
+  };
+  const Eigen::MatrixXd signature =
+      basis.functions * basis.values.cwiseSqrt().cwiseInverse().asDiagonal();
+  const auto rise = [&](Index i, Index j) {
+    return (signature.row(i) - signature.row(j)).norm() /
+           (surface.points.row(i) - surface.points.row(j)).norm();
+  };
+  Eigen::SparseMatrix<double>& graph = surface.laplacian.stiffness;
+  std::vector<Link> links;
+  for (Index v = 0; v < graph.cols(); ++v)
+    for (Eigen::SparseMatrix<double>::InnerIterator next(graph, v); next; ++next)
+      if (next.row() < v) links.push_back({rise(next.row(), v), next.row(), v});
+  if (links.empty()) return;
+  std::sort(links.begin(), links.end());
+  const double most = steep * links[links.size() / 2].rise;
+  DisjointSets sets(graph.cols());
+  std::set<std::pair<Index, Index>> removed;
+  for (const Link& link : links) {
+    if (sets.root(link.from) != sets.root(link.to))
+      sets.join(link.from, link.to);
+    else if (link.rise > most)
+      removed.emplace(link.from, link.to);
+  }
+  graph.prune([&](Index i, Index j, double) {
+    return !removed.contains({std::min(i, j), std::max(i, j)});
+  });
+}
+
 SampledPoints surface_samples(const ConnectedSurface& surface, Index count,
                               const Context& context) {
   SampledPoints samples;
   const Index size = surface.points.rows();
   count = std::min(count, size);
-  samples.distances.resize(count, count);
-  Eigen::MatrixXd from(size, count);
+  samples.to_all.resize(size, count);
   Eigen::VectorXd nearest = edge_distances(surface, 0);
   for (Index k = 0; k < count; ++k) {
     context.report(static_cast<double>(k) / static_cast<double>(count));
     Index farthest;
     nearest.maxCoeff(&farthest);
-    from.col(k) = edge_distances(surface, farthest);
-    nearest = k == 0 ? from.col(k) : Eigen::VectorXd(nearest.cwiseMin(from.col(k)));
+    samples.to_all.col(k) = edge_distances(surface, farthest);
+    nearest = k == 0 ? samples.to_all.col(k).eval()
+                     : Eigen::VectorXd(nearest.cwiseMin(samples.to_all.col(k)));
     samples.vertices.push_back(farthest);
   }
-  samples.distances = from(samples.vertices, Eigen::indexing::all);
-  samples.distances /= samples.distances.maxCoeff();
+  samples.longest = samples.to_all(samples.vertices, Eigen::indexing::all).maxCoeff();
+  samples.to_all /= samples.longest;
+  samples.distances = samples.to_all(samples.vertices, Eigen::indexing::all);
   samples.weights = Eigen::VectorXd::Zero(count);
+  samples.nearest.resize(size);
   for (Index v = 0; v < size; ++v) {
-    Index owner;
-    from.row(v).minCoeff(&owner);
-    samples.weights[owner] += surface.laplacian.areas[v];
+    samples.to_all.row(v).minCoeff(&samples.nearest[v]);
+    samples.weights[samples.nearest[v]] += surface.laplacian.areas[v];
   }
   return samples;
 }

@@ -13,7 +13,6 @@ namespace symsurf {
 struct ConnectedSurface {
   Points points;
   Laplacian laplacian;  ///< areas add up to 1, eigenvalues are in their unit
-  Triangles triangles;  ///< wound alike
   /// The first point of the input that each vertex is, and the vertex of each point; -1: of
   /// another part.
   std::vector<Index> point_of, vertex_of;
@@ -38,11 +37,22 @@ struct SurfaceBasis {
 
 SurfaceBasis surface_basis(const ConnectedSurface& surface, Index count, const Context& context);
 
-/// Vertices far from each other, to compare functions at.
+/// Removes the links of a cloud's surface along which eigenfunctions rise much more steeply than
+/// elsewhere, as where a hand touches a leg: ways along the surface no longer lead through there.
+/// Those that hold it together stay.
+void part_contacts(const SurfaceBasis& basis, ConnectedSurface& surface);
+
+/// Vertices far from each other, to compare maps at.
 struct SampledPoints {
   std::vector<Index> vertices;
-  Eigen::VectorXd weights;    ///< the area nearest to each along edges; their sum is 1
-  Eigen::MatrixXd distances;  ///< between them along edges, in the longest; where these were asked
+  Eigen::VectorXd weights;     ///< the area nearest to each along edges; their sum is 1
+  Eigen::MatrixXd distances;   ///< between them along edges, in the longest of these
+  Eigen::MatrixXd to_all;      ///< the same to all vertices, a row a vertex
+  std::vector<Index> nearest;  ///< of each vertex the nearest, by its position among them
+
+  double longest = 0;  ///< in the unit of the surface
+
+  Index count() const { return weights.size(); }
 };
 
 SampledPoints surface_samples(const ConnectedSurface& surface, Index count, const Context& context);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "symmetries/intrinsic/connected_surface.h"
+#include "symmetries/intrinsic/patches.h"
 
 namespace symsurf {
 
@@ -36,26 +37,30 @@ class SampledFunctions {
   Eigen::VectorXd weights_;
 };
 
-/// Of each vertex of the surface the one where the functions are nearest to the mapped ones.
-std::vector<Index> all_images(const SurfaceBasis& basis, const FunctionalMap& map,
-                              const Context& context);
-
-/// An orientation-reversing map of a surface onto itself that keeps its eigenfunctions up to their
-/// signs, and how well.
+/// A map of a surface onto itself, by where it sends samples, that keeps its eigenfunctions up to
+/// their signs.
 struct IntrinsicMap {
-  FunctionalMap map;
+  std::vector<Index> images;  ///< vertices
   std::string signs;  ///< "+", "-" of the eigenfunctions that the search began with, "0": left out
-  double orientation = 0;  ///< Orientation::of
-  double distortion = 0;   ///< mean difference of distances before and after, in the longest one
-  double moved = 0;        ///< mean distance from points to images, in the longest one
+  double distortion = 0;  ///< mean difference of distances before and after, in the longest one
+  double moved = 0;       ///< mean distance from points to images, in the longest one
+  PatchChange change;     ///< of patches about the samples
 };
 
-/// The best of the maps that the signs of the first eigenfunctions give (Nagar and Raman 2018: for
-/// a symmetry and eigenvalues that differ, the functional map is diagonal, of 1 and -1). All signs
-/// of a few functions are tried at samples, and the most promising ones that reverse the
-/// orientation refined with ZoomOut and by distances along the surface. Empty signs: too few
-/// eigenvalues stand alone.
-IntrinsicMap search_map(const ConnectedSurface& surface, const SurfaceBasis& basis,
-                        const SampledPoints& samples, const Context& context);
+/// Whether a map keeps distances along the surface and the shapes of patches better than another,
+/// for how far it moves points.
+bool is_better(const IntrinsicMap& one, const IntrinsicMap& other);
+
+/// Sets where the map sends samples, and how well it keeps distances and the patches' shapes.
+void set_images(std::vector<Index> images, const SampledPoints& samples, const Patches& patches,
+                IntrinsicMap& map);
+
+/// Maps that turn the surface over, the best first, from the signs of the first eigenfunctions
+/// (Nagar and Raman 2018: for a symmetry and eigenvalues that differ, the functional map is
+/// diagonal, of 1 and -1). All signs of a few functions are tried at samples, and the most
+/// promising ones that reverse the orientation refined with ZoomOut and by distances along the
+/// surface. None where too few eigenvalues stand alone.
+std::vector<IntrinsicMap> search_maps(const SurfaceBasis& basis, const SampledPoints& samples,
+                                      const Patches& patches, const Context& context);
 
 }  // namespace symsurf

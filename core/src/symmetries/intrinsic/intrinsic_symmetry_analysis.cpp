@@ -8,8 +8,8 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
-#include "cloud/footprint.h"
 #include "preprocess/boundary.h"
+#include "spatial/point_tree.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/intrinsic/functional_map.h"
 #include "symmetries/thinned_surface.h"
@@ -18,10 +18,11 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index samples_searched = 200;  // vertices at which maps are compared
-constexpr Index samples_refined = 1000;  // at which the best is refined
-constexpr Index functions_refined = 30;  // from which on it is, a few more at a time
-constexpr Index functions_a_step = 5;
+constexpr Index samples_compared = 200;  // vertices at which maps are compared
+// Radii of patches in longest distances along the surface: of those that maps are chosen by, about
+// a limb, and of those that the best is refined by. Half and twice as much change few draws.
+constexpr double wide = 0.25, narrow = 0.12;
+constexpr int patch_rounds = 5;        // of each; maps settle in three to five
 constexpr Index most_points = 20'000;  // more are thinned to
 constexpr Index thinned_points = 10'000;
 // Mean change of distances, in how far points are moved: that of scans with holes, mapped rightly,
@@ -32,10 +33,10 @@ constexpr double half_confident = 0.02;   // diagonals between a point and the i
 
 // Empty: the map is a symmetry.
 std::string reason_against(const IntrinsicMap& map, double confidence) {
-  if (map.signs.empty())
-    return "too few eigenvalues stand alone, as on a ball, whose symmetries are continuous";
-  if (map.map.size() == 0) return "no signs of the eigenfunctions give a map but the identity";
-  if (!(map.orientation < 0)) return "no map that reverses the orientation keeps distances";
+  if (map.images.empty())
+    return "too few eigenvalues stand alone, as on a ball, whose symmetries are continuous, or no "
+           "signs of eigenfunctions turn the surface over";
+  if (!is_better(map, {})) return "no map but the identity turns the surface over";
   if (map.distortion > most_distortion * map.moved)
     return "the best map changes distances too much for how far it moves points";
   if (confidence < least_confidence) return "the image of a point's image is not the point";
@@ -53,37 +54,23 @@ void require_surface(const Cloud& cloud, const Context& context) {
                        std::to_string(most));
 }
 
-struct Image {
-  Index point = -1;
-  double confidence = 0;
-};
-
-// Of each point of the cloud, carried from the vertices that it was thinned to: the point nearest
-// to the mean of the images of those about it. None of a point off them.
-std::vector<Image> carried_images(const Cloud& cloud, const ConnectedSurface& surface,
-                                  double spacing, const std::vector<Index>& images,
-                                  const Eigen::VectorXd& confidence, const Context& context) {
-  constexpr Index around = 4, grain = 1024;
-  constexpr double farthest = 3, rounding = 0.03;  // spacings
-  const PointTree vertices(surface.points, context), points(cloud.points, context);
-  std::vector<Image> carried(cloud.points.size());
+// Of each point of the cloud the one nearest to where a map of its surface sends it: of parts that
+// do not touch the surface too, if they lie in reach of its patches; -1 of others.
+std::vector<Index> images_of(const Cloud& cloud, bool in_frame, const PointTree& vertices,
+                             const Patches::Extended& map, double reach, const Context& context) {
+  constexpr Index grain = 1024;
+  const PointTree points(cloud.points, context);
+  std::vector<Index> images(cloud.points.size(), -1);
   parallel_for(context, cloud.points.size(), grain, [&](Index begin, Index end) {
-    std::vector<Neighbour> near;
     for (Index i = begin; i < end; ++i) {
-      vertices.nearest(cloud.frame.to_frame(cloud.points[i]), around, near);
-      if (near.front().squared_distance > farthest * farthest * spacing * spacing) continue;
-      Vector3 image = Vector3::Zero();
-      double weights = 0, sure = 0;
-      for (const Neighbour& n : near) {
-        const double weight = 1 / (n.squared_distance + rounding * rounding * spacing * spacing);
-        image += weight * surface.points.row(images[n.index]).transpose();
-        sure += weight * confidence[n.index];
-        weights += weight;
-      }
-      carried[i] = {points.nearest(cloud.frame.from_frame(image / weights)).index, sure / weights};
+      const Vector3 x = in_frame ? cloud.frame.to_frame(cloud.points[i]) : cloud.points[i];
+      const Neighbour vertex = vertices.nearest(x, reach * reach);
+      if (vertex.index < 0) continue;
+      const Vector3 image = map.image(x, vertex.index);
+      images[i] = points.nearest(in_frame ? cloud.frame.from_frame(image) : image).index;
     }
   });
-  return carried;
+  return images;
 }
 
 void run_intrinsic_symmetry(const ColouredCloud& cloud, const ParameterValues& values,
@@ -93,50 +80,52 @@ void run_intrinsic_symmetry(const ColouredCloud& cloud, const ParameterValues& v
   std::optional<ThinnedSurface> thinned;  // in the principal frame
   if (cloud.points.size() > most_points)
     thinned.emplace(cloud, thinned_points, context.stage(0, 0.05));
-  const ConnectedSurface surface =
+  ConnectedSurface surface =
       thinned ? connected_surface(thinned->points().points, {}, context.stage(0.05, 0.1))
               : connected_surface(cloud.points, cloud.faces, context.stage(0, 0.1));
-  const double diagonal = thinned ? 1 : cloud.diagonal;
   const SurfaceBasis basis = surface_basis(surface, count, context.stage(0.1, 0.4));
-  const SampledPoints samples = surface_samples(surface, samples_searched, context.stage(0.4, 0.5));
-  IntrinsicMap found = search_map(surface, basis, samples, context.stage(0.5, 0.8));
-
-  const Index size = surface.points.rows();
-  std::vector<Index> images(size, -1);
-  Eigen::VectorXd confidence = Eigen::VectorXd::Zero(size);
-  if (found.map.size() > 0) {
-    const std::vector<Index> dense = farthest_points(surface.points, samples_refined, context);
-    const SampledFunctions sampled(basis, dense, surface.laplacian.areas(dense));
-    const Index from = std::min(functions_refined, basis.count());
-    found.map =
-        sampled.refined(sampled.images(found.map), from, basis.count(), functions_a_step, context);
-    images = all_images(basis, found.map, context.stage(0.8, 1));
-    for (Index v = 0; v < size; ++v) {
-      const double back = (surface.points.row(images[images[v]]) - surface.points.row(v)).norm() /
-                          (half_confident * diagonal);
-      confidence[v] = 1 / (1 + back * back);
-    }
+  if (thinned || cloud.faces.empty()) part_contacts(basis, surface);
+  const SampledPoints samples = surface_samples(surface, samples_compared, context.stage(0.4, 0.5));
+  const PointTree vertices(surface.points, context);
+  const Patches patches(surface, samples, vertices, wide);
+  IntrinsicMap found;
+  for (IntrinsicMap& map : search_maps(basis, samples, patches, context.stage(0.5, 0.8))) {
+    context.check();
+    set_images(patches.refined(std::move(map.images), patch_rounds), samples, patches, map);
+    if (found.images.empty() || is_better(map, found)) found = std::move(map);
   }
-  const double mean = surface.laplacian.areas.dot(confidence);
-  const std::string reason = reason_against(found, mean);
 
-  std::vector<Image> carried(cloud.points.size());
-  if (reason.empty() && thinned)
-    carried = carried_images(cloud, surface, thinned->spacing(), images, confidence, context);
-  else if (reason.empty())
-    for (Index i = 0; i < cloud.points.size(); ++i)
-      if (const Index v = surface.vertex_of[i]; v >= 0)
-        carried[i] = {surface.point_of[images[v]], confidence[v]};
-  Eigen::MatrixXd image(cloud.points.size(), 1), sure(cloud.points.size(), 1);
+  std::vector<Index> images(cloud.points.size(), -1);
+  if (!found.images.empty()) {
+    const Patches last(surface, samples, vertices, narrow);
+    images =
+        images_of(cloud, thinned.has_value(), vertices,
+                  last.extended(last.refined(found.images, patch_rounds), context.stage(0.8, 0.9)),
+                  wide * samples.longest, context.stage(0.9, 1));
+  }
+  Eigen::MatrixXd confidence = Eigen::MatrixXd::Zero(cloud.points.size(), 1);
+  Index mapped = 0;
   for (Index i = 0; i < cloud.points.size(); ++i) {
-    image(i) = static_cast<double>(carried[i].point);
-    sure(i) = carried[i].confidence;
+    if (images[i] < 0) continue;
+    ++mapped;
+    const Index back = images[images[i]];
+    if (back < 0) continue;
+    const double away =
+        (cloud.points[back] - cloud.points[i]).norm() / (half_confident * cloud.diagonal);
+    confidence(i) = 1 / (1 + away * away);
   }
-  result.arrays = {{"image", image}, {"confidence", sure}};
+  const double mean = mapped > 0 ? confidence.sum() / static_cast<double>(mapped) : 0;
+  const std::string reason = reason_against(found, mean);
+  Eigen::MatrixXd image = Eigen::MatrixXd::Constant(cloud.points.size(), 1, -1);
+  if (reason.empty())
+    for (Index i = 0; i < cloud.points.size(); ++i) image(i) = static_cast<double>(images[i]);
+  else
+    confidence.setZero();
+  result.arrays = {{"image", image}, {"confidence", confidence}};
   result.statistics = {{"verdict", std::string(reason.empty() ? "found" : "none")},
                        {"reason", reason},
                        {"signs", found.signs},
-                       {"orientation", found.orientation},
+                       {"orientation", -found.change.handedness},
                        {"distortion", found.distortion},
                        {"moved", found.moved},
                        {"confidence", mean},
@@ -154,8 +143,8 @@ AnalysisImplementation intrinsic_symmetry_analysis() {
       "Gives for each point of a posed body the one on its other side, where no mirror maps left "
       "to right.";
   analysis.parameters = {Parameter::integer(
-      "functions", 60, 20, 60, "",
-      "Eigenfunctions that images are compared by; more follow details, fewer noise less.")};
+      "functions", 40, 20, 60, "",
+      "Eigenfunctions that maps are searched by; more follow details, fewer noise less.")};
   analysis.arrays = {
       {"image", ParameterType::Integer, 1, "The point on the other side, -1 for none.", false,
        true},
