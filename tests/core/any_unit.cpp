@@ -29,7 +29,7 @@ TEST(AnyUnit, EveryMethodFindsTheSame) {
     Options options{.method = method.name};
     if (method.name == "sphere_thesis") options.parameters = {{"sample_size", Index{40}}};
     const Result one = detect(points, options);
-    for (const int power : {-150, -60, 60, 150}) {
+    for (const int power : {-150, 150}) {
       const double unit = std::ldexp(1, power);
       const Result other = detect(Points(unit * points), options);
       EXPECT_NEAR(other.score, one.score, 1e-6) << method.name << " in 2^" << power;

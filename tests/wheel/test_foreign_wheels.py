@@ -87,7 +87,9 @@ def test_first_mirror_on_arm(wheel, tmp_path):
         pytest.skip(f"no Python {version(wheel)} for aarch64 is here")
     site = install(wheel, tmp_path / "site", "manylinux_2_28_aarch64", "manylinux_2_17_aarch64")
     system = "/usr/aarch64-linux-gnu"
-    assert "symsurf" in first_mirror("qemu-aarch64", "-L", system, python, site=site)
+    libraries = ":".join(str(each) for each in (MADE / "zlib-arm64").glob("**/aarch64-linux-gnu"))
+    setting = {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={libraries}"}
+    assert "symsurf" in first_mirror("qemu-aarch64", "-L", system, python, site=site, **setting)
 
 
 @pytest.mark.parametrize("wheel", wheels("*.whl"), ids=name)

@@ -10,7 +10,7 @@
 
 namespace symsurf {
 
-using Index = std::int64_t;
+using Index = Eigen::Index;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Matrix4 = Eigen::Matrix4d;
