@@ -28,11 +28,10 @@ Error error_of(const LimbedBody& body, const Eigen::MatrixXd& images) {
   Error error;
   double longest = 0, count = 0;
   for (Index i = 0; i < body.points.rows(); i += body.points.rows() / checked) {
-    const Eigen::VectorXd away = edge_distances(surface, surface.vertex_of[body.mirrored[i]]);
+    const Eigen::VectorXd away = edge_distances(surface, body.mirrored[i]);
     longest = std::max(longest, away.maxCoeff());
-    error.mean +=
-        images(i) < 0 ? away.maxCoeff() : away[surface.vertex_of[static_cast<Index>(images(i))]];
-    error.moved += away[surface.vertex_of[i]];
+    error.mean += images(i) < 0 ? away.maxCoeff() : away[static_cast<Index>(images(i))];
+    error.moved += away[i];
     ++count;
   }
   error.mean /= count * longest;

@@ -120,9 +120,7 @@ ConnectedSurface connected_surface(PointsView points, TrianglesView faces, const
     if (part_of[v] == largest - areas.begin()) {
       name[v] = static_cast<Index>(kept.size());
       kept.push_back(v);
-      surface.point_of.push_back(distinct.first[v]);
     }
-  for (const Index v : distinct.number) surface.vertex_of.push_back(name[v]);
   surface.points = positions(kept, Eigen::indexing::all);
   surface.laplacian.areas = whole.areas(kept) / *largest;
   std::vector<Eigen::Triplet<double>> entries;

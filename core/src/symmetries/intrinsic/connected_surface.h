@@ -13,11 +13,8 @@ namespace symsurf {
 struct ConnectedSurface {
   Points points;
   Laplacian laplacian;  ///< areas add up to 1, eigenvalues are in their unit
-  /// The first point of the input that each vertex is, and the vertex of each point; -1: of
-  /// another part.
-  std::vector<Index> point_of, vertex_of;
-  Index parts = 0;   ///< of the input that do not touch
-  double share = 0;  ///< of the area of all in this one
+  Index parts = 0;      ///< of the input that do not touch
+  double share = 0;     ///< of the area of all in this one
 };
 
 /// The part of the input that has the most area. Equal points are merged, parts joined where they

@@ -11,7 +11,7 @@
 #include "preprocess/boundary.h"
 #include "spatial/point_tree.h"
 #include "symmetries/analysis_registry.h"
-#include "symmetries/intrinsic/functional_map.h"
+#include "symmetries/intrinsic/map_search.h"
 #include "symmetries/thinned_surface.h"
 
 namespace symsurf {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/eigenvectors.h"
+#include "base/math.h"
 #include "base/parallel.h"
 
 namespace symsurf {
@@ -12,14 +13,6 @@ namespace {
 
 constexpr double rounding = 1e-12;  // of residuals of flat patches, which both maps fit
 constexpr Index fewest = 6;  // samples of a patch: three determine a reflection, noise asks more
-
-// Biweight: 1 at the middle of a patch, 0 at its rim.
-double weight_at(double distance, double radius) {
-  if (distance == 0) return 1;
-  if (distance >= radius) return 0;
-  const double left = 1 - distance / radius * (distance / radius);
-  return left * left;
-}
 
 }  // namespace
 
@@ -33,7 +26,7 @@ Patches::Patches(const ConnectedSurface& surface, const SampledPoints& samples,
     radii_.push_back(std::max(radius, ascending[last]));
     std::vector<Member>& patch = patches_.emplace_back();
     for (Index i = 0; i < samples.count(); ++i) {
-      const double weight = weight_at(samples.distances(i, j), radii_.back()) * samples.weights[i];
+      const double weight = biweight(samples.distances(i, j) / radii_.back()) * samples.weights[i];
       if (weight > 0) patch.push_back({i, weight});
     }
   }
@@ -106,7 +99,7 @@ Index Patches::image(const std::vector<Eigen::Isometry3d>& reflections, Index ve
   Vector3 sum = Vector3::Zero();
   double weights = 0;
   for (Index j = 0; j < samples_.count(); ++j) {
-    const double weight = weight_at(samples_.to_all(vertex, j), radii_[j]);
+    const double weight = biweight(samples_.to_all(vertex, j) / radii_[j]);
     if (weight == 0) continue;
     weights += weight;
     sum += weight * (reflections[j] * x);

@@ -10,33 +10,6 @@
 
 namespace symsurf {
 
-/// A map of a surface onto itself, x -> T x, as the matrix with f(T x) = C' f(x) for the first
-/// eigenfunctions f (Ovsjanikov et al. 2012). It is orthogonal, as the map is an isometry.
-using FunctionalMap = Eigen::MatrixXd;
-
-/// Values of functions at vertices with their weights, and where a map sends each of these.
-class SampledFunctions {
- public:
-  /// Of so many vertices of the basis.
-  SampledFunctions(const SurfaceBasis& basis, const std::vector<Index>& vertices,
-                   Eigen::VectorXd weights);
-
-  /// Of each vertex the one, by its position among them, where the first functions are nearest to
-  /// the mapped ones.
-  std::vector<Index> images(const FunctionalMap& map) const;
-
-  /// The orthogonal map of the first `count` functions that fits the images best (Procrustes).
-  FunctionalMap fitted(const std::vector<Index>& images, Index count) const;
-
-  /// Images and map by turns, of more functions each time (Melzi et al. 2019, ZoomOut).
-  FunctionalMap refined(std::vector<Index> images, Index first, Index last, Index step,
-                        const Context& context) const;
-
- private:
-  Eigen::MatrixXd values_;  // a row a vertex
-  Eigen::VectorXd weights_;
-};
-
 /// A map of a surface onto itself, by where it sends samples, that keeps its eigenfunctions up to
 /// their signs.
 struct IntrinsicMap {

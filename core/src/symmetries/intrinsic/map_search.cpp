@@ -1,4 +1,4 @@
-#include "symmetries/intrinsic/functional_map.h"
+#include "symmetries/intrinsic/map_search.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,35 @@
 #include "base/math.h"
 
 namespace symsurf {
+
+namespace {
+
+// A map of a surface onto itself, x -> T x, as the matrix with f(T x) = C' f(x) for the first
+// eigenfunctions f (Ovsjanikov et al. 2012). It is orthogonal, as the map is an isometry.
+using FunctionalMap = Eigen::MatrixXd;
+
+// Values of functions at vertices with their weights, and where a map sends each of these.
+class SampledFunctions {
+ public:
+  // Of so many vertices of the basis.
+  SampledFunctions(const SurfaceBasis& basis, const std::vector<Index>& vertices,
+                   Eigen::VectorXd weights);
+
+  // Of each vertex the one, by its position among them, where the first functions are nearest to
+  // the mapped ones.
+  std::vector<Index> images(const FunctionalMap& map) const;
+
+  // The orthogonal map of the first `count` functions that fits the images best (Procrustes).
+  FunctionalMap fitted(const std::vector<Index>& images, Index count) const;
+
+  // Images and map by turns, of more functions each time (Melzi et al. 2019, ZoomOut).
+  FunctionalMap refined(std::vector<Index> images, Index first, Index last, Index step,
+                        const Context& context) const;
+
+ private:
+  Eigen::MatrixXd values_;  // a row a vertex
+  Eigen::VectorXd weights_;
+};
 
 SampledFunctions::SampledFunctions(const SurfaceBasis& basis, const std::vector<Index>& vertices,
                                    Eigen::VectorXd weights)
@@ -52,8 +81,6 @@ FunctionalMap SampledFunctions::refined(std::vector<Index> from, Index first, In
     from = images(map);
   }
 }
-
-namespace {
 
 constexpr Index most_signs = 8;    // functions all of whose signs are tried
 constexpr Index looked_at = 16;    // among the first so many
