@@ -225,7 +225,7 @@ def test_lengths_are_told_with_their_share(ball):
     shape, _ = ball
     result = symsurf.asymmetry(shape, PLANE)
     share = 100 * result.statistics["rms_of_diagonal"]
-    assert f"({share:.3g} % of the diagonal)" in result.summary["rms"]
+    assert f"({share:.3f} % of the diagonal)" in result.summary["rms"]
 
 
 @pytest.mark.parametrize("name", RESULTS)

@@ -9,7 +9,7 @@ from pathlib import Path
 from .._core import Operation
 from ..batching.file_task import Record
 from ..reading.json_records import read_mirror
-from ..results.summary import figures
+from ..results.summary import figures, of_the_diagonal
 from ..saving import SHAPE_FORMATS
 from ..saving.shape_files import output_suffix
 from .batch_options import (
@@ -100,7 +100,7 @@ def _text(record: Record) -> str:
         lines.append(f"  mirror              {record['mirror']['kind']}, given")
     for name, value, share in figures(record["statistics"]):
         if share is not None:
-            lines.append(f"  {name:<19} {value:<12.6g} {100 * share:.4g} % of the diagonal")
+            lines.append(f"  {name:<19} {value:<12.6g} {of_the_diagonal(share)}")
         elif isinstance(value, list) and isinstance(value[0], list):
             rows = ["  ".join(f"{number:12.6g}" for number in row) for row in value]
             lines += [f"  {name}", *(f"    {row}" for row in rows)]

@@ -10,6 +10,7 @@ from .._core import operations
 from ..batching.file_task import Record
 from ..batching.report_files import report_tasks, write_report
 from ..report import require_viewer
+from ..results.summary import of_the_diagonal
 from .batch_options import (
     add_absolute,
     add_files,
@@ -62,9 +63,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _text(record: Record) -> str:
-    rms = 100 * record["statistics"]["rms_of_diagonal"]
+    rms = of_the_diagonal(record["statistics"]["rms_of_diagonal"])
     kind = record["mirror"]["kind"]
     return (
         f"{record['file']}: {record['verdict']}, {kind}, score {record['score']:.3f}, asymmetry "
-        f"{rms:.3g} % of the diagonal"
+        f"{rms}"
     )

@@ -24,7 +24,7 @@ from ..results import (
     Transferred,
     outputs,
 )
-from ..results.summary import percent
+from ..results.summary import of_the_diagonal, percent
 from ..shapes import Shape
 from .drawing import (
     COLOURS,
@@ -277,8 +277,8 @@ def _title(result: OperationResult) -> str:
         matched = percent(figures["matched_share"])
         if "rms_of_diagonal" not in figures:
             return f"asymmetry over a {kind}: {matched} matched"
-        rms = 100 * figures["rms_of_diagonal"]
-        return f"asymmetry over a {kind}: rms {rms:.2g} % of the diagonal, {matched} matched"
+        rms = of_the_diagonal(figures["rms_of_diagonal"])
+        return f"asymmetry over a {kind}: rms {rms}, {matched} matched"
     if isinstance(result, (Correspondences, Symmetrized)):
         name = "symmetrized" if isinstance(result, Symmetrized) else "correspondences"
         return f"{name} over a {kind}: {percent(figures['paired_share'])} paired"
@@ -287,8 +287,8 @@ def _title(result: OperationResult) -> str:
         over = f"over a {kind}" if result.mirror is not None else "about an axis"
         return f"completed {over}: {added} points added"
     if isinstance(result, Remeshed):
-        length = 100 * figures["edge_length_of_diagonal"]
-        return f"remeshed over a {kind}: edges of {length:.2g} % of the diagonal"
+        length = of_the_diagonal(figures["edge_length_of_diagonal"])
+        return f"remeshed over a {kind}: edges of {length}"
     if isinstance(result, Half):
         return f"cut along a {kind}: {figures['cap_faces']} faces close it"
     if isinstance(result, Illuminated):

@@ -12,7 +12,7 @@ import numpy as np
 from ..plotting.drawing import new_plotter
 from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
-from ..results.summary import figures
+from ..results.summary import figures, of_the_diagonal, percent
 from .charts import histogram
 from .html import columns, fixed, framed, heading, page, paragraph, table
 from .scene import scripts_of, viewer_page
@@ -66,8 +66,8 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
 
 def _sentence(record: Record, kind: str) -> str:
     statistics = record["statistics"]
-    matched = f"{100 * statistics['matched_share']:.3g} % of {record['points']} points"
-    rms = f"{fixed(100 * statistics['rms_of_diagonal'], 3)} % of the diagonal"
+    matched = f"{percent(statistics['matched_share'])} of {record['points']} points"
+    rms = of_the_diagonal(statistics["rms_of_diagonal"])
     return f"Over a {kind} with score {record['score']:.2f}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
 
 

@@ -37,6 +37,11 @@ def percent(share: float) -> str:
     return f"{int(1000 * share) / 10:g} %"
 
 
+def of_the_diagonal(share: float) -> str:
+    """In digits that a reader compares: what is nothing reads 0.000 %, not 4.3e-05 %."""
+    return f"{100 * share:.3f} % of the diagonal"
+
+
 def figures(statistics: Mapping[str, Any]) -> Iterator[tuple[str, Any, float | None]]:
     """What is printed of statistics: name, value, and of a length its share of the diagonal. Reasons for
     which no point is unmatched are left out."""
@@ -48,7 +53,7 @@ def figures(statistics: Mapping[str, Any]) -> Iterator[tuple[str, Any, float | N
 def value_text(name: str, value: Any, of_diagonal: float | None = None) -> str:
     """A reported figure in words; of a length with its share of the diagonal."""
     if of_diagonal is not None:
-        return f"{value:.4g} ({100 * of_diagonal:.3g} % of the diagonal)"
+        return f"{value:.4g} ({of_the_diagonal(of_diagonal)})"
     if name.endswith("_share") or name.startswith(_UNMATCHED):
         return percent(value)
     if isinstance(value, np.ndarray):
