@@ -66,7 +66,6 @@ void bind_analyses(py::module_& module) {
       .def_readonly("shown", &Analysis::shown,
                     "The name of the array to colour points by; empty: none.")
       .def_readonly("minimum_points", &Analysis::minimum_points)
-      .def_readonly("needs_faces", &Analysis::needs_faces, "Whether a bare cloud is refused.")
       .def_readonly("takes_colours", &Analysis::takes_colours,
                     "Whether colours of the points may count.")
       .def_readonly("finds_elements", &Analysis::finds_elements,

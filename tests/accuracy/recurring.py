@@ -1,4 +1,4 @@
-"""Meshes with parts that recur: facades with windows and gears with teeth, in any pose."""
+"""Meshes and clouds with parts that recur: facades with windows and gears with teeth, in any pose."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import symsurf
 from .case import Case, Figures, at_least, at_most
 from .poses import random_rotation
 from .repeated import facade, gear
+from .solids import sampled_with_triangles
 
 SUBJECTS = {
     "facade": lambda rng, cells: facade(4, 6, rng, cells),
@@ -58,6 +59,30 @@ def _trial(
     }
 
 
+def _cloud_trial(
+    subject: str,
+    rng: np.random.Generator,
+    noise: float,
+) -> Figures:
+    """Of 10^5 points. A point belongs to the window or tooth that its triangle has two corners of."""
+    mesh, faces, label = SUBJECTS[subject](rng, int(rng.integers(1, 7)))
+    points, triangle = sampled_with_triangles(mesh, faces, 100_000, rng)
+    of_corners = np.sort(label[faces[triangle]], axis=1)
+    middle = of_corners[:, 1]
+    shared = (middle == of_corners[:, 2]) if "gear" in subject else np.ptp(of_corners, axis=1) == 0
+    points = np.exp(rng.normal()) * points @ random_rotation(rng).T + rng.normal(size=3)
+    points += rng.normal(scale=noise * np.linalg.norm(np.ptp(points, axis=0)), size=points.shape)
+    start = time.process_time()
+    found = symsurf.recurring_parts(points, threads=1)
+    seconds = time.process_time() - start
+    return {
+        "found": float(_is_right(found, np.where(shared, middle, -1), 0.9)),
+        "parts": float(len(found.parts)),
+        "instances": float(len(found.transformations)),
+        "seconds": seconds,
+    }
+
+
 def _is_right(found: symsurf.RecurringParts, label: NDArray[np.int64], pure: float) -> bool:
     """One part with an instance for each label, which has that share of its labelled points."""
     if len(found.parts) != 1:
@@ -70,6 +95,13 @@ def _is_right(found: symsurf.RecurringParts, label: NDArray[np.int64], pure: flo
             return False
         owners.append(int(counts.argmax()))
     return sorted(owners) == list(range(label.max() + 1))
+
+
+def _clouds(what: str, noise: float) -> Case:
+    subjects = tuple(subject for subject in SUBJECTS if "bars" not in subject)
+    return Case(f"neighbours, recurring: {what}", subjects,
+                lambda subject, rng: _cloud_trial(subject, rng, noise),
+                {"seconds": at_most(2)}, trials=20)  # fmt: skip
 
 
 def _neighbours(what: str, subjects: tuple[str, ...], noise: float) -> Case:
@@ -85,6 +117,9 @@ CASES = (
          lambda subject, rng: _trial(subject, rng, 1e-4), {"seconds": at_most(2)}, trials=50),
     _neighbours("mesh, noise 0.1 %", tuple(SUBJECTS), 1e-3),
     _neighbours("mesh, noise 0.3 %", tuple(SUBJECTS), 3e-3),
+    _clouds("cloud", 0),
+    _clouds("cloud, noise 0.05 %", 5e-4),
+    _clouds("cloud, noise 0.1 %", 1e-3),
     _neighbours("curved flanks", tuple(CURVED), 0),
     _neighbours("curved flanks, noise 0.1 %", tuple(CURVED), 1e-3),
 )  # fmt: skip

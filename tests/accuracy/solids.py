@@ -38,13 +38,20 @@ def sampled(
     points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator
 ) -> Points:
     """Points (count, 3), uniform over the triangles."""
+    return sampled_with_triangles(points, faces, count, rng)[0]
+
+
+def sampled_with_triangles(
+    points: Points, faces: NDArray[np.int64], count: int, rng: np.random.Generator
+) -> tuple[Points, NDArray[np.int64]]:
+    """The same, and the triangle of each."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     chosen = rng.choice(len(faces), size=count, p=area / area.sum())
     s, t = rng.random((2, count, 1))
     flip = s + t > 1
     s, t = np.where(flip, 1 - s, s), np.where(flip, 1 - t, t)
-    return a[chosen] + s * (b - a)[chosen] + t * (c - a)[chosen]
+    return a[chosen] + s * (b - a)[chosen] + t * (c - a)[chosen], chosen
 
 
 @cache

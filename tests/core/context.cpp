@@ -47,10 +47,9 @@ std::vector<LongCall> long_calls() {
         {method.name, [options](const Context& context) { detect(few, options, context); }});
   }
   for (const Analysis& analysis : analyses())
-    if (!analysis.needs_faces)
-      calls.push_back({analysis.name, [&analysis](const Context& context) {
-                         analyse(analysis.name, few, {}, context);
-                       }});
+    calls.push_back({analysis.name, [&analysis](const Context& context) {
+                       analyse(analysis.name, few, {}, context);
+                     }});
   for (const Operation& operation : operations())
     calls.push_back({operation.name, [&operation](const Context& context) {
                        const OperationInput input = operation.needs_faces

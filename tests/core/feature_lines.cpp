@@ -8,7 +8,9 @@
 #include <numbers>
 #include <vector>
 
+#include "base/math.h"
 #include "random_cloud.h"
+#include "symmetries/recurring/cloud_facets.h"
 
 namespace symsurf {
 namespace {
@@ -72,6 +74,77 @@ TEST(FeatureLines, OfARoundBarAreItsRims) {
   for (const FeatureLine& line : found.lines) {
     EXPECT_FALSE(line.has_ends());
     EXPECT_NEAR(line.length, 80 * std::sin(std::numbers::pi / 40), 1e-12);
+  }
+}
+
+// Random points of a convex polyhedron's facets, each given by its corners in order, and its lines.
+FeatureLines lines_of_cloud(const std::vector<std::vector<Vector3>>& facets, RandomCloud& random) {
+  std::vector<Vector3> points;
+  for (const std::vector<Vector3>& facet : facets)
+    for (std::size_t k = 1; k + 1 < facet.size(); ++k) {
+      const Vector3 a = facet[k] - facet[0], b = facet[k + 1] - facet[0];
+      const auto count = static_cast<int>(1000 * a.cross(b).norm());
+      for (int point = 0; point < count; ++point) {
+        const double u = std::sqrt(random.uniform(0, 1)), v = random.uniform(0, 1);
+        points.push_back(facet[0] + u * ((1 - v) * a + v * b));
+      }
+    }
+  const CloudFacets cloud(rows_of(points), Context());
+  EXPECT_EQ(cloud.planes.size(), facets.size());
+  return feature_lines(cloud, angle, Context());
+}
+
+// That the graph has these corners, with so many lines at each.
+void expect_corners(const FeatureLines& graph, const std::vector<Vector3>& corners,
+                    const std::vector<std::size_t>& lines_at) {
+  EXPECT_EQ(graph.corners.size(), corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto found =
+        std::find_if(graph.corners.begin(), graph.corners.end(),
+                     [&](const Vector3& x) { return (x - corners[k]).norm() < 1e-3; });
+    ASSERT_NE(found, graph.corners.end()) << corners[k].transpose();
+    EXPECT_EQ(graph.at[found - graph.corners.begin()].size(), lines_at[k]);
+  }
+}
+
+TEST(FeatureLines, OfACloudAreTheEdgesOfABox) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomCloud random(seed);
+    const Matrix3 turn = random.rotation();
+    std::vector<Vector3> x;
+    for (const double height : {0.0, 1.0})
+      for (const Vector3& corner : {Vector3(0, 0, height), Vector3(3, 0, height),
+                                    Vector3(3, 2, height), Vector3(0, 2, height)})
+        x.push_back(turn * corner);
+    const FeatureLines graph = lines_of_cloud({{x[0], x[1], x[2], x[3]},
+                                               {x[4], x[5], x[6], x[7]},
+                                               {x[0], x[1], x[5], x[4]},
+                                               {x[1], x[2], x[6], x[5]},
+                                               {x[2], x[3], x[7], x[6]},
+                                               {x[3], x[0], x[4], x[7]}},
+                                              random);
+    EXPECT_EQ(graph.lines.size(), 12u);
+    expect_corners(graph, x, std::vector<std::size_t>(8, 3));
+    double length = 0;
+    for (const FeatureLine& line : graph.lines) length += line.length;
+    EXPECT_NEAR(length, 24, 1e-2);
+  }
+}
+
+TEST(FeatureLines, OfACloudMeetWhereFourFacetsDo) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomCloud random(seed);
+    const std::vector<Vector3> x{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1.5}};
+    const FeatureLines graph = lines_of_cloud({{x[0], x[1], x[2], x[3]},
+                                               {x[0], x[1], x[4]},
+                                               {x[1], x[2], x[4]},
+                                               {x[2], x[3], x[4]},
+                                               {x[3], x[0], x[4]}},
+                                              random);
+    EXPECT_EQ(graph.lines.size(), 8u);
+    expect_corners(graph, x, {3, 3, 3, 3, 4});
   }
 }
 

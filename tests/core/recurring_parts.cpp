@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -336,9 +337,72 @@ TEST(RecurringParts, AreTheSameInAnyOrderAndByAnyNumberOfThreads) {
   }
 }
 
-TEST(RecurringParts, AreNotSoughtInABareCloud) {
-  expect_error<InvalidInput>("recurring_parts needs a mesh with faces",
-                             [] { analyse("recurring_parts", RandomCloud(0).box(100)); });
+// So many points of a soup's triangles, uniform over their area.
+Labelled cloud_of(const Labelled& soup, Index count, RandomCloud& random) {
+  const auto corner = [&](Index i) { return Vector3(soup.points.row(i)); };
+  std::vector<double> area{0};
+  for (Index i = 0; i < soup.points.rows(); i += 3)
+    area.push_back(area.back() +
+                   (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm());
+  Labelled cloud{Points(count, 3), {}};
+  for (Index k = 0; k < count; ++k) {
+    const auto above = std::upper_bound(area.begin(), area.end(), random.uniform(0, area.back()));
+    const Index i = 3 * (above - area.begin() - 1);
+    const double u = std::sqrt(random.uniform(0, 1)), v = random.uniform(0, 1);
+    cloud.points.row(k) =
+        ((1 - u) * corner(i) + u * (1 - v) * corner(i + 1) + u * v * corner(i + 2)).transpose();
+    cloud.label.push_back(soup.label[i]);
+  }
+  return cloud;
+}
+
+AnalysisResult recurring_parts_of_cloud(const Points& points, const Context& context = {}) {
+  return analyse("recurring_parts", points, {}, context);
+}
+
+TEST(RecurringParts, OfACloudAreWindowsToo) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomCloud random(seed);
+    Labelled wall = cloud_of(facade(random, 3, 2), 60000, random);
+    wall.points = moved(wall.points, random_motion(random, seed % 2));
+    const AnalysisResult result = recurring_parts_of_cloud(wall.points);
+    ASSERT_EQ(std::get<Index>(result.statistics.at("parts")), 1);
+    std::vector<int> found;
+    for (const Transformation& map : result.transformations) {
+      std::vector<Index> points_of(6, 0);
+      for (const Index i : map.onto)
+        if (wall.label[i] >= 0) ++points_of[wall.label[i]];
+      const auto most = std::max_element(points_of.begin(), points_of.end());
+      EXPECT_GT(*most, 1000);
+      EXPECT_EQ(*most, std::accumulate(points_of.begin(), points_of.end(), Index{0}));
+      found.push_back(static_cast<int>(most - points_of.begin()));
+      EXPECT_EQ(map.kind, found.size() == 1 ? "identity" : "translation");
+      EXPECT_GT(map.score, 0.9);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  }
+}
+
+TEST(RecurringParts, OfACloudAreTheSameByAnyNumberOfThreads) {
+  RandomCloud random(0);
+  const Points points = cloud_of(facade(random, 3, 2), 60000, random).points;
+  const AnalysisResult one = recurring_parts_of_cloud(points, Context(nullptr, 1)),
+                       three = recurring_parts_of_cloud(points, Context(nullptr, 3));
+  ASSERT_EQ(one.transformations.size(), 6u);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_EQ(one.transformations[k].matrix, three.transformations[k].matrix);
+  EXPECT_EQ(one.arrays.at("instance"), three.arrays.at("instance"));
+}
+
+TEST(RecurringParts, AreNoneOfCloudsWithoutThem) {
+  RandomCloud random(0);
+  Points copies(2000, 3);
+  for (Index i = 0; i < copies.rows(); ++i) copies.row(i) = Vector3(i % 20, i % 20 % 3, 0);
+  for (const Points& points :
+       {random.box(20000), random.sphere(20000), random.lattice(8000, 20), random.box(4), copies})
+    EXPECT_TRUE(recurring_parts_of_cloud(points).transformations.empty());
 }
 
 }  // namespace

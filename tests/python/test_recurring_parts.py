@@ -1,4 +1,4 @@
-"""The parts of meshes that recur, against what they are made to have."""
+"""The parts of meshes and clouds that recur, against what they are made to have."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 import numpy as np
 import pytest
 from accuracy.repeated import facade, gear
+from accuracy.solids import sampled
 from symmetric_shapes import random_rotation
 
 import symsurf
@@ -58,9 +59,15 @@ def test_what_is_found_is_told():
         np.testing.assert_allclose(high, points[each.onto_points].max(axis=0), atol=1e-9)
 
 
-def test_a_cloud_is_an_error():
-    with pytest.raises(symsurf.InvalidInput, match="recurring_parts needs a mesh with faces"):
-        symsurf.recurring_parts(np.random.default_rng(0).random((50, 3)))
+@pytest.mark.parametrize("seed", range(3))
+def test_a_cloud_has_its_windows(seed):
+    rng = np.random.default_rng(seed)
+    points, faces, _ = facade(2, 3, rng)
+    cloud = posed(sampled(points, faces, 60000, rng), seed)
+    found = symsurf.recurring_parts(cloud)
+    (part,) = found.parts
+    assert [each.kind for each in part] == ["identity"] + ["translation"] * 5
+    assert "instances of each part: 6" in repr(found)
 
 
 @pytest.mark.parametrize("seed", range(3))

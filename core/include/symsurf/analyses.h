@@ -90,7 +90,6 @@ struct Analysis {
   std::vector<PointArray> arrays;
   std::string shown;  ///< the array to colour points by; empty: none
   Index minimum_points = 4;
-  bool needs_faces = false;       ///< a bare cloud is InvalidInput
   bool takes_colours = false;     ///< AnalysisOptions::colours
   bool finds_elements = false;    ///< AnalysisResult::planes and axes
   bool finds_transforms = false;  ///< AnalysisResult::transformations

@@ -132,8 +132,6 @@ AnalysisResult analyse(std::string_view name, PointsView points, const AnalysisO
   const AnalysisImplementation& analysis = analysis_implementation(name);
   const ParameterValues values(analysis.name, analysis.parameters, options.parameters);
   require_corners(options.faces, points.size());
-  if (analysis.needs_faces && options.faces.empty())
-    throw InvalidInput("a bare cloud is given; " + analysis.name + " needs a mesh with faces");
   if (analysis.maximum_points > 0 && points.size() > analysis.maximum_points)
     throw InvalidInput(std::to_string(points.size()) + " points given; " + analysis.name +
                        " takes at most " + std::to_string(analysis.maximum_points));

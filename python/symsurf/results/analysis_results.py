@@ -437,7 +437,7 @@ class PartialSymmetries(AnalysisResult):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RecurringParts(AnalysisResult):
-    """The parts of a mesh that recur.
+    """The parts of a mesh or cloud that recur.
 
     ``transformations`` has the maps from the first instance of a part to each of its instances, the
     identity first, part after part: those that make up most of the feature lines come first.

@@ -43,12 +43,11 @@ def _signature(analysis: Analysis) -> inspect.Signature:
 
 
 def _documentation(analysis: Analysis) -> list[str]:
-    given = "a mesh" if analysis.needs_faces else "points, a mesh or a file"
     return [
         textwrap.fill(analysis.summary, 96),
         "",
         "Args:",
-        argument_text(f"shape: {given}, as ``detect`` takes them."),
+        argument_text("shape: points, a mesh or a file, as ``detect`` takes them."),
         *parameter_texts(analysis.parameters),
         *(
             argument_text(f"{name}: {text}")

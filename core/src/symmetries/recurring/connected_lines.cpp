@@ -214,7 +214,7 @@ LocalLines ConnectedLines::common(const std::vector<const LocalMatch*>& matches,
 }
 
 LocalLines ConnectedLines::disjoint(const std::vector<const LocalMatch*>& matches,
-                                    std::int32_t start, const Vector3& point) const {
+                                    std::int32_t start, const Vector3& point, double share) const {
   using Step = std::pair<double, std::int32_t>;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;
   std::vector<char> seen(size(), 0), claimed(graph_.lines.size(), 0);
@@ -228,15 +228,19 @@ LocalLines ConnectedLines::disjoint(const std::vector<const LocalMatch*>& matche
   while (!steps.empty()) {
     const std::int32_t line = steps.top().second;
     steps.pop();
-    std::size_t fresh = 0;
+    LocalLines images;
+    bool is_free = true;
     for (const LocalMatch* match : matches) {
       const std::int32_t image = match->images[line];
-      if (image < 0 || claimed[image]) break;
+      if (image < 0) continue;
+      is_free = !claimed[image];
+      if (!is_free) break;
       claimed[image] = 1;
-      ++fresh;
+      images.push_back(image);
     }
-    if (fresh < matches.size()) {
-      for (std::size_t k = 0; k < fresh; ++k) claimed[matches[k]->images[line]] = 0;
+    if (!is_free ||
+        static_cast<double>(images.size()) < share * static_cast<double>(matches.size())) {
+      for (const std::int32_t image : images) claimed[image] = 0;
       continue;
     }
     part.push_back(line);

@@ -84,10 +84,10 @@ class ConnectedLines {
   /// The lines connected with the seed by lines that have an image by this share of the maps.
   LocalLines common(const std::vector<const LocalMatch*>& matches, double share) const;
 
-  /// Lines connected with `start`, first those nearer to a point, whose images by these maps are
-  /// all there and no line twice.
+  /// Lines connected with `start`, first those nearer to a point, that have an image by this share
+  /// of the maps; no line is an image twice.
   LocalLines disjoint(const std::vector<const LocalMatch*>& matches, std::int32_t start,
-                      const Vector3& point) const;
+                      const Vector3& point, double share) const;
 
  private:
   template <typename Visit>

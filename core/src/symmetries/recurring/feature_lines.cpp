@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include "base/parallel.h"
 #include "spatial/voxel_grid.h"
 #include "symmetries/recurring/facets.h"
+#include "symmetries/recurring/line_chains.h"
 
 namespace symsurf {
 
@@ -69,15 +71,12 @@ class LineExtraction {
         corner[place] = static_cast<Index>(found.corners.size());
         found.corners.push_back(positions_[place]);
       }
-    std::vector<char> used(edges_.size(), 0);
-    for (Index place = 0; place < count; ++place)
-      if (corner[place] >= 0)
-        for (const Index edge : edges_at_[place])
-          if (!used[edge]) found.lines.push_back(followed(place, edge, corner, used));
+    std::vector<std::array<Index, 2>> ends(edges_.size(), {-1, -1});
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      if (is_sharp(edges_[e])) ends[e] = {edges_[e].from, edges_[e].to};
     context.check();
-    for (std::size_t edge = 0; edge < edges_.size(); ++edge)
-      if (!used[edge] && is_sharp(edges_[edge]))
-        found.lines.push_back(followed(edges_[edge].from, static_cast<Index>(edge), corner, used));
+    for (const LineChain& chain : line_chains(ends, edges_at_, corner))
+      found.lines.push_back(line_of(chain, corner));
     return found;
   }
 
@@ -251,24 +250,16 @@ class LineExtraction {
     return -tangent(place, edges[0]).dot(tangent(place, edges[1])) < std::cos(angle_);
   }
 
-  // From a place along one of its edges up to a corner, or back to the place.
-  FeatureLine followed(Index start, Index edge, const std::vector<Index>& corner,
-                       std::vector<char>& used) {
-    std::vector<Index> places{start}, edges;
-    for (;;) {
-      used[edge] = 1;
-      edges.push_back(edge);
-      const Index place = other_end(edge, places.back());
-      places.push_back(place);
-      if (corner[place] >= 0 || place == start) break;
-      edge = edges_at_[place][edges_at_[place][0] == edge ? 1 : 0];
-    }
+  FeatureLine line_of(const LineChain& chain, const std::vector<Index>& corner) const {
+    const std::vector<Index>& places = chain.nodes;
     FeatureLine line;
     line.start = corner[places.front()];
     line.end = corner[places.back()];
-    sample(line, places, edges);
-    for (const Index place : places)
-      line.points.insert(line.points.end(), twins_[place].begin(), twins_[place].end());
+    sample(line, places, chain.edges);
+    for (const Index place : places) {
+      const std::vector<Index>& twins = twins_.at(place);
+      line.points.insert(line.points.end(), twins.begin(), twins.end());
+    }
     std::sort(line.points.begin(), line.points.end());
     line.points.erase(std::unique(line.points.begin(), line.points.end()), line.points.end());
     return line;
@@ -295,24 +286,11 @@ class LineExtraction {
       nodes.push_back(x);
       edge_to.push_back(edges[k - 1]);
     }
-    std::vector<double> reached{0};
-    for (std::size_t k = 1; k < nodes.size(); ++k)
-      reached.push_back(reached.back() + (nodes[k] - nodes[k - 1]).norm());
-    line.length = reached.back();
-    std::size_t k = 1;
-    for (int step = 0; step < FeatureLine::steps; ++step) {
-      const double at = line.length * step / FeatureLine::steps;
-      while (k + 1 < nodes.size() && reached[k] < at) ++k;
-      const double edge = reached[k] - reached[k - 1];
-      const double share = edge > 0 ? (at - reached[k - 1]) / edge : 0;
-      line.samples[step] = (1 - share) * nodes[k - 1] + share * nodes[k];
-      if (step == FeatureLine::steps / 2) {
-        const Border& border = borders_[edges_[edge_to[k]].border];
-        line.wing_error = border.error;
-        const Vector3 along = (nodes[k] - nodes[k - 1]).normalized();
-        line.wings = wings_of(border, along, edges);
-      }
-    }
+    const std::size_t k = sample_along(nodes, line);
+    const Border& border = borders_[edges_[edge_to[k]].border];
+    line.wing_error = border.error;
+    const Vector3 along = (nodes[k] - nodes[k - 1]).normalized();
+    line.wings = wings_of(border, along, edges);
   }
 
   // Across the line in the planes beside it, to the side where most of the faces' area is.
@@ -372,16 +350,13 @@ FeatureLines without_short_lines(FeatureLines graph, double shortest) {
   }
   for (Index k = 0; k < count; ++k) graph.corners[k] = sum[k] / std::max(1.0, members[k]);
   graph.lines = std::move(kept);
-  graph.at.assign(count, {});
-  for (std::size_t number = 0; number < graph.lines.size(); ++number) {
-    FeatureLine& line = graph.lines[number];
+  for (FeatureLine& line : graph.lines) {
     if (!line.has_ends()) continue;
     line.start = joined.root(line.start);
     line.end = joined.root(line.end);
     line.samples[0] = graph.corners[line.start];
-    graph.at[line.start].push_back(static_cast<Index>(number));
-    if (line.end != line.start) graph.at[line.end].push_back(static_cast<Index>(number));
   }
+  connect(graph);
   return graph;
 }
 

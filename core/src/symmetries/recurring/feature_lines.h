@@ -8,7 +8,9 @@
 
 namespace symsurf {
 
-/// A stretch of sharp edges of a mesh from one corner to the next, or around to its beginning.
+struct CloudFacets;
+
+/// A stretch of sharp edges from one corner to the next, or around to its beginning.
 struct FeatureLine {
   static constexpr int steps = 8;
 
@@ -18,13 +20,13 @@ struct FeatureLine {
   /// Unit vectors across the line into the facets at its middle: they say how the surface bends.
   std::vector<Vector3> wings;
   double wing_error = 0;      ///< radians that noise may have turned them by
-  std::vector<Index> points;  ///< of the mesh
+  std::vector<Index> points;  ///< of the mesh, or of the cloud the nearest to samples
 
   bool has_ends() const { return start >= 0; }
   const Vector3& middle() const { return samples[steps / 2]; }
 };
 
-/// The feature lines of a mesh with the graph that they are the edges of.
+/// The feature lines of a shape with the graph that they are the edges of.
 struct FeatureLines {
   std::vector<FeatureLine> lines;
   std::vector<Vector3> corners;
@@ -37,5 +39,8 @@ struct FeatureLines {
 /// edges than two come together. Points at the same place are one.
 FeatureLines feature_lines(PointsView points, TrianglesView faces, double angle,
                            const Context& context);
+
+/// Of a cloud: where its planar facets cross, up to the corners of three.
+FeatureLines feature_lines(const CloudFacets& cloud, double angle, const Context& context);
 
 }  // namespace symsurf

@@ -6,7 +6,6 @@
 #include "base/eigenvectors.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "mesh/closest_point_on_mesh.h"
 #include "spatial/point_tree.h"
 
 namespace symsurf {
@@ -64,7 +63,7 @@ class PartBox {
 
 // Points of the surface on the lines and close beside them, where it goes on so far.
 std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& graph,
-                           const ClosestPointOnMesh& closest, double tolerance) {
+                           const SquaredDistance& to_surface, double tolerance) {
   constexpr double on_it = 0.1;  // of the tolerance
   std::vector<Vector3> points;
   for (const Index line : lines) {
@@ -72,7 +71,7 @@ std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& 
     points.insert(points.end(), own.samples.begin(), own.samples.end());
     for (const Vector3& wing : own.wings) {
       const Vector3 x = own.middle() + beside * own.length * wing;
-      if (closest(x, on_it * tolerance * on_it * tolerance).face >= 0) points.push_back(x);
+      if (to_surface(x) <= on_it * tolerance * on_it * tolerance) points.push_back(x);
     }
   }
   return points;
@@ -80,15 +79,15 @@ std::vector<Vector3> about(const std::vector<Index>& lines, const FeatureLines& 
 
 // How well each instance of a part fits the surface: see PartPoints.
 std::vector<double> scores_of(const RecurringPart& part, const FeatureLines& graph,
-                              const ClosestPointOnMesh& closest, double tolerance) {
-  const std::vector<Vector3> surface = about(part.lines, graph, closest, tolerance);
+                              const SquaredDistance& to_surface, double tolerance) {
+  const std::vector<Vector3> surface = about(part.lines, graph, to_surface, tolerance);
   const double limit = 4 * tolerance * tolerance;
   std::vector<double> scores;
   for (const RecurringPart::Instance& instance : part.instances) {
     double sum = 0;
     for (const Vector3& x : surface) {
-      const ClosestPoint nearest = closest(instance.map * x, limit);
-      if (nearest.face >= 0) sum += biweight(std::sqrt(nearest.squared_distance / limit));
+      const double squared = to_surface(instance.map * x);
+      if (squared < limit) sum += biweight(std::sqrt(squared / limit));
     }
     scores.push_back(sum / static_cast<double>(surface.size()));
   }
@@ -168,16 +167,15 @@ void collect_members(const std::vector<RecurringPart>& parts, const FeatureLines
 
 PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
                        const std::vector<RecurringPart>& parts, double tolerance,
-                       const Context& context) {
+                       const SquaredDistance& to_surface, const Context& context) {
   PartPoints found;
   found.part.assign(cloud.points.size(), -1);
   found.instance.assign(cloud.points.size(), -1);
   if (parts.empty()) return found;
-  const ClosestPointOnMesh closest(cloud.points, cloud.faces, context.stage(0, 0.4));
   for (const RecurringPart& part : parts)
-    found.scores.push_back(scores_of(part, graph, closest, tolerance));
+    found.scores.push_back(scores_of(part, graph, to_surface, tolerance));
   assign_lines(parts, graph, found);
-  assign_surface(cloud, parts, graph, tolerance, found, context.stage(0.4, 1));
+  assign_surface(cloud, parts, graph, tolerance, found, context);
   collect_members(parts, graph, found);
   return found;
 }

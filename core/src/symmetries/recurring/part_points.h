@@ -1,11 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cloud/cloud.h"
 #include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
+
+/// From a position to the surface, infinite far from it.
+using SquaredDistance = std::function<double(const Vector3& x)>;
 
 /// Which instance each point of a mesh belongs to, and how well instances fit.
 struct PartPoints {
@@ -23,6 +27,6 @@ struct PartPoints {
 /// around that one's lines.
 PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
                        const std::vector<RecurringPart>& parts, double tolerance,
-                       const Context& context);
+                       const SquaredDistance& to_surface, const Context& context);
 
 }  // namespace symsurf

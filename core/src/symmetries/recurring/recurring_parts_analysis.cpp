@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
+#include "base/math.h"
+#include "mesh/closest_point_on_mesh.h"
 #include "symmetries/analysis_registry.h"
+#include "symmetries/recurring/cloud_facets.h"
 #include "symmetries/recurring/part_points.h"
 #include "symmetries/recurring/recurring_part.h"
 
@@ -11,6 +15,9 @@ namespace {
 
 // Standard deviations of the noise: what the ends of two lines may be apart for it.
 constexpr double beyond_noise = 4;
+
+// Of that: the mean length of a part's lines. Shorter ones, as of skulls, agree by chance.
+constexpr double longer_than_noise = 5;
 
 // Radians, and of how far it moves a part: what a map may miss the symmetry by that it is named
 // after.
@@ -25,17 +32,28 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   Cloud unit = cloud;
   unit.points = scaled;
   const double angle = values.real("feature_angle") * std::numbers::pi / 180;
-  const FeatureLines graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  std::optional<CloudFacets> facets;
+  if (cloud.faces.empty()) facets.emplace(scaled, context.stage(0, 0.1));
+  const FeatureLines graph = facets
+                                 ? feature_lines(*facets, angle, context.stage(0.1, 0.2))
+                                 : feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
   const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
-  parts.erase(std::remove_if(parts.begin(), parts.end(),
-                             [&](const RecurringPart& part) {
-                               return static_cast<Index>(part.instances.size()) <
-                                      values.integer("minimum_instances");
-                             }),
-              parts.end());
-  const PartPoints points = part_points(unit, graph, parts, tolerance, context.stage(0.8, 1));
+  std::erase_if(parts, [&](const RecurringPart& part) {
+    return static_cast<Index>(part.instances.size()) < values.integer("minimum_instances") ||
+           part.length < longer_than_noise * beyond_noise * graph.noise *
+                             static_cast<double>(part.lines.size());
+  });
+  std::optional<ClosestPointOnMesh> closest;
+  if (!facets) closest.emplace(unit.points, unit.faces, context.stage(0.8, 0.9));
+  const auto to_surface = [&](const Vector3& x) {
+    if (facets) return facets->squared_distance(x);
+    const ClosestPoint nearest = (*closest)(x, 4 * tolerance * tolerance);
+    return nearest.face < 0 ? infinity : nearest.squared_distance;
+  };
+  const PartPoints points =
+      part_points(unit, graph, parts, tolerance, to_surface, context.stage(0.9, 1));
 
   const Index count = cloud.points.size();
   Eigen::VectorXd part(count), instance(count);
@@ -78,8 +96,8 @@ AnalysisImplementation recurring_parts_analysis() {
   analysis.name = "recurring_parts";
   analysis.title = "Recurring parts";
   analysis.summary =
-      "Finds the parts of a mesh that recur, such as windows or teeth, by its feature lines "
-      "(Bokeloh et al. 2009).";
+      "Finds the parts of a mesh or cloud that recur, such as windows or teeth, by its feature "
+      "lines (Bokeloh et al. 2009).";
   analysis.parameters = {
       Parameter::real("feature_angle", 30, 1, 179, "degrees",
                       "Facets that meet at more than this angle have a feature line between them."),
@@ -93,7 +111,6 @@ AnalysisImplementation recurring_parts_analysis() {
       {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
   };
   analysis.shown = "instance";
-  analysis.needs_faces = true;
   analysis.finds_transforms = true;
   analysis.run = run_recurring_parts;
   return analysis;

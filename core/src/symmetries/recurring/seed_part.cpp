@@ -10,11 +10,44 @@ namespace symsurf {
 
 namespace {
 
-// The powers of the least turn of finite order. Lines that are not taken around to themselves have
-// no image by the identity.
+// Of the maps to instances, that a line needs an image by.
+double share_with_image(const ConnectedLines& around) {
+  return around.graph().noise > 0 ? least_share : 1;
+}
+
+// Of how far a turn takes the seed: by how much a match may miss a power of it.
+constexpr double same_place = 0.1;
+
+// The powers of a turn of that order: matches of the seed, or where noise has left none, what is
+// taken on by the turn. None where too few are there or the last does not lead back.
+std::vector<LocalMatch> powers_of(const LocalMatch& turn, Index order, const ConnectedLines& around,
+                                  const std::vector<LocalMatch>& matches) {
+  const Vector3 seed = around.middle(0);
+  const double near = same_place * (turn.map * seed - seed).norm();
+  std::vector<LocalMatch> powers{matches.front()};
+  Index having = 1;
+  while (static_cast<Index>(powers.size()) < order) {
+    LocalMatch power = around.after(turn, powers.back());
+    for (const LocalMatch& match : matches)
+      if ((match.map * seed - power.map * seed).norm() < near &&
+          Eigen::AngleAxisd(match.map.linear().transpose() * power.map.linear()).angle() <
+              same_turn) {
+        power = match;
+        break;
+      }
+    having += power.images[0] >= 0 ? 1 : 0;
+    powers.push_back(std::move(power));
+  }
+  const bool closes = (turn.map * powers.back().map * seed - seed).norm() < near;
+  if (!closes ||
+      static_cast<double>(having) < share_with_image(around) * static_cast<double>(order))
+    powers.clear();
+  return powers;
+}
+
+// The powers of the least turn of finite order.
 std::vector<LocalMatch> least_turn(const ConnectedLines& around,
                                    const std::vector<LocalMatch>& matches) {
-  Index most = 2;
   std::vector<LocalMatch> ring;
   for (const LocalMatch& turn : matches) {
     if (turn.map.linear().determinant() < 0) continue;
@@ -22,16 +55,10 @@ std::vector<LocalMatch> least_turn(const ConnectedLines& around,
     if (angle < same_turn) continue;
     const auto order = static_cast<Index>(std::round(2 * std::numbers::pi / angle));
     const double whole = static_cast<double>(order) * angle - 2 * std::numbers::pi;
+    const Index most = std::max<Index>(2, static_cast<Index>(ring.size()));
     if (order <= most || std::abs(whole) > same_turn) continue;
-    std::vector<LocalMatch> powers{matches.front()};
-    while (static_cast<Index>(powers.size()) < order)
-      powers.push_back(around.after(turn, powers.back()));
-    const std::vector<std::int32_t> last = around.after(turn, powers.back()).images;
-    if (last[0] != around.number(0)) continue;
-    for (std::size_t line = 0; line < around.size(); ++line)
-      if (last[line] != around.number(line)) powers.front().images[line] = -1;
-    most = order;
-    ring = std::move(powers);
+    std::vector<LocalMatch> powers = powers_of(turn, order, around, matches);
+    if (!powers.empty()) ring = std::move(powers);
   }
   return ring;
 }
@@ -57,16 +84,18 @@ RingSector ring_sector(const ConnectedLines& around, const std::vector<LocalMatc
   // Of the sectors that begin with a line each, the most compact one.
   constexpr double less = 1 - 1e-6;
   std::vector<char> seen(around.graph().lines.size(), 0);
-  double least = infinity;
+  double narrowest = infinity;
   for (std::size_t line = 0; line < around.size(); ++line) {
     if (!is_in_ring(line) || seen[around.number(line)]) continue;
-    for (const LocalMatch& turn : found.turns) seen[turn.images[line]] = 1;
-    LocalLines own = around.disjoint(turns, static_cast<std::int32_t>(line), around.middle(line));
+    for (const LocalMatch& turn : found.turns)
+      if (turn.images[line] >= 0) seen[turn.images[line]] = 1;
+    LocalLines own = around.disjoint(turns, static_cast<std::int32_t>(line), around.middle(line),
+                                     share_with_image(around));
     const double spread = spread_of(own, around);
     if (own.size() < found.lines.size() ||
-        (own.size() == found.lines.size() && spread >= less * least))
+        (own.size() == found.lines.size() && spread >= less * narrowest))
       continue;
-    least = spread;
+    narrowest = spread;
     found.lines = std::move(own);
   }
   return found;
@@ -145,7 +174,7 @@ class PartOfSeed {
       std::vector<const LocalMatch*> level;
       for (const LocalMatch& match : matches_)
         if (match.length >= levels[k]) level.push_back(&match);
-      consider(around_.common(level, around_.graph().noise > 0 ? least_share : 1), matches_);
+      consider(around_.common(level, share_with_image(around_)), matches_);
     }
   }
 
