@@ -162,7 +162,7 @@ TEST(Boundary, DefinesThePlaneOfABody) {
 }
 
 TEST(Boundary, NoMirrorIsFoundWhereABodyHasNone) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     RandomCloud random(seed);
     const Matrix3 turn = random.rotation();
     const Result result =
@@ -173,7 +173,7 @@ TEST(Boundary, NoMirrorIsFoundWhereABodyHasNone) {
 
 TEST(Boundary, DefinesTheCylinderOfABentBody) {
   constexpr double radius = 2;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     RandomCloud random(seed);
     Points points = filled(random, 6000);
     for (auto x : points.rowwise()) {

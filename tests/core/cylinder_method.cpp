@@ -25,7 +25,7 @@ void dent(Points& points, RandomCloud& random) {
 
 // The surfaces of a ball hardly resist some changes of the mirror, along which a dent pulls it.
 TEST(CylinderMethod, FindsTheMirrorOfADentedBall) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     SCOPED_TRACE(seed);
     RandomCloud random(seed);
     Points points = ball(seed).points;

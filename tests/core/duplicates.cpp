@@ -30,7 +30,7 @@ Points repeated(const Points& points, Index times) { return points.replicate(tim
 
 // As in the corners of triangles that nobody merged.
 TEST(Duplicates, HaveTheSamePartner) {
-  const Points points = surfaces(1, 1000);
+  const Points points = surfaces(1, 500);
   const Index n = points.rows(), times = 3;
   for (const Method& method : methods()) {
     if (!implementation(method.name).preprocessing.merge_duplicates) continue;

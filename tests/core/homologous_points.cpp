@@ -242,7 +242,7 @@ TEST(HomologousPoints, OfASymmetricTriangulationAreItsVerticesToTheLast) {
       {"two that mirror themselves", [](const Vector3& u) { return std::abs(u.z()) > 0.15; }},
       {"three", [](const Vector3& u) { return std::abs(std::abs(u.x()) - 0.4) > 0.1; }}};
   const Ball lattice = subdivided(subdivided(subdivided(subdivided(subdivided(octahedron())))));
-  for (std::uint64_t seed = 60; seed < 63; ++seed)
+  for (std::uint64_t seed = 60; seed < 62; ++seed)
     for (const auto& [name, keeps] : parts) {
       const bool bent = seed % 2 == 1;
       const Ball irregular = body_of(subdivided(two_halves(seed)), keeps);
@@ -268,7 +268,7 @@ TEST(HomologousPoints, OfATriangulationWithAHoleOnOneSideAreItsVertices) {
 
 // But for the diagonals of its quadrangles, which are drawn on both sides apart.
 TEST(HomologousPoints, OfOneTriangulationAreItsVertices) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed)
+  for (std::uint64_t seed = 0; seed < 2; ++seed)
     for (const bool bent : {false, true}) {
       const Ball body = mirrored_body(seed);
       const double diagonal = diagonal_of(body.points);
@@ -290,7 +290,7 @@ TEST(HomologousPoints, OfOneTriangulationAreItsVertices) {
 }
 
 TEST(HomologousPoints, LeaveABumpABump) {
-  for (std::uint64_t seed = 0; seed < 3; ++seed)
+  for (std::uint64_t seed = 0; seed < 2; ++seed)
     for (const bool has_twins : {false, true})
       for (const bool bent : {false, true}) {
         const Ball body = has_twins ? mirrored_body(seed) : resampled_body(seed);

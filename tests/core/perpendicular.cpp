@@ -209,7 +209,7 @@ TEST(CylinderMethod, FindsTheMirrorOfABentObjectWithoutExactPartners) {
 }
 
 TEST(Auto, PrefersTheCylinderForTheBent) {
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     const Result bent = detect(bent_object(seed, Cylinder({-2.5, 0, 0}, {0, 1, 0}, 2.5)));
     ASSERT_TRUE(bent.mirror) << seed;
     // Another plane of the body, across the one that was bent, may still be a mirror.
@@ -229,7 +229,7 @@ TEST(Auto, SeesHowLittleAPlaneIsBent) {
     return 0.6 + 0.12 * std::sin(4 * u.y() + 1) + 0.1 * std::cos(3 * u.z()) +
            0.1 * u.x() * u.x() * std::sin(5 * u.z());
   };
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     RandomCloud random(seed);
     Points straight = random.sphere(count);
     for (auto u : straight.rowwise()) u *= radius(u.transpose());
@@ -337,7 +337,7 @@ std::vector<double> image_errors(const BentSolid& solid, const Mirror& mirror) {
 
 TEST(Perpendicular, FindsTheBentMiddleOfASolidWithoutExactPartners) {
   for (const bool twisted : {false, true})
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
       RandomCloud random(seed);
       const BentSolid solid = dumbbell(random, twisted);
       const Result result = detect(solid.points, {.method = "perpendicular"});

@@ -210,10 +210,10 @@ TEST(Symmetries, HoldForSmallPartsToo) {
 
 // Leaning plates at all images of one: no plane, and no principal axis, shows where the axes are.
 TEST(Symmetries, OfTurnsAboutSeveralAxes) {
-  constexpr int most_wrong = 2;  // of 24: some plates nearly mirror each other
+  constexpr int most_wrong = 1;  // of 12: some plates nearly mirror each other
   int wrong = 0;
   for (const Index highest : {3, 4, 5})
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
       RandomCloud random(seed);
       const PointGroup group = polyhedral_group(highest, false, false);
       const double size = 2.4 / std::sqrt(static_cast<double>(group.elements.size()));

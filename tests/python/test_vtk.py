@@ -30,6 +30,8 @@ def detection(points: np.ndarray, method: str = "plane") -> MirrorDetection:
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
     points = mirrored_shape()
+    if method == "sphere_thesis":
+        points = points[::6]  # its work grows with their cube
     found = detection(points, method)
     found.Update()
     gc.collect()  # the arrays own what they show
