@@ -30,7 +30,7 @@ _KNOWN = (
 )
 
 
-_MOST_USES = 1_000_000  # of objects: each may be made of two that are made of two, and so on
+_MOST_USES = 100_000  # of objects: each may be made of two that are made of two, and so on
 
 
 class _Object:
