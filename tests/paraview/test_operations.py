@@ -75,11 +75,11 @@ def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> Non
         "pvpython", "bad_operations.py", json.dumps(list(PROXIES)), json.dumps(values)
     )
     assert set(answer["mirrors"]) == set(PROXIES)
-    for seen in answer["mirrors"].values():
-        for said, row in zip(seen, tables.mirrors(), strict=True):
+    for k, seen in enumerate(answer["mirrors"].values()):
+        for said, row in zip(seen, tables.mirrors()[k :: len(PROXIES)], strict=True):
             assert row.reason in said["said"] and said["points"] == 0, row.name
-    for seen in answer["clouds"].values():
-        for said, row in zip(seen, tables.clouds(), strict=True):
+    for k, seen in enumerate(answer["clouds"].values()):
+        for said, row in zip(seen, tables.clouds()[k :: len(PROXIES)], strict=True):
             if row.refuses_nonfinite:  # some are left out: no property refuses them
                 assert "finite" not in said["said"], row.name
                 continue

@@ -1,5 +1,6 @@
-"""The tables of bad input, properties out of range and masks that are none, for every operation in
-one session: what each filter said and how many points it left.
+"""The tables of bad input, properties out of range and masks that are none, for the operations in one
+session: what each filter said and how many points it left. One code reads mirrors and clouds for all of
+them: each row of a table is for one.
 
 Arguments: the answer file, [proxy, ...] and [[proxy, property, value], ...] as JSON.
 """
@@ -21,13 +22,21 @@ def operate(name, *inputs, **properties):
     return run(lambda *sources: make(**dict(zip(ports, sources))), *inputs, **properties)
 
 
+def own_rows(table, proxy):
+    return table[PROXIES.index(proxy) :: len(PROXIES)]
+
+
 answers = {
     "mirrors": {
-        name: [operate(name, good, mirror_of(row.kind, row.numbers)) for row in MIRRORS]
+        name: [
+            operate(name, good, mirror_of(row.kind, row.numbers)) for row in own_rows(MIRRORS, name)
+        ]
         for name in PROXIES
     },
     "clouds": {
-        name: [operate(name, cloud_of(row.points), Method="plane") for row in CLOUDS]
+        name: [
+            operate(name, cloud_of(row.points), Method="plane") for row in own_rows(CLOUDS, name)
+        ]
         for name in PROXIES
     },
     "properties": [],
