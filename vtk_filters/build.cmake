@@ -28,6 +28,7 @@ set(symsurf_operations MirrorAsymmetry MirrorCorrespondences MirrorAlignment Mir
 add_executable(symsurf_generate)
 file(GLOB generate_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/generate/*.cpp)
 target_sources(symsurf_generate PRIVATE ${generate_sources})
+set_target_properties(symsurf_generate PROPERTIES UNITY_BUILD ON)
 target_link_libraries(symsurf_generate PRIVATE symsurf::core)
 
 # Makes OUTPUT from the core's description of what CLASS can do; see generate/main.cpp.
@@ -78,6 +79,7 @@ if(SYMSURF_VTK_PYTHON)
   vtk_module_wrap_python(MODULES symsurf::Filters PYTHON_PACKAGE symsurf_filters
     MODULE_DESTINATION ${symsurf_python_folder} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)
+  set_target_properties(vtkSymsurfFiltersPython PROPERTIES UNITY_BUILD ON)
 endif()
 
 if(SYMSURF_PARAVIEW)

@@ -33,7 +33,7 @@ Array numbers(const Eigen::MatrixXd& rows) {
   return array;
 }
 
-Array array_of(const symsurf::Value& value) {
+Array field_array(const symsurf::Value& value) {
   struct {
     Array operator()(bool v) const { return (*this)(symsurf::Index(v)); }
     Array operator()(symsurf::Index v) const {
@@ -76,7 +76,7 @@ symsurf::Value value_of(vtkAbstractArray* array) {
 
 void add_field_values(vtkFieldData* field, const symsurf::Values& values) {
   for (const auto& [name, value] : values) {
-    const Array array = array_of(value);
+    const Array array = field_array(value);
     array->SetName(vtk_name(name).c_str());
     field->AddArray(array);
   }

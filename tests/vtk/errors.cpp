@@ -34,12 +34,12 @@ std::string error_of(vtkPolyDataAlgorithm* filter) {
   return listener.message();
 }
 
-const symsurf::Plane truth({0.3, 1, 0.2}, 2);
+const symsurf::Plane tilted({0.3, 1, 0.2}, 2);
 
 TEST(FilterErrors, BadInputIsAnErrorAndALaterGoodRunWorks) {
   vtkNew<vtkMirrorDetection> filter;
   filter->SetMethod("plane");
-  const vtkNew<vtkPolyData> good = polydata_of(mirrored_shape(truth, 200));
+  const vtkNew<vtkPolyData> good = polydata_of(mirrored_shape(tilted, 200));
   const auto fails_with = [&](vtkDataObject* input, const char* part) {
     filter->SetInputDataObject(input);
     EXPECT_NE(error_of(filter).find(part), std::string::npos);
@@ -61,7 +61,7 @@ TEST(FilterErrors, BadInputIsAnErrorAndALaterGoodRunWorks) {
   lines->InsertNextCell({0, 1, 2, 3, 4, 5, 6, 7, 8});
   polyline->SetLines(lines);
   fails_with(polyline, "line");
-  symsurf::Points broken = mirrored_shape(truth, 10);
+  symsurf::Points broken = mirrored_shape(tilted, 10);
   broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
   filter->RefuseNonfiniteOn();
   fails_with(polydata_of(broken), "point 3");
@@ -74,7 +74,7 @@ TEST(FilterErrors, BadInputIsAnErrorAndALaterGoodRunWorks) {
 
 TEST(FilterErrors, CloudsOfTheTable) {
   vtkNew<vtkMirrorDetection> filter;
-  const vtkNew<vtkPolyData> good = polydata_of(mirrored_shape(truth, 50));
+  const vtkNew<vtkPolyData> good = polydata_of(mirrored_shape(tilted, 50));
   for (const symsurf::bad_input::Cloud& cloud : symsurf::bad_input::clouds()) {
     SCOPED_TRACE(cloud.name);
     for (const symsurf::Method& method : symsurf::methods()) {
@@ -91,7 +91,7 @@ TEST(FilterErrors, CloudsOfTheTable) {
 
 TEST(FilterErrors, MirrorsOfTheTable) {
   vtkNew<vtkMirrorReflection> reflection;
-  const symsurf::Points points = mirrored_shape(truth, 10);
+  const symsurf::Points points = mirrored_shape(tilted, 10);
   reflection->SetInputData(0, polydata_of(points));
   const auto said = [&](vtkPolyData* mirror) {
     reflection->SetInputData(1, mirror);
@@ -104,7 +104,7 @@ TEST(FilterErrors, MirrorsOfTheTable) {
   for (const symsurf::bad_input::MirrorNumbers& mirror : symsurf::bad_input::mirrors()) {
     EXPECT_NE(said(mirror_data(mirror.kind, mirror.numbers)).find(mirror.reason), std::string::npos)
         << mirror.name;
-    EXPECT_TRUE(said(mirror_data("plane", truth.numbers())).empty());
+    EXPECT_TRUE(said(mirror_data("plane", tilted.numbers())).empty());
   }
 }
 
@@ -131,7 +131,7 @@ TEST(FilterErrors, CellsThatNameNoPoint) {
       1, mirror_data("plane", {{"normal", symsurf::Vector3(1, 0, 0)}, {"offset", 0.0}}));
   vtkNew<vtkPointDamage> damage;
   damage->SetDamage("removal");
-  const symsurf::Points points = mirrored_shape(truth, 50);
+  const symsurf::Points points = mirrored_shape(tilted, 50);
   const std::vector<vtkPolyDataAlgorithm*> filters{detection, reflection, damage};
   using Ids = std::initializer_list<vtkIdType>;
   for (const Ids& ids :
@@ -153,7 +153,7 @@ TEST(FilterErrors, NormalsThatAreNone) {
   vtkNew<vtkMirrorDetection> filter;
   filter->SetMethod("plane");
   filter->UseNormalsOn();
-  const symsurf::Points points = mirrored_shape(truth, 50);
+  const symsurf::Points points = mirrored_shape(tilted, 50);
   const auto said = [&](vtkIdType count, const symsurf::Vector3& last) {
     const vtkNew<vtkPolyData> shape = polydata_of(points);
     vtkNew<vtkDoubleArray> normals;
@@ -185,7 +185,7 @@ TEST(FilterErrors, SamplesAndDamageOfNothingKnown) {
     EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
   }
   vtkNew<vtkPointDamage> damage;
-  damage->SetInputData(polydata_of(mirrored_shape(truth, 10)));
+  damage->SetInputData(polydata_of(mirrored_shape(tilted, 10)));
   damage->SetDamage("no such");
   const ErrorListener listener(damage);
   damage->Update();
@@ -197,7 +197,7 @@ TEST(FilterErrors, WarnsOfWhatAMethodIsNotFor) {
   vtkNew<vtkMirrorDetection> filter;
   filter->SetMethod("sphere_thesis");
   filter->SetSphereThesisSampleSize(10);
-  filter->SetInputData(polydata_of(mirrored_shape(truth, 5001)));
+  filter->SetInputData(polydata_of(mirrored_shape(tilted, 5001)));
   const ErrorListener warnings(filter, vtkCommand::WarningEvent);
   EXPECT_TRUE(error_of(filter).empty());
   EXPECT_NE(warnings.message().find("10002 points given; sphere_thesis is for"), std::string::npos);
@@ -206,7 +206,7 @@ TEST(FilterErrors, WarnsOfWhatAMethodIsNotFor) {
 TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
   symsurf::Points points(203, 3);
   points << symsurf::Points::Constant(2, 3, std::numeric_limits<double>::quiet_NaN()),
-      mirrored_shape(truth, 100),
+      mirrored_shape(tilted, 100),
       symsurf::Points::Constant(1, 3, std::numeric_limits<double>::infinity());
   vtkNew<vtkMirrorDetection> filter;
   filter->SetMethod("plane");
@@ -226,7 +226,7 @@ TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
   vtkFieldData* fields = filter->GetOutput(vtkMirrorDetection::MIRROR)->GetFieldData();
   EXPECT_EQ(fields->GetArray("NonfinitePoints")->GetComponent(0, 0), 3);
   // Without such points nothing is said.
-  filter->SetInputData(polydata_of(mirrored_shape(truth, 100)));
+  filter->SetInputData(polydata_of(mirrored_shape(tilted, 100)));
   const ErrorListener warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
   EXPECT_TRUE(warnings.message().empty());
@@ -234,7 +234,7 @@ TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
 
 TEST(FilterErrors, BadParametersAreErrors) {
   vtkNew<vtkMirrorDetection> filter;
-  filter->SetInputData(polydata_of(mirrored_shape(truth, 200)));
+  filter->SetInputData(polydata_of(mirrored_shape(tilted, 200)));
   filter->SetMethod("no such");
   EXPECT_NE(error_of(filter).find("'no such'"), std::string::npos);
   filter->SetMethod(nullptr);
@@ -253,8 +253,8 @@ TEST(FilterErrors, BadParametersAreErrors) {
 
 TEST(FilterErrors, AReflectionNeedsAMirror) {
   vtkNew<vtkMirrorReflection> reflection;
-  reflection->SetInputData(0, polydata_of(mirrored_shape(truth, 10)));
-  reflection->SetInputData(1, polydata_of(mirrored_shape(truth, 10)));
+  reflection->SetInputData(0, polydata_of(mirrored_shape(tilted, 10)));
+  reflection->SetInputData(1, polydata_of(mirrored_shape(tilted, 10)));
   ErrorListener listener(reflection);
   reflection->Update();
   EXPECT_NE(listener.message().find("Kind"), std::string::npos);
@@ -263,7 +263,7 @@ TEST(FilterErrors, AReflectionNeedsAMirror) {
 
 TEST(FilterErrors, AnAbortStopsTheRunAndEmptiesTheOutputs) {
   vtkNew<vtkMirrorDetection> filter;
-  filter->SetInputData(polydata_of(mirrored_shape(truth, 50000)));
+  filter->SetInputData(polydata_of(mirrored_shape(tilted, 50000)));
   filter->SetMethod("plane");
   vtkNew<vtkCallbackCommand> abort;
   int reports_after = 0;
@@ -287,7 +287,7 @@ TEST(FilterErrors, AnAbortStopsTheRunAndEmptiesTheOutputs) {
 
 TEST(FilterErrors, ProgressRisesFrom0To1) {
   vtkNew<vtkMirrorDetection> filter;
-  filter->SetInputData(polydata_of(mirrored_shape(truth, 50000)));
+  filter->SetInputData(polydata_of(mirrored_shape(tilted, 50000)));
   filter->SetMethod("plane");
   std::vector<double> seen;
   vtkNew<vtkCallbackCommand> progress;

@@ -29,7 +29,7 @@
 
 namespace {
 
-const symsurf::Plane truth({1, 0, 0}, -1);  // x = 1
+const symsurf::Plane upright({1, 0, 0}, -1);  // x = 1
 
 // The triangles of a sphere, their corners moved.
 vtkSmartPointer<vtkPolyData> lopsided_ball() {
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPolyData> lopsided_ball() {
 vtkSmartPointer<vtkPolyData> reflected(vtkPolyData* shape) {
   vtkNew<vtkMirrorReflection> reflection;
   reflection->SetInputData(shape);
-  reflection->SetInputData(1, mirror_data(truth));
+  reflection->SetInputData(1, mirror_data(upright));
   reflection->Update();
   return reflection->GetOutput();
 }
@@ -231,8 +231,8 @@ TEST(Shapes, TheOtherFiltersMakePolyDataOfAGrid) {
   vtkNew<vtkMirrorReflection> reflection;
   vtkNew<vtkPointDamage> damage;
   vtkNew<vtkSymmetryAnalysis> analysis;
-  asymmetry->SetInputData(1, mirror_data(truth));
-  reflection->SetInputData(1, mirror_data(truth));
+  asymmetry->SetInputData(1, mirror_data(upright));
+  reflection->SetInputData(1, mirror_data(upright));
   for (vtkShapeAlgorithm* filter :
        std::initializer_list<vtkShapeAlgorithm*>{asymmetry, reflection, damage, analysis}) {
     filter->SetInputDataObject(grid);
