@@ -10,7 +10,7 @@
 #include "random_cloud.h"
 #include "symmetries/analysis_registry.h"
 
-namespace symsurf {
+namespace symsurf::analyses_tests {
 namespace {
 
 // A random cloud and its image in the plane x = 0.
@@ -108,4 +108,4 @@ TEST(SymmetryAxis, IsDrawnAlongThePoints) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::analyses_tests

@@ -7,7 +7,7 @@
 #include "random_cloud.h"
 #include "spatial/point_tree.h"
 
-namespace symsurf {
+namespace symsurf::any_unit_tests {
 namespace {
 
 // Two wavy surfaces mirrored in z at a distance that varies, no point exactly opposite another.
@@ -66,4 +66,4 @@ TEST(AnyUnit, InterpolatedHeightsEndNowhere) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::any_unit_tests

@@ -10,7 +10,7 @@
 #include "figure.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::asymmetry_tests {
 namespace {
 
 double diagonal(const Points& points) {
@@ -156,4 +156,4 @@ TEST(Asymmetry, TakesNormalsForLinesWhereASideIsWoundTheOtherWay) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::asymmetry_tests

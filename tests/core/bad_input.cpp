@@ -10,7 +10,7 @@
 #include "random_cloud.h"
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::bad_input_tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -170,4 +170,4 @@ TEST(BadInput, NormalsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::bad_input_tests

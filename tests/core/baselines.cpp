@@ -14,7 +14,7 @@
 #include "methods/baselines/symmetry_measure.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::baselines_tests {
 namespace {
 
 constexpr double normal_off = 1e-10;  // rounding
@@ -263,4 +263,4 @@ TEST(PlaneHruda, FindsPlanesToAShareOfADegree) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::baselines_tests

@@ -9,7 +9,7 @@
 #include "synthetic/benchmark_mirror.h"
 #include "synthetic/random_body.h"
 
-namespace symsurf {
+namespace symsurf::benchmark_tests {
 namespace {
 
 TEST(PortableSine, IsTheLibrarysToRounding) {
@@ -121,4 +121,4 @@ TEST(Benchmark, RefusesWhatIsNoCase) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::benchmark_tests

@@ -10,7 +10,7 @@
 #include "random_cloud.h"
 #include "spatial/point_tree.h"
 
-namespace symsurf {
+namespace symsurf::boundary_extraction_tests {
 namespace {
 
 // Inside of two ellipsoids grown together, mirrored by x = 0; each point drawn by itself.
@@ -228,4 +228,4 @@ TEST(Boundary, IsNotExtractedWherePartnersAreExact) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::boundary_extraction_tests

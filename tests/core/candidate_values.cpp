@@ -4,7 +4,7 @@
 #include <symsurf/detect.h>
 #include <symsurf/mirrors.h>
 
-namespace symsurf {
+namespace symsurf::candidate_values_tests {
 
 namespace {
 
@@ -42,4 +42,4 @@ TEST(CandidateValues, OfOthersHaveScoresAlone) {
 
 }  // namespace
 
-}  // namespace symsurf
+}  // namespace symsurf::candidate_values_tests

@@ -10,7 +10,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::closest_point_on_mesh_tests {
 namespace {
 
 // The distance from a triangle by another way: the ends of nested golden sections, over a convex
@@ -206,4 +206,4 @@ TEST(ClosestPointOnMesh, OfFacesThatFaceADirectionIsThatOfThoseAlone) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::closest_point_on_mesh_tests

@@ -13,7 +13,7 @@
 #include "mesh/triangle_mesh.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::completion_tests {
 namespace {
 
 // The faces of which no corner is lost.
@@ -251,4 +251,4 @@ TEST(Complete, AddsNoImagesWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::completion_tests

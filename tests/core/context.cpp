@@ -15,7 +15,7 @@
 #include "random_cloud.h"
 #include "triangle_soup.h"
 
-namespace symsurf {
+namespace symsurf::context_tests {
 namespace {
 
 struct LongCall {
@@ -218,4 +218,4 @@ TEST(Context, KnowsItsThreads) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::context_tests

@@ -10,7 +10,7 @@
 #include "figure.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::correspondences_tests {
 namespace {
 
 TEST(Correspondences, AreExactWhereVerticesMirror) {
@@ -86,4 +86,4 @@ TEST(Correspondences, AreOneToOneOfSplitVertices) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::correspondences_tests

@@ -10,7 +10,7 @@
 #include "random_cloud.h"
 #include "symmetries/exact_isometries.h"
 
-namespace symsurf {
+namespace symsurf::crowded_points_tests {
 namespace {
 
 // Of one processor.
@@ -89,4 +89,4 @@ TEST(CrowdedPoints, HaveAFewSpheresRefined) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::crowded_points_tests

@@ -7,7 +7,7 @@
 #include "bumpy_ball.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::cylinder_method_tests {
 namespace {
 
 // A dent on one side, a tenth of the radius deep.
@@ -40,4 +40,4 @@ TEST(CylinderMethod, FindsTheMirrorOfADentedBall) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::cylinder_method_tests

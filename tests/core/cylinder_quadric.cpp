@@ -7,7 +7,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::cylinder_quadric_tests {
 namespace {
 
 TEST(Cylinder, MirrorsAlongTheRadius) {
@@ -129,4 +129,4 @@ TEST(Quadric, RefusesWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::cylinder_quadric_tests

@@ -7,7 +7,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::damage_tests {
 namespace {
 
 const Box half{{0, -2, -2}, {2, 2, 2}};
@@ -117,4 +117,4 @@ TEST(Damage, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::damage_tests

@@ -10,7 +10,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::downsample_tests {
 namespace {
 
 // The definition to the letter: every k in turn, a sorted map of cells.
@@ -123,4 +123,4 @@ TEST(Downsample, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::downsample_tests

@@ -12,7 +12,7 @@
 #include "methods/registry.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::duplicates_tests {
 namespace {
 
 // Two noisy surfaces about a saddle: where the points of one lie, the other has none.
@@ -188,4 +188,4 @@ TEST(Duplicates, AreMatchedAsTheyAreFound) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::duplicates_tests

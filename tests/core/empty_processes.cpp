@@ -15,7 +15,7 @@
 #include "process_threads.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::empty_processes_tests {
 namespace {
 
 constexpr int processes = 3;
@@ -144,4 +144,4 @@ TEST(RunOnRoot, EveryProcessThrowsWhereTheRootHasNoRoom) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::empty_processes_tests

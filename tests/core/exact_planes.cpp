@@ -9,7 +9,7 @@
 #include "random_cloud.h"
 #include "test_mesh.h"
 
-namespace symsurf {
+namespace symsurf::exact_planes_tests {
 namespace {
 
 Points turned(const Points& points, RandomCloud& random) {
@@ -185,4 +185,4 @@ TEST(ExactPlanes, ScoreLessWhereFacesAreMissing) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::exact_planes_tests

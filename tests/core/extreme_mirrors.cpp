@@ -13,7 +13,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::extreme_mirrors_tests {
 namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
@@ -126,4 +126,4 @@ TEST(HeightField, TakesManyNodesOverOnePosition) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::extreme_mirrors_tests

@@ -12,7 +12,7 @@
 #include "random_cloud.h"
 #include "symmetries/recurring/cloud_facets.h"
 
-namespace symsurf {
+namespace symsurf::feature_lines_tests {
 namespace {
 
 constexpr double angle = std::numbers::pi / 6;
@@ -149,4 +149,4 @@ TEST(FeatureLines, OfACloudMeetWhereFourFacetsDo) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::feature_lines_tests

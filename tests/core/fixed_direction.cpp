@@ -8,7 +8,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::fixed_direction_tests {
 namespace {
 
 double ripple(double x, double y) { return std::sin(0.7 * x) * std::cos(0.7 * y); }
@@ -179,4 +179,4 @@ TEST(FixedDirection, TakesAGivenDirection) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::fixed_direction_tests

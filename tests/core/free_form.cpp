@@ -10,7 +10,7 @@
 #include "mesh_area.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::free_form_tests {
 namespace {
 
 // The cap of the unit sphere about z as patches: each the sphere's own osculating paraboloid.
@@ -157,4 +157,4 @@ TEST(FreeForm, RefusesWhatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::free_form_tests

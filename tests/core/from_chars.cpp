@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-namespace symsurf {
+namespace symsurf::from_chars_tests {
 namespace {
 
 #ifndef _WIN32
@@ -61,4 +61,4 @@ TEST(FromChars, OfCAreThoseOfTheLibrary) {
 #endif
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::from_chars_tests

@@ -7,7 +7,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::height_field_tests {
 namespace {
 
 double wave(double x, double y) { return std::sin(0.7 * x) * std::cos(0.7 * y); }
@@ -182,4 +182,4 @@ TEST(HeightField, NormalIsThatOfItsHeights) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::height_field_tests

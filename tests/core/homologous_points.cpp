@@ -23,7 +23,7 @@
 #include "operations/homologous/surface_graph.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::homologous_points_tests {
 namespace {
 
 constexpr double share_of_diagonal = 0.02;  // that a side is deformed by at the most
@@ -468,4 +468,4 @@ TEST(Curvature, OfALinearFunctionHasTheGradientAlongTheSurface) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::homologous_points_tests

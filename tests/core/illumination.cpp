@@ -13,7 +13,7 @@
 #include "mesh/triangle_mesh.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::illumination_tests {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -98,4 +98,4 @@ TEST(Illuminate, InAHollowSphereAllPathsCount) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::illumination_tests

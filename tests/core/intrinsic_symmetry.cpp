@@ -14,7 +14,7 @@
 #include "spatial/point_tree.h"
 #include "symmetries/intrinsic/connected_surface.h"
 
-namespace symsurf {
+namespace symsurf::intrinsic_symmetry_tests {
 namespace {
 
 struct Error {
@@ -284,4 +284,4 @@ TEST(IntrinsicSymmetry, TakesPointsThatCrowd) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::intrinsic_symmetry_tests

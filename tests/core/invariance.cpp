@@ -13,7 +13,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::invariance_tests {
 namespace {
 
 struct TestCloud {
@@ -205,4 +205,4 @@ INSTANTIATE_TEST_SUITE_P(Clouds, Invariance, testing::ValuesIn(clouds()), [](con
 });
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::invariance_tests

@@ -11,7 +11,7 @@
 #include "cloud/cloud_laplacian.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::laplacian_tests {
 namespace {
 
 // A square of unit edges, each of its squares cut along a diagonal.
@@ -133,4 +133,4 @@ TEST(CloudLaplacian, WindsItsTrianglesAlike) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::laplacian_tests

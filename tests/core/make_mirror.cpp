@@ -8,7 +8,7 @@
 
 #include "expect_error.h"
 
-namespace symsurf {
+namespace symsurf::make_mirror_tests {
 namespace {
 
 using Table = Eigen::MatrixXd;
@@ -91,4 +91,4 @@ TEST(MakeMirror, RefusesWhatDoublesCannotHold) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::make_mirror_tests

@@ -8,7 +8,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::metrics_tests {
 namespace {
 
 TEST(SurfaceErrors, AreThoseOfKnownOffsets) {
@@ -97,4 +97,4 @@ TEST(Coverage, IsTheShareOfTheFootprint) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::metrics_tests

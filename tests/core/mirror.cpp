@@ -11,7 +11,7 @@
 #include "mesh_area.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::mirror_tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -195,4 +195,4 @@ TEST(SurfaceMirror, HasFeetOfPointsFarAway) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirror_tests

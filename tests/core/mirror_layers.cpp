@@ -6,7 +6,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::mirror_layers_tests {
 namespace {
 
 constexpr Index count = 2000;
@@ -67,4 +67,4 @@ TEST(MirrorLayers, DoNotCountWhereNothingCrosses) {
 TEST(MirrorLayers, OfNothingAreNone) { EXPECT_EQ(MirrorLayers(apart, 0, size).single(), 0); }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirror_layers_tests

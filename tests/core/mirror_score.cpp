@@ -10,7 +10,7 @@
 #include "cloud/cloud.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::mirror_score_tests {
 namespace {
 
 // An open, wavy surface on either side of x = 0, each with points of its own; no other mirror.
@@ -154,4 +154,4 @@ TEST(MirrorScore, FallsWithTheShareThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirror_score_tests

@@ -6,7 +6,7 @@
 #include "random_cloud.h"
 #include "score/mirror_layers.h"
 
-namespace symsurf {
+namespace symsurf::mirror_sides_tests {
 namespace {
 
 using Relief = std::function<double(double, double)>;
@@ -74,4 +74,4 @@ TEST(MirrorSides, OfFewPointsSayNothing) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirror_sides_tests

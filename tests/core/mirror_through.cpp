@@ -6,7 +6,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::mirror_through_tests {
 namespace {
 
 // As a file of single precision gives them back.
@@ -53,4 +53,4 @@ TEST(MirrorThrough, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirror_through_tests

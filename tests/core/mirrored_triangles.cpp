@@ -15,7 +15,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::mirrored_triangles_tests {
 namespace {
 
 const Values mirrored{{"triangles", "mirrored"}, {"side", "positive"}};
@@ -190,4 +190,4 @@ TEST(MirroredTriangles, RefuseWhatCannotBeMirrored) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::mirrored_triangles_tests

@@ -12,7 +12,7 @@
 #include "mirrored_ball.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::nonfinite_points_tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -204,4 +204,4 @@ TEST(NonfinitePoints, KeepTheirPlacesWithoutValuesInOperations) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::nonfinite_points_tests

@@ -10,7 +10,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::normals_tests {
 namespace {
 
 // The k nearest by (distance, index), from a scan.
@@ -153,4 +153,4 @@ TEST(Normals, SayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::normals_tests

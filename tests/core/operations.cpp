@@ -14,7 +14,7 @@
 #include "random_cloud.h"
 #include "triangle_soup.h"
 
-namespace symsurf {
+namespace symsurf::operations_tests {
 namespace {
 
 TEST(Operations, AreDescribed) {
@@ -252,4 +252,4 @@ TEST(Straighten, GivesEveryPointAPlace) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::operations_tests

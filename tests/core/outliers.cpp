@@ -11,7 +11,7 @@
 #include "preprocess/outlier_removal.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::outliers_tests {
 namespace {
 
 // Each of the others put before a point of the first.
@@ -213,4 +213,4 @@ TEST(Clutter, DoesNotHideTheSphere) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::outliers_tests

@@ -13,7 +13,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::parallel_tests {
 namespace {
 
 TEST(Parallel, VisitsEveryItemOnceInChunksThatThreadsDoNotChange) {
@@ -69,4 +69,4 @@ TEST(Parallel, DoesWithFewerThreadsWhereTheSystemGivesNoMore) {
 #endif
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::parallel_tests

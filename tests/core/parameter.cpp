@@ -10,7 +10,7 @@
 #include "expect_error.h"
 #include "methods/registry.h"
 
-namespace symsurf {
+namespace symsurf::parameter_tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -131,4 +131,4 @@ TEST(Methods, AreListedWhereANameIsNotAmongThem) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::parameter_tests

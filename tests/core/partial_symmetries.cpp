@@ -10,7 +10,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::partial_symmetries_tests {
 namespace {
 
 constexpr Index body_points = 700;
@@ -148,4 +148,4 @@ TEST(PartialSymmetries, AreNoneOfAFlatSheet) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::partial_symmetries_tests

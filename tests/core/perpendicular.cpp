@@ -11,7 +11,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::perpendicular_tests {
 namespace {
 
 // Two surfaces around a piece of a surface, at a distance that varies, under a random pose.
@@ -373,4 +373,4 @@ TEST(Perpendicular, ScoresTheMiddleOfARandomBodyLow) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::perpendicular_tests

@@ -12,7 +12,7 @@
 #include "base/math.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::plane_search_tests {
 namespace {
 
 // A closed shape with the one mirror x = 0: a lumpy ball, drawn on both sides alike or anew.
@@ -271,4 +271,4 @@ TEST(PlaneSearch, FourPointsAreEnoughForAnAnswer) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::plane_search_tests

@@ -13,7 +13,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::point_summary_tests {
 namespace {
 
 PointSummary summary_of(PointsView points, Index cells) {
@@ -121,4 +121,4 @@ TEST(PointSummary, RefusesWhatItCannotAdd) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::point_summary_tests

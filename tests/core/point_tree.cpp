@@ -10,7 +10,7 @@
 #include "hard_clouds.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::point_tree_tests {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -137,4 +137,4 @@ TEST(PointTree, OrdersEveryPointOnce) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::point_tree_tests

@@ -11,7 +11,7 @@
 #include "random_cloud.h"
 #include "reflected_light.h"
 
-namespace symsurf {
+namespace symsurf::quadric_reflection_points_tests {
 namespace {
 
 // A surface f = 0 of second degree, for searches that know nothing of the method's.
@@ -156,4 +156,4 @@ TEST(ReflectionPoints, IrradianceIsThatOfAThinBundleOfRays) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::quadric_reflection_points_tests

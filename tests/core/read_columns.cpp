@@ -2,7 +2,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_columns_tests {
 namespace {
 
 const Points points = rows({{1, 2, 3}, {4000000.001, -5.5e-3, 6}});
@@ -134,4 +134,4 @@ TEST(ReadColumns, SaysWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_columns_tests

@@ -11,7 +11,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_files_tests {
 namespace {
 
 using namespace std::string_literals;
@@ -180,4 +180,4 @@ TEST(ReadFiles, WithSuffixesInCapitals) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_files_tests

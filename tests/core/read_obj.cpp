@@ -2,7 +2,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_obj_tests {
 namespace {
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -97,4 +97,4 @@ TEST(ReadObj, SaysWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_obj_tests

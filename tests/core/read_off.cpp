@@ -4,7 +4,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_off_tests {
 namespace {
 
 const std::string square = "0 0 0\n4000000.001 0 0\n1 1 0\n0 1 0\n";
@@ -86,4 +86,4 @@ TEST(ReadOff, SaysWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_off_tests

@@ -9,7 +9,7 @@
 #include "random_cloud.h"
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_openmesh_tests {
 namespace {
 
 using OpenMesh::IO::Options;
@@ -113,4 +113,4 @@ TEST(ReadOpenMesh, BinaryOffIsRefused) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_openmesh_tests

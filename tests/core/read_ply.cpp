@@ -7,7 +7,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_ply_tests {
 namespace {
 
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
@@ -251,4 +251,4 @@ TEST(ReadPly, RefusesAnElementThatStandsTwice) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_ply_tests

@@ -7,7 +7,7 @@
 
 #include "temporary_file.h"
 
-namespace symsurf {
+namespace symsurf::read_stl_tests {
 namespace {
 
 // Two triangles that share an edge, in one position as -0.
@@ -87,4 +87,4 @@ TEST(ReadStl, SaysWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::read_stl_tests

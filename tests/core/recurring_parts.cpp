@@ -12,7 +12,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::recurring_parts_tests {
 namespace {
 
 // Triangles that share no points, as STL files have them.
@@ -406,4 +406,4 @@ TEST(RecurringParts, AreNoneOfCloudsWithoutThem) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::recurring_parts_tests

@@ -15,7 +15,7 @@
 #include "random_cloud.h"
 #include "reflected_light.h"
 
-namespace symsurf {
+namespace symsurf::reflection_points_tests {
 namespace {
 
 TEST(ReflectionPoints, OfPlanesAreWhereTheImageIsSeen) {
@@ -228,4 +228,4 @@ TEST(ReflectionPoints, TakeEndsOnTheMirrorAndRefuseWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::reflection_points_tests

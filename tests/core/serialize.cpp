@@ -8,7 +8,7 @@
 #include "detection/run_on_root.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::serialize_tests {
 
 namespace {
 
@@ -63,4 +63,4 @@ TEST(SerializedResult, MayHaveNoMirror) {
 
 }  // namespace
 
-}  // namespace symsurf
+}  // namespace symsurf::serialize_tests

@@ -15,7 +15,7 @@
 #include "process_threads.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::shared_points_tests {
 
 namespace {
 
@@ -293,4 +293,4 @@ INSTANTIATE_TEST_SUITE_P(Processes, SharedPoints,
 
 }  // namespace
 
-}  // namespace symsurf
+}  // namespace symsurf::shared_points_tests

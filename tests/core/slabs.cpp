@@ -16,7 +16,7 @@
 #include "score/matching.h"
 #include "spatial/nearest_points.h"
 
-namespace symsurf {
+namespace symsurf::slabs_tests {
 namespace {
 
 constexpr Index size = 5000;
@@ -162,4 +162,4 @@ TEST_P(SharedSlabs, StayWhereTheyAreSlabsAlready) {
 INSTANTIATE_TEST_SUITE_P(Processes, SharedSlabs, testing::Values(2, 3, 5));
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::slabs_tests

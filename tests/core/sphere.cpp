@@ -8,7 +8,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::sphere_tests {
 namespace {
 
 TEST(Sphere, MirrorsAlongTheRadius) {
@@ -101,4 +101,4 @@ TEST(Sphere, RefusesWhatIsNoSphere) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::sphere_tests

@@ -12,7 +12,7 @@
 #include "methods/parametric/shapes.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::sphere_method_tests {
 namespace {
 
 struct Trial {
@@ -226,4 +226,4 @@ TEST(SphereMethod, TakesClusters) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::sphere_method_tests

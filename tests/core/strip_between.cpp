@@ -8,7 +8,7 @@
 #include "mesh_area.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::strip_between_tests {
 namespace {
 
 // Two chains over x from 0 to 1, one apart, with points of their own.
@@ -50,4 +50,4 @@ TEST(StripBetween, FillsTheSpaceBetweenChains) {
 TEST(StripBetween, TakesChainsOfAnyLength) { expect_strip(Chains(0, 40000)); }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::strip_between_tests

@@ -18,7 +18,7 @@
 #include "spatial/point_tree.h"
 #include "test_mesh.h"
 
-namespace symsurf {
+namespace symsurf::surface_samples_tests {
 namespace {
 
 Points samples_of(const TestMesh& mesh) {
@@ -355,4 +355,4 @@ TEST(SurfaceSamples, AreTheFewestPointsAMethodNeeds) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::surface_samples_tests

@@ -7,7 +7,7 @@
 #include "cloud/cloud.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::surfels_tests {
 namespace {
 
 double root_mean_square(const Eigen::MatrixXd& rows) {
@@ -50,4 +50,4 @@ TEST(Surfels, SmoothingTakesNoiseOffSurfacesAndRods) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::surfels_tests

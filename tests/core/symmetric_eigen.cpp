@@ -3,7 +3,7 @@
 #include "base/eigenvectors.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::symmetric_eigen_tests {
 namespace {
 
 Matrix3 turned(const Vector3& values, const Matrix3& axes) {
@@ -46,4 +46,4 @@ TEST(LeastEigen, IsOneOfSeveralAlike) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::symmetric_eigen_tests

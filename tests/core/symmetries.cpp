@@ -11,7 +11,7 @@
 #include "random_cloud.h"
 #include "symmetries/point_group/point_group.h"
 
-namespace symsurf {
+namespace symsurf::symmetries_tests {
 namespace {
 
 struct Expected {
@@ -257,4 +257,4 @@ TEST(Symmetries, RefusesScoresThatThereAreNot) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::symmetries_tests

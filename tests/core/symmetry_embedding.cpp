@@ -15,7 +15,7 @@
 #include "symmetries/embedding/factored_embedding.h"
 #include "symmetries/point_group/point_group.h"
 
-namespace symsurf {
+namespace symsurf::symmetry_embedding_tests {
 namespace {
 
 using Orbits = std::set<std::set<Index>>;
@@ -320,4 +320,4 @@ TEST(SymmetryEmbedding, IsFiniteForAnyPower) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::symmetry_embedding_tests

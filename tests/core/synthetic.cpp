@@ -8,7 +8,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::synthetic_tests {
 namespace {
 
 // Where f1 to f6 are all defined and smooth.
@@ -208,4 +208,4 @@ TEST(Generators, SayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::synthetic_tests

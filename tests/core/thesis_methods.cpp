@@ -7,7 +7,7 @@
 #include "thesis_clouds.h"
 #include "thesis_oracle.h"
 
-namespace symsurf {
+namespace symsurf::thesis_methods_tests {
 namespace {
 
 constexpr std::uint64_t clouds = 240;
@@ -208,4 +208,4 @@ TEST(SphereThesis, WarnsOfMorePointsThanItIsFor) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::thesis_methods_tests

@@ -12,7 +12,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::triangle_mesh_tests {
 namespace {
 
 using Loops = std::vector<std::vector<Index>>;
@@ -290,4 +290,4 @@ TEST(TriangleMesh, NamesAFaceOfNoPoint) {
 TEST(TriangleMesh, AreaOfACube) { EXPECT_NEAR(surface_area(cube_points(2), cube), 24, 1e-13); }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::triangle_mesh_tests

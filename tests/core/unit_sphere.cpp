@@ -7,7 +7,7 @@
 #include "methods/parametric/shapes.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::unit_sphere_tests {
 namespace {
 
 // Through the cloud's box; of either sign, or a plane.
@@ -74,4 +74,4 @@ TEST(UnitSphere, IsFoundFromItsPairsInAFewSteps) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::unit_sphere_tests

@@ -12,7 +12,7 @@
 #include "expect_error.h"
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::verdict_tests {
 namespace {
 
 TEST(Verdict, NamesTheScoreThatIsMissing) {
@@ -154,4 +154,4 @@ TEST(Verdict, DependsOnTheTolerance) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::verdict_tests

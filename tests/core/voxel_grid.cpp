@@ -7,7 +7,7 @@
 
 #include "random_cloud.h"
 
-namespace symsurf {
+namespace symsurf::voxel_grid_tests {
 namespace {
 
 TEST(VoxelGrid, FindsTheVoxelOfEachPositionInTheBox) {
@@ -76,4 +76,4 @@ TEST(OccupiedVoxels, AreNumberedInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::voxel_grid_tests

@@ -5,7 +5,7 @@
 
 #include "bumpy_ball.h"
 
-namespace symsurf {
+namespace symsurf::without_pairs_tests {
 namespace {
 
 Result found(PointsView points, const std::string& method, bool pairs, TrianglesView faces = {}) {
@@ -48,4 +48,4 @@ TEST(WithoutPairs, SoTheyAreOfMeshesAndBodiesFilledWithPoints) {
 }
 
 }  // namespace
-}  // namespace symsurf
+}  // namespace symsurf::without_pairs_tests
