@@ -47,12 +47,11 @@ class RegionGrowing {
   void run(const Context& context) {
     found_.facet.assign(surface_.size(), -1);
     const std::vector<Index> seeds = flattest_first(context.stage(0, 0.3));
-    for (std::size_t k = 0; k < seeds.size(); ++k) {
-      if (k % 4096 == 0) context.check();
+    interruptible_for(context, static_cast<Index>(seeds.size()), [&](Index k) {
       if (found_.facet[seeds[k]] < 0) grow(seeds[k]);
-    }
+    });
     refit();
-    take_lesser();
+    take_lesser(context);
     refit();
   }
 
@@ -126,7 +125,8 @@ class RegionGrowing {
   }
 
   // Great facets take points of lesser ones that lie in their planes; what has lost much is none.
-  void take_lesser() {
+  void take_lesser(const Context& context) {
+    constexpr std::size_t stretch = 4096;  // points between questions whether to go on
     const auto count = static_cast<Index>(found_.planes.size());
     std::vector<std::vector<Index>> members(count);
     for (Index i = 0; i < surface_.size(); ++i)
@@ -145,7 +145,8 @@ class RegionGrowing {
         for (const Index i : open) found_.facet[i] = -1;
         continue;
       }
-      for (std::size_t k = 0; k < open.size(); ++k)
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        if (k % stretch == 0) context.check();
         surface_.tree.within(surface_.point(open[k]), hole * surface_.spacing,
                              [&](std::int32_t j, double) {
                                const Index other = found_.facet[j];
@@ -155,6 +156,7 @@ class RegionGrowing {
                                found_.facet[j] = own;
                                open.push_back(j);
                              });
+      }
     }
   }
 

@@ -91,6 +91,7 @@ RingSector ring_sector(const ConnectedLines& around, const std::vector<LocalMatc
       if (turn.images[line] >= 0) seen[turn.images[line]] = 1;
     LocalLines own = around.disjoint(turns, static_cast<std::int32_t>(line), around.middle(line),
                                      share_with_image(around));
+    if (own.empty()) continue;
     const double spread = spread_of(own, around);
     if (own.size() < found.lines.size() ||
         (own.size() == found.lines.size() && spread >= less * narrowest))
