@@ -76,10 +76,11 @@ if(SYMSURF_VTK_PYTHON)
   if(SKBUILD)
     set(symsurf_python_folder .)  # in a wheel
   endif()
+  set(CMAKE_UNITY_BUILD ON)  # of a target whose name is VTK's affair
   vtk_module_wrap_python(MODULES symsurf::Filters PYTHON_PACKAGE symsurf_filters
     MODULE_DESTINATION ${symsurf_python_folder} LIBRARY_DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INSTALL_HEADERS OFF TARGET symsurf::filters_python)
-  set_target_properties(vtkSymsurfFiltersPython PROPERTIES UNITY_BUILD ON)
+  unset(CMAKE_UNITY_BUILD)
 endif()
 
 if(SYMSURF_PARAVIEW)
