@@ -13,36 +13,23 @@ namespace symsurf {
 
 namespace {
 
-// Standard deviations of the noise, and spacings, that a point may lie off the plane of its facet.
-constexpr double within_noise = 2.5, off_plane = 0.1;
+// Spacings that a point may lie off the plane of its facet without noise.
+constexpr double off_plane = 0.1;
 
 // Cosine between the normals of a facet and of a point that it grows by: 20 degrees.
 constexpr double same_normal = 0.94;
 
-// Points of a facet, and growth by which its plane is fitted again.
-constexpr Index least_points = 8;
-constexpr double fitted_again = 1.2;
+constexpr Index least_points = 8;  // of a facet
 
 // Spacings over which a facet goes on: random points leave holes.
 constexpr double hole = 3;
-
-// Of its points, that a facet keeps where greater ones take theirs.
-constexpr double kept_at_least = 0.5;
-
-SurfaceMoments moments_of(const Vector3& x) {
-  SurfaceMoments moments;
-  moments.pieces = moments.area = 1;
-  moments.sum = x;
-  moments.products = x * x.transpose();
-  return moments;
-}
 
 class RegionGrowing {
  public:
   explicit RegionGrowing(CloudFacets& found)
       : found_(found),
         surface_(found.surface),
-        off_(std::max(within_noise * found.noise, off_plane * surface_.spacing)) {}
+        off_(std::max(in_plane * found.noise, off_plane * surface_.spacing)) {}
 
   void run(const Context& context) {
     found_.facet.assign(surface_.size(), -1);
@@ -78,12 +65,12 @@ class RegionGrowing {
 
   void grow(Index seed) {
     const auto own = static_cast<Index>(found_.planes.size());
-    SurfaceMoments moments = moments_of(surface_.point(seed));
+    SurfaceMoments moments = SurfaceMoments::of_point(surface_.point(seed));
     for (const std::int32_t j : surface_.neighbours.row(seed))
-      moments += moments_of(surface_.point(j));
+      moments += SurfaceMoments::of_point(surface_.point(j));
     FacetPlane plane = plane_of(moments);
     double fitted = moments.area;
-    moments = moments_of(surface_.point(seed));
+    moments = SurfaceMoments::of_point(surface_.point(seed));
     std::vector<Index> members{seed};
     found_.facet[seed] = own;
     for (std::size_t k = 0; k < members.size(); ++k)
@@ -93,8 +80,8 @@ class RegionGrowing {
           continue;
         found_.facet[j] = own;
         members.push_back(j);
-        moments += moments_of(surface_.point(j));
-        if (moments.area > fitted_again * fitted) {
+        moments += SurfaceMoments::of_point(surface_.point(j));
+        if (moments.area > refitted * fitted) {
           plane = plane_of(moments);
           fitted = moments.area;
         }
@@ -118,7 +105,7 @@ class RegionGrowing {
         moments.emplace_back();
       }
       found_.facet[i] = own;
-      moments[own] += moments_of(surface_.point(i));
+      moments[own] += SurfaceMoments::of_point(surface_.point(i));
     }
     found_.planes.clear();
     for (const SurfaceMoments& facet : moments) found_.planes.push_back(plane_of(facet));
@@ -141,7 +128,7 @@ class RegionGrowing {
       for (const Index i : members[own])
         if (found_.facet[i] == own) open.push_back(i);
       if (static_cast<double>(open.size()) <
-          kept_at_least * static_cast<double>(members[own].size())) {
+          least_left * static_cast<double>(members[own].size())) {
         for (const Index i : open) found_.facet[i] = -1;
         continue;
       }

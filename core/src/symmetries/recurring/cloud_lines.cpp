@@ -4,9 +4,8 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
-#include "base/math.h"
+#include "base/parallel.h"
 #include "symmetries/recurring/cloud_facets.h"
 #include "symmetries/recurring/line_chains.h"
 

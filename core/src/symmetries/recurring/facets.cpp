@@ -13,6 +13,8 @@
 
 namespace symsurf {
 
+SurfaceMoments SurfaceMoments::of_point(const Vector3& x) { return {1, 1, x, x * x.transpose()}; }
+
 SurfaceMoments SurfaceMoments::of_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   SurfaceMoments moments;
   moments.pieces = 1;
@@ -41,13 +43,11 @@ FacetPlane plane_of(const SurfaceMoments& moments) {
 
 namespace {
 
-// Chosen on facades and gears with noise of 0.1 % (`make accuracy OPTIONS="--cases recurring"`). In
-// standard deviations of the noise: how far, in the mean of squares, facets that merge may lie off
-// their plane; a facet that noise turns; and a piece that a larger facet takes.
-constexpr double flat = 1.4, near_plane = 2, in_plane = 2.5;
+// Chosen on facades and gears with noise of 0.1 % (`make accuracy OPTIONS="--cases recurring"`), as
+// those in the header. In standard deviations of the noise, in the mean of squares: how far facets
+// that merge may lie off their plane, and vague ones that are absorbed.
+constexpr double flat = 1.4, near_plane = 2;
 constexpr double vague = 0.35, vaguest = 0.7;  // radians that noise turns a facet by
-// Of the area: what a facet must keep of its own, and growth by which its plane is fitted again.
-constexpr double least_left = 0.5, refitted = 1.2;
 
 // Greedy merging with a heap of the pairs that touch; costs are renewed when their turn comes.
 class Merging {

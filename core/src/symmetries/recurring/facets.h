@@ -11,12 +11,21 @@ namespace symsurf {
 /// Diagonals: what single precision makes of coordinates.
 inline constexpr double coordinate_rounding = 1e-7;
 
+/// Standard deviations of the noise that a piece may lie off the plane of a facet that takes it.
+inline constexpr double in_plane = 2.5;
+
+/// Of a facet's area: what it must keep where larger ones take from it, and growth by which its
+/// plane is fitted again.
+inline constexpr double least_left = 0.5, refitted = 1.2;
+
 /// Moments up to the second, about the origin, of pieces of a surface.
 struct SurfaceMoments {
   double area = 0, pieces = 0;
   Vector3 sum = Vector3::Zero();
   Matrix3 products = Matrix3::Zero();
 
+  /// Of a point of area 1.
+  static SurfaceMoments of_point(const Vector3& x);
   static SurfaceMoments of_triangle(const Vector3& a, const Vector3& b, const Vector3& c);
 
   SurfaceMoments& operator+=(const SurfaceMoments& other);

@@ -117,7 +117,7 @@ void assign_lines(const std::vector<RecurringPart>& parts, const FeatureLines& g
 }
 
 // Any other point belongs to the instance with the nearest line, within the box of that one.
-void assign_surface(const Cloud& cloud, const std::vector<RecurringPart>& parts,
+void assign_surface(PointsView points, const std::vector<RecurringPart>& parts,
                     const FeatureLines& graph, double margin, PartPoints& found,
                     const Context& context) {
   struct Owner {
@@ -133,12 +133,12 @@ void assign_surface(const Cloud& cloud, const std::vector<RecurringPart>& parts,
   for (const RecurringPart& part : parts) boxes.emplace_back(part.lines, graph, margin);
   const PointTree tree(rows_of(samples), context.stage(0, 0.2));
   constexpr Index grain = 1024;
-  parallel_for(context.stage(0.2, 1), cloud.points.size(), grain, [&](Index begin, Index end) {
+  parallel_for(context.stage(0.2, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       if (found.part[i] >= 0) continue;
-      const Owner owner = owners[tree.nearest(cloud.points[i]).index];
+      const Owner owner = owners[tree.nearest(points[i]).index];
       const Eigen::Isometry3d& map = parts[owner.part].instances[owner.instance].map;
-      if (!boxes[owner.part].holds(map.inverse() * cloud.points[i])) continue;
+      if (!boxes[owner.part].holds(map.inverse() * points[i])) continue;
       found.part[i] = owner.part;
       found.instance[i] = owner.instance;
     }
@@ -165,17 +165,17 @@ void collect_members(const std::vector<RecurringPart>& parts, const FeatureLines
 
 }  // namespace
 
-PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
+PartPoints part_points(PointsView points, const FeatureLines& graph,
                        const std::vector<RecurringPart>& parts, double tolerance,
                        const SquaredDistance& to_surface, const Context& context) {
   PartPoints found;
-  found.part.assign(cloud.points.size(), -1);
-  found.instance.assign(cloud.points.size(), -1);
+  found.part.assign(points.size(), -1);
+  found.instance.assign(points.size(), -1);
   if (parts.empty()) return found;
   for (const RecurringPart& part : parts)
     found.scores.push_back(scores_of(part, graph, to_surface, tolerance));
   assign_lines(parts, graph, found);
-  assign_surface(cloud, parts, graph, tolerance, found, context);
+  assign_surface(points, parts, graph, tolerance, found, context);
   collect_members(parts, graph, found);
   return found;
 }

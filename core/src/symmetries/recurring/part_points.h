@@ -3,7 +3,6 @@
 #include <functional>
 #include <vector>
 
-#include "cloud/cloud.h"
 #include "symmetries/recurring/recurring_part.h"
 
 namespace symsurf {
@@ -25,7 +24,7 @@ struct PartPoints {
 
 /// A point belongs to the instance with the feature line nearest to it, where it lies in the box
 /// around that one's lines.
-PartPoints part_points(const Cloud& cloud, const FeatureLines& graph,
+PartPoints part_points(PointsView points, const FeatureLines& graph,
                        const std::vector<RecurringPart>& parts, double tolerance,
                        const SquaredDistance& to_surface, const Context& context);
 

@@ -29,8 +29,6 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   Points scaled = cloud.points.matrix();
   scaled.rowwise() -= cloud.frame.centroid.transpose();
   scaled /= cloud.diagonal;
-  Cloud unit = cloud;
-  unit.points = scaled;
   const double angle = values.real("feature_angle") * std::numbers::pi / 180;
   std::optional<CloudFacets> facets;
   if (cloud.faces.empty()) facets.emplace(scaled, context.stage(0, 0.1));
@@ -46,14 +44,14 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
                              static_cast<double>(part.lines.size());
   });
   std::optional<ClosestPointOnMesh> closest;
-  if (!facets) closest.emplace(unit.points, unit.faces, context.stage(0.8, 0.9));
+  if (!facets) closest.emplace(scaled, cloud.faces, context.stage(0.8, 0.9));
   const auto to_surface = [&](const Vector3& x) {
     if (facets) return facets->squared_distance(x);
     const ClosestPoint nearest = (*closest)(x, 4 * tolerance * tolerance);
     return nearest.face < 0 ? infinity : nearest.squared_distance;
   };
   const PartPoints points =
-      part_points(unit, graph, parts, tolerance, to_surface, context.stage(0.9, 1));
+      part_points(scaled, graph, parts, tolerance, to_surface, context.stage(0.9, 1));
 
   const Index count = cloud.points.size();
   Eigen::VectorXd part(count), instance(count);

@@ -80,13 +80,12 @@ RingSector ring_sector(const ConnectedLines& around, const std::vector<LocalMatc
   if (found.turns.empty()) return found;
   std::vector<const LocalMatch*> turns;
   for (const LocalMatch& turn : found.turns) turns.push_back(&turn);
-  const auto is_in_ring = [&](std::size_t line) { return found.turns.front().images[line] >= 0; };
   // Of the sectors that begin with a line each, the most compact one.
   constexpr double less = 1 - 1e-6;
   std::vector<char> seen(around.graph().lines.size(), 0);
   double narrowest = infinity;
   for (std::size_t line = 0; line < around.size(); ++line) {
-    if (!is_in_ring(line) || seen[around.number(line)]) continue;
+    if (seen[around.number(line)]) continue;
     for (const LocalMatch& turn : found.turns)
       if (turn.images[line] >= 0) seen[turn.images[line]] = 1;
     LocalLines own = around.disjoint(turns, static_cast<std::int32_t>(line), around.middle(line),
