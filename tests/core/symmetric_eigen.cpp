@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "base/eigenvectors.h"
 #include "random_cloud.h"
 
@@ -41,6 +44,24 @@ TEST(LeastEigen, IsOneOfSeveralAlike) {
       EXPECT_NEAR(least.vector.norm(), 1, 1e-14) << seed << ' ' << values;
       if (!(values[0] < values[2])) continue;
       EXPECT_LT(std::abs(least.vector.dot(axes.col(2))), 1e-4) << seed << ' ' << values;
+    }
+  }
+}
+
+TEST(LeastRotation, TakesADirectionToAnotherByTheAngleBetweenThem) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Matrix3 axes = random.rotation();
+    const Vector3 from = 3 * axes.col(0);
+    for (const double angle :
+         {0.0, 1e-9, 1.0, 3.0, 3.14159, std::numbers::pi - 1e-7, std::numbers::pi}) {
+      const Vector3 onto = 2 * (std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1));
+      const Matrix3 turn = least_rotation(from, onto);
+      EXPECT_LT((turn * from.normalized() - onto.normalized()).norm(), 1e-14)
+          << seed << ' ' << angle;
+      EXPECT_LT((turn * turn.transpose() - Matrix3::Identity()).norm(), 1e-14);
+      EXPECT_NEAR(turn.determinant(), 1, 1e-14);
+      EXPECT_NEAR(turn.trace(), 1 + 2 * std::cos(angle), 1e-12) << seed << ' ' << angle;
     }
   }
 }

@@ -8,10 +8,10 @@ namespace symsurf {
 
 /// A parameter's place in a dialog.
 struct Placement {
-  std::string_view group;    ///< its heading; none: that of the method or operation
+  std::string_view group{};  ///< its heading; none: that of the method or operation
   bool is_advanced = false;  ///< few need it: it is folded away at first
   /// Another parameter and its value with which alone this one counts; none: it always does.
-  std::string_view condition, value;
+  std::string_view condition{}, value{};
 };
 
 /// Of the parameters of that name, which mean the same in all methods, operations and analyses.

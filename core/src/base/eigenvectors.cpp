@@ -114,6 +114,20 @@ Eigen::Isometry3d nearest_isometry(const std::vector<std::pair<Vector3, Vector3>
   return map_taking(nearest_orthogonal(products, parity), from, onto);
 }
 
+Matrix3 least_rotation(const Vector3& from, const Vector3& onto) {
+  const Vector3 a = from.normalized(), b = onto.normalized();
+  Vector3 middle = a + b;
+  if (a.dot(b) < 0) {
+    const Vector3 between = (b - a).normalized();
+    middle -= middle.dot(between) * between;  // what rounding left of nearly opposite ones
+    if (middle.isZero(0)) middle = a.unitOrthogonal();
+  }
+  const auto reflection = [](const Vector3& normal) -> Matrix3 {
+    return Matrix3::Identity() - 2 * normal * normal.transpose();
+  };
+  return reflection(middle.normalized()) * reflection(a);
+}
+
 Eigen::Isometry3d map_taking(const Matrix3& linear, const Vector3& from, const Vector3& onto) {
   Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
   map.linear() = linear;

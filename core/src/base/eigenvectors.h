@@ -49,6 +49,10 @@ Matrix3 nearest_orthogonal(const Matrix3& products, double parity);
 Eigen::Isometry3d nearest_isometry(const std::vector<std::pair<Vector3, Vector3>>& pairs,
                                    double parity);
 
+/// The rotation by the least angle that takes a direction to another, as two reflections: by pi
+/// about any axis across it to the opposite one.
+Matrix3 least_rotation(const Vector3& from, const Vector3& onto);
+
 /// x -> linear (x - from) + onto.
 Eigen::Isometry3d map_taking(const Matrix3& linear, const Vector3& from, const Vector3& onto);
 

@@ -1,7 +1,6 @@
 #include <symsurf/context.h>
 #include <symsurf/mirrors.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 
@@ -105,7 +104,7 @@ Matrix3 turned(PointsView points, const MidPlane& plane, const ParameterValues& 
     return lesser_turn(both_ways(along, target.up), both_ways(-along, target.up));
   }
   const Vector3 nearer = n.dot(target.lateral) < 0 ? Vector3(-n) : n;
-  return Eigen::Quaterniond::FromTwoVectors(nearer, target.lateral).toRotationMatrix();
+  return least_rotation(nearer, target.lateral);
 }
 
 void run_align(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,

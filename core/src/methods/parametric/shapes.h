@@ -180,7 +180,7 @@ class PlaneStep {
   UnitPlane taken(double* moved = nullptr) const {
     Matrix3 damped = hessian_;
     damped.diagonal().array() += 1e-12 * hessian_.trace() + 1e-300;
-    const Vector3 change = damped.ldlt().solve(-gradient_);
+    const Vector3 change = -solved(damped, gradient_);
     if (moved) *moved = change.norm();
     UnitPlane next = plane_;
     next.normal = (plane_.normal + change[0] * u_ + change[1] * v_);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/eigenvectors.h"
 #include "base/nelder_mead.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_planes.h"
@@ -110,8 +111,7 @@ class FullCloud {
   UnitPlane polished(const UnitPlane& plane) const {
     constexpr double step = 0.02, precision = 5e-4;  // radians and diagonals
     int evaluations = 80;
-    const Matrix3 axes =
-        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), plane.normal).toRotationMatrix();
+    const Matrix3 axes = least_rotation(Vector3::UnitZ(), plane.normal);
     const auto moved = [&](const Vector3& by) -> UnitPlane {
       return {(axes * Vector3(by.x(), by.y(), 1)).normalized(), plane.offset + by.z()};
     };

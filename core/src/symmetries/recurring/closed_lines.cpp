@@ -108,9 +108,8 @@ std::optional<RecurringPart::Instance> taken_to(const Rims& from, const Rims& on
     if (alike && cosine > most) {
       most = cosine;
       RecurringPart::Instance instance;
-      const auto turn =
-          Eigen::Quaterniond::FromTwoVectors(from.circles[0].normal, circles[0].normal);
-      instance.map = map_taking(turn.toRotationMatrix(), from.centre(), onto.centre());
+      const Matrix3 turn = least_rotation(from.circles[0].normal, circles[0].normal);
+      instance.map = map_taking(turn, from.centre(), onto.centre());
       for (const Circle& circle : circles) instance.lines.push_back(circle.line);
       best = instance;
     }

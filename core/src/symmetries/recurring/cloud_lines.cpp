@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "base/least_squares.h"
 #include "base/parallel.h"
 #include "symmetries/recurring/cloud_facets.h"
 #include "symmetries/recurring/line_chains.h"
@@ -78,7 +79,7 @@ class CloudLines {
       normal += plane.normal * plane.normal.transpose();
       right += plane.normal * plane.normal.dot(plane.centroid - x);
     }
-    return x + normal.ldlt().solve(right);
+    return x + solved(normal, right);
   }
 
   // One for each stretch along which links follow one another.
