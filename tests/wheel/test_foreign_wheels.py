@@ -105,6 +105,12 @@ def test_files_are_those_of_its_system(wheel, tmp_path):
     assert magic.startswith(start)
 
 
+@pytest.mark.parametrize("wheel", wheels("*manylinux*.whl"), ids=name)
+def test_linux_wheels_need_no_newer_c_library_than_2_17(wheel):
+    asked = re.findall(r"manylinux_2_(\d+)_", wheel.name)
+    assert asked and min(map(int, asked)) <= 17
+
+
 @pytest.mark.parametrize("wheel", wheels("*-win_amd64.whl"), ids=name)
 def test_windows_modules_need_what_every_windows_has(wheel):
     archive = zipfile.ZipFile(wheel)

@@ -13,20 +13,41 @@ namespace symsurf {
 
 namespace {
 
-// The faces by the positions of their corners.
+// Where pairs depend on faces: the positions of copies, of their partners and of what they are
+// partners of.
+std::vector<bool> positions_of_copies(const DistinctPoints& distinct,
+                                      const std::vector<Index>& partners) {
+  std::vector<bool> is_copied(distinct.first.size(), false), found;
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (distinct.first[distinct.number[i]] != static_cast<Index>(i))
+      is_copied[distinct.number[i]] = true;
+  found = is_copied;
+  for (std::size_t i = 0; i < partners.size(); ++i) {
+    if (partners[i] < 0) continue;
+    const std::int32_t here = distinct.number[i], there = distinct.number[partners[i]];
+    if (is_copied[here]) found[there] = true;
+    if (is_copied[there]) found[here] = true;
+  }
+  return found;
+}
+
+// Those of the faces that have a corner at given positions, by the positions of their corners.
 class FacesByPosition {
  public:
-  FacesByPosition(TrianglesView faces, const std::vector<std::int32_t>& position) {
+  FacesByPosition(TrianglesView faces, const std::vector<std::int32_t>& position,
+                  const std::vector<bool>& wanted)
+      : rank_(faces.size(), -1) {
     for (Index f = 0; f < faces.size(); ++f) {
-      const Index* corner = faces[f];
-      std::vector<Index>& alike =
-          of({position[corner[0]], position[corner[1]], position[corner[2]]});
-      rank_.push_back(static_cast<Index>(alike.size()));
+      const Triple corners{position[faces[f][0]], position[faces[f][1]], position[faces[f][2]]};
+      if (std::none_of(corners.begin(), corners.end(), [&](Index p) { return wanted[p]; }))
+        continue;
+      std::vector<Index>& alike = of(corners);
+      rank_[f] = static_cast<Index>(alike.size());
       alike.push_back(f);
     }
   }
 
-  /// Which of the faces with the same corners and winding this is.
+  /// Which of the faces with the same corners and winding this is; -1: none of them.
   Index rank(Index face) const { return rank_[face]; }
 
   /// In their order.
@@ -44,11 +65,13 @@ class FacesByPosition {
 };
 
 // Of each point the one that most of its faces' mirrored faces have at its place; -1 for none.
-std::vector<Index> partners_by_faces(TrianglesView faces, const std::vector<std::int32_t>& position,
+std::vector<Index> partners_by_faces(TrianglesView faces, const DistinctPoints& distinct,
                                      const std::vector<Index>& partners, const Context& context) {
-  FacesByPosition by_position(faces, position);
+  const std::vector<std::int32_t>& position = distinct.number;
+  FacesByPosition by_position(faces, position, positions_of_copies(distinct, partners));
   std::vector<std::pair<Index, Index>> votes;
   interruptible_for(context, faces.size(), [&](Index f) {
+    if (by_position.rank(f) < 0) return;
     const Index* corner = faces[f];
     Triple images;
     for (int c = 0; c < 3; ++c) {
@@ -90,7 +113,7 @@ void pair_copies(PointsView points, TrianglesView faces, std::vector<Index>& par
   const DistinctPoints distinct = distinct_points(points, context);
   if (distinct.first.size() == distinct.number.size()) return;
   const std::vector<std::int32_t>& position = distinct.number;
-  const std::vector<Index> by_faces = partners_by_faces(faces, position, partners, context);
+  const std::vector<Index> by_faces = partners_by_faces(faces, distinct, partners, context);
 
   struct Copy {
     Index here, there;  // positions, of the point and of its partner
