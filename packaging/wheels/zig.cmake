@@ -15,6 +15,8 @@ endif()
 string(REGEX MATCH "^[^-]*" CMAKE_SYSTEM_PROCESSOR ${SYMSURF_TARGET})
 set(CMAKE_C_COMPILER ${ZIG_PROGRAMS}/cc)
 set(CMAKE_CXX_COMPILER ${ZIG_PROGRAMS}/c++)
+set(CMAKE_C_FLAGS_INIT -g0)  # zig writes what debuggers need otherwise: a quarter more time
+set(CMAKE_CXX_FLAGS_INIT -g0)
 set(CMAKE_AR ${ZIG_PROGRAMS}/ar)
 set(CMAKE_RANLIB ${ZIG_PROGRAMS}/ranlib)
 # Headers and libraries of this system are not the target's.

@@ -397,12 +397,16 @@ TEST(RecurringParts, OfACloudAreTheSameByAnyNumberOfThreads) {
 }
 
 TEST(RecurringParts, AreNoneOfCloudsWithoutThem) {
-  RandomCloud random(0);
   Points copies(2000, 3);
   for (Index i = 0; i < copies.rows(); ++i) copies.row(i) = Vector3(i % 20, i % 20 % 3, 0);
-  for (const Points& points :
-       {random.box(20000), random.sphere(20000), random.lattice(8000, 20), random.box(4), copies})
-    EXPECT_TRUE(recurring_parts_of_cloud(points).transformations.empty());
+  int found = 0;  // by chance, among the planes of a lattice
+  for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Points& points :
+         {random.box(20000), random.sphere(20000), random.lattice(8000, 20), random.box(4), copies})
+      found += recurring_parts_of_cloud(points).transformations.empty() ? 0 : 1;
+  }
+  EXPECT_LE(found, 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "cloud/cloud.h"
 #include "cloud/distinct_points.h"
+#include "symmetries/recurring/great_facets.h"
 
 namespace symsurf {
 
@@ -37,9 +38,18 @@ class RegionGrowing {
     interruptible_for(context, static_cast<Index>(seeds.size()), [&](Index k) {
       if (found_.facet[seeds[k]] < 0) grow(seeds[k]);
     });
-    refit();
-    take_lesser(context);
-    refit();
+    found_.facet = great_facets(*this, std::move(found_.facet), context);
+    fit_planes();
+  }
+
+  SurfaceMoments moments(Index i) const { return SurfaceMoments::of_point(surface_.point(i)); }
+  bool is_in(const FacetPlane& plane, Index i) const {
+    return std::abs(plane.normal.dot(surface_.point(i) - plane.centroid)) <= off_;
+  }
+  template <typename Visit>
+  void for_each_next(Index i, const Visit& visit) const {
+    surface_.tree.within(surface_.point(i), hole * surface_.spacing,
+                         [&](std::int32_t next, double) { visit(next); });
   }
 
  private:
@@ -59,31 +69,26 @@ class RegionGrowing {
     return order;
   }
 
-  double off(const FacetPlane& plane, Index i) const {
-    return std::abs(plane.normal.dot(surface_.point(i) - plane.centroid));
-  }
-
   void grow(Index seed) {
     const auto own = static_cast<Index>(found_.planes.size());
-    SurfaceMoments moments = SurfaceMoments::of_point(surface_.point(seed));
-    for (const std::int32_t j : surface_.neighbours.row(seed))
-      moments += SurfaceMoments::of_point(surface_.point(j));
-    FacetPlane plane = plane_of(moments);
-    double fitted = moments.area;
-    moments = SurfaceMoments::of_point(surface_.point(seed));
+    SurfaceMoments sums = moments(seed);
+    for (const std::int32_t j : surface_.neighbours.row(seed)) sums += moments(j);
+    FacetPlane plane = plane_of(sums);
+    double fitted = sums.area;
+    sums = moments(seed);
     std::vector<Index> members{seed};
     found_.facet[seed] = own;
     for (std::size_t k = 0; k < members.size(); ++k)
       for (const std::int32_t j : surface_.neighbours.row(members[k])) {
-        if (found_.facet[j] >= 0 || off(plane, j) > off_ ||
+        if (found_.facet[j] >= 0 || !is_in(plane, j) ||
             std::abs(plane.normal.dot(surface_.normal(j))) < same_normal)
           continue;
         found_.facet[j] = own;
         members.push_back(j);
-        moments += SurfaceMoments::of_point(surface_.point(j));
-        if (moments.area > refitted * fitted) {
-          plane = plane_of(moments);
-          fitted = moments.area;
+        sums += moments(j);
+        if (sums.area > refitted * fitted) {
+          plane = plane_of(sums);
+          fitted = sums.area;
         }
       }
     if (static_cast<Index>(members.size()) < least_points) {
@@ -93,58 +98,22 @@ class RegionGrowing {
     found_.planes.push_back(plane);
   }
 
-  // Planes through the points that facets have now; without any there is none.
-  void refit() {
-    std::vector<SurfaceMoments> moments;
+  // Through the points that facets have now; without any there is none.
+  void fit_planes() {
+    std::vector<SurfaceMoments> sums;
     std::vector<Index> number(found_.planes.size(), -1);
     for (Index i = 0; i < surface_.size(); ++i) {
       if (found_.facet[i] < 0) continue;
       Index& own = number[found_.facet[i]];
       if (own < 0) {
-        own = static_cast<Index>(moments.size());
-        moments.emplace_back();
+        own = static_cast<Index>(sums.size());
+        sums.emplace_back();
       }
       found_.facet[i] = own;
-      moments[own] += SurfaceMoments::of_point(surface_.point(i));
+      sums[own] += moments(i);
     }
     found_.planes.clear();
-    for (const SurfaceMoments& facet : moments) found_.planes.push_back(plane_of(facet));
-  }
-
-  // Great facets take points of lesser ones that lie in their planes; what has lost much is none.
-  void take_lesser(const Context& context) {
-    constexpr std::size_t stretch = 4096;  // points between questions whether to go on
-    const auto count = static_cast<Index>(found_.planes.size());
-    std::vector<std::vector<Index>> members(count);
-    for (Index i = 0; i < surface_.size(); ++i)
-      if (found_.facet[i] >= 0) members[found_.facet[i]].push_back(i);
-    std::vector<Index> order(count), rank(count);
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Index a, Index b) { return members[a].size() > members[b].size(); });
-    for (Index k = 0; k < count; ++k) rank[order[k]] = k;
-    for (const Index own : order) {
-      std::vector<Index> open;
-      for (const Index i : members[own])
-        if (found_.facet[i] == own) open.push_back(i);
-      if (static_cast<double>(open.size()) <
-          least_left * static_cast<double>(members[own].size())) {
-        for (const Index i : open) found_.facet[i] = -1;
-        continue;
-      }
-      for (std::size_t k = 0; k < open.size(); ++k) {
-        if (k % stretch == 0) context.check();
-        surface_.tree.within(surface_.point(open[k]), hole * surface_.spacing,
-                             [&](std::int32_t j, double) {
-                               const Index other = found_.facet[j];
-                               if (other == own || (other >= 0 && rank[other] < rank[own]) ||
-                                   off(found_.planes[own], j) > off_)
-                                 return;
-                               found_.facet[j] = own;
-                               open.push_back(j);
-                             });
-      }
-    }
+    for (const SurfaceMoments& facet : sums) found_.planes.push_back(plane_of(facet));
   }
 
   CloudFacets& found_;

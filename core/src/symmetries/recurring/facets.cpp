@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
 #include <tuple>
 
@@ -10,6 +9,7 @@
 #include "base/eigenvectors.h"
 #include "base/least_squares.h"
 #include "base/math.h"
+#include "symmetries/recurring/great_facets.h"
 
 namespace symsurf {
 
@@ -45,9 +45,8 @@ namespace {
 
 // Chosen on facades and gears with noise of 0.1 % (`make accuracy OPTIONS="--cases recurring"`), as
 // those in the header. In standard deviations of the noise, in the mean of squares: how far facets
-// that merge may lie off their plane, and vague ones that are absorbed.
-constexpr double flat = 1.4, near_plane = 2;
-constexpr double vague = 0.35, vaguest = 0.7;  // radians that noise turns a facet by
+// that merge may lie off their plane.
+constexpr double flat = 1.4;
 
 // Greedy merging with a heap of the pairs that touch; costs are renewed when their turn comes.
 class Merging {
@@ -154,82 +153,51 @@ PieceGroups grouped_by(const std::vector<Index>& facet, const std::vector<Surfac
 }
 
 std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
-                          double deviation, double noise, const Context& context) {
+                          double deviation, const Context& context) {
   Merging merging(pieces);
   merging.run(
       adjacent, deviation * deviation, [](auto&, auto&) { return true; }, context);
-  const auto absorb = [&](double most_turned, double off) {
-    const auto is_vague = [&](const SurfaceMoments& facet) {
-      return noise > 0 && !(noise * plane_of(facet).turned < most_turned);
-    };
-    merging.run(
-        adjacent, off * off,
-        [&](const auto& a, const auto& b) { return is_vague(a) || is_vague(b); }, context);
-  };
-  // What fits well goes sooner.
-  absorb(vague, near_plane * noise);
-  absorb(vaguest, infinity);
   return merging.numbered();
 }
 
-// Great facets take pieces of lesser ones that lie in their planes. What has lost much is taken
-// apart: of each piece its facet, or -1.
-std::vector<Index> grown(PointsView points, const SurfacePieces& pieces, std::vector<Index> facet,
-                         double slab) {
-  const std::size_t count = pieces.moments.size();
-  std::vector<std::vector<Index>> touching(count);
-  for (const auto& [a, b] : pieces.adjacent) {
-    touching[a].push_back(b);
-    touching[b].push_back(a);
-  }
-  const auto [moments, members] = grouped_by(facet, pieces.moments);
-  std::vector<Index> order(moments.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&areas = moments](Index a, Index b) { return areas[a].area > areas[b].area; });
-  std::vector<Index> rank(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<Index>(k);
-  for (const Index own : order) {
-    std::vector<Index> open;
-    SurfaceMoments left;
-    for (const Index piece : members[own])
-      if (facet[piece] == own) {
-        open.push_back(piece);
-        left += pieces.moments[piece];
-      }
-    if (left.area < least_left * moments[own].area || !(left.area > 0)) {
-      for (const Index piece : open) facet[piece] = -1;
-      continue;
+// What great_facets() asks of the pieces of a mesh.
+class TouchingPieces {
+ public:
+  TouchingPieces(PointsView points, const SurfacePieces& pieces, double slab)
+      : points_(points), pieces_(pieces), slab_(slab), touching_(pieces.moments.size()) {
+    for (const auto& [a, b] : pieces.adjacent) {
+      touching_[a].push_back(b);
+      touching_[b].push_back(a);
     }
-    FacetPlane plane = plane_of(left);
-    double fitted = left.area;
-    for (std::size_t k = 0; k < open.size(); ++k)
-      for (const Index next : touching[open[k]]) {
-        if (facet[next] == own || (facet[next] >= 0 && rank[facet[next]] < rank[own])) continue;
-        if (!std::all_of(pieces.points[next].begin(), pieces.points[next].end(), [&](Index i) {
-              return std::abs(plane.normal.dot(points[i] - plane.centroid)) < slab;
-            }))
-          continue;
-        facet[next] = own;
-        open.push_back(next);
-        left += pieces.moments[next];
-        if (left.area > refitted * fitted) {
-          plane = plane_of(left);
-          fitted = left.area;
-        }
-      }
   }
-  return facet;
-}
+
+  const SurfaceMoments& moments(Index piece) const { return pieces_.moments[piece]; }
+  bool is_in(const FacetPlane& plane, Index piece) const {
+    const std::vector<Index>& own = pieces_.points[piece];
+    return std::all_of(own.begin(), own.end(), [&](Index i) {
+      return std::abs(plane.normal.dot(points_[i] - plane.centroid)) < slab_;
+    });
+  }
+  template <typename Visit>
+  void for_each_next(Index piece, const Visit& visit) const {
+    for (const Index next : touching_[piece]) visit(next);
+  }
+
+ private:
+  PointsView points_;
+  const SurfacePieces& pieces_;
+  double slab_;
+  std::vector<std::vector<Index>> touching_;
+};
 
 }  // namespace
 
 std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, double noise,
                              const Context& context) {
   const double deviation = std::max(coordinate_rounding, flat * noise);
-  std::vector<Index> facet = merged(pieces.moments, pieces.adjacent, deviation, noise, context);
+  std::vector<Index> facet = merged(pieces.moments, pieces.adjacent, deviation, context);
   if (noise == 0) return facet;
-  facet = grown(points, pieces, std::move(facet), in_plane * noise);
+  facet = great_facets(TouchingPieces(points, pieces, in_plane * noise), std::move(facet), context);
   std::vector<SurfaceMoments> joined;
   std::vector<Index> number(pieces.moments.size(), -1), own(pieces.moments.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -243,7 +211,7 @@ std::vector<Index> facets_of(PointsView points, const SurfacePieces& pieces, dou
   Adjacency adjacent;
   for (const auto& [a, b] : pieces.adjacent)
     if (own[a] != own[b]) adjacent.emplace_back(own[a], own[b]);
-  const std::vector<Index> again = merged(joined, adjacent, deviation, noise, context);
+  const std::vector<Index> again = merged(joined, adjacent, deviation, context);
   for (std::size_t i = 0; i < own.size(); ++i) facet[i] = again[own[i]];
   return facet;
 }

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "mesh/closest_point_on_mesh.h"
+#include "preprocess/boundary.h"
 #include "symmetries/analysis_registry.h"
 #include "symmetries/recurring/cloud_facets.h"
 #include "symmetries/recurring/part_points.h"
@@ -31,10 +32,13 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
   scaled /= cloud.diagonal;
   const double angle = values.real("feature_angle") * std::numbers::pi / 180;
   std::optional<CloudFacets> facets;
-  if (cloud.faces.empty()) facets.emplace(scaled, context.stage(0, 0.1));
-  const FeatureLines graph = facets
-                                 ? feature_lines(*facets, angle, context.stage(0.1, 0.2))
-                                 : feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  FeatureLines graph;
+  if (!cloud.faces.empty()) {
+    graph = feature_lines(scaled, cloud.faces, angle, context.stage(0, 0.2));
+  } else if (!is_volumetric(cloud, context.stage(0, 0.02))) {  // within a body facets are chance
+    facets.emplace(scaled, context.stage(0.02, 0.1));
+    graph = feature_lines(*facets, angle, context.stage(0.1, 0.2));
+  }
   const double tolerance = std::max(values.real("tolerance"), beyond_noise * graph.noise);
   std::vector<RecurringPart> parts =
       part_search(graph, tolerance, values.integer("count"), context.stage(0.2, 0.8));
@@ -44,7 +48,7 @@ void run_recurring_parts(const ColouredCloud& cloud, const ParameterValues& valu
                              static_cast<double>(part.lines.size());
   });
   std::optional<ClosestPointOnMesh> closest;
-  if (!facets) closest.emplace(scaled, cloud.faces, context.stage(0.8, 0.9));
+  if (!cloud.faces.empty()) closest.emplace(scaled, cloud.faces, context.stage(0.8, 0.9));
   const auto to_surface = [&](const Vector3& x) {
     if (facets) return facets->squared_distance(x);
     const ClosestPoint nearest = (*closest)(x, 4 * tolerance * tolerance);
