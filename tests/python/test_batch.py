@@ -352,3 +352,10 @@ def test_the_table_overwrites_no_input(tmp_path):
     done = run("detect", "cloud.csv", "--table", "./cloud.csv", cwd=tmp_path)
     assert done.returncode == 2 and "is an input" in done.stderr
     assert (tmp_path / "cloud.csv").read_bytes() == before
+
+
+def test_one_file_and_no_pairs(files):
+    (row,) = symsurf.batch(str(min(files)), method="plane")
+    assert row["error"] == "" and row["paired_share"] > 0.5
+    (row,) = symsurf.batch(min(files), method="plane", pairs=False)
+    assert row["error"] == "" and "paired_share" not in row

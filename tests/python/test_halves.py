@@ -215,3 +215,25 @@ def test_points_whose_feet_are_out_of_reach_stay():
     made = symsurf.remesh(symsurf.Shape(np.array(points, float), faces), mirror)
     assert np.isfinite(made.shape.points).all()
     assert made.parents.min() >= 0 and made.parents.max() < len(points)
+
+
+@pytest.mark.parametrize("capped", [True, False])
+def test_half_a_cloud_as_an_object_of_pyvista(capped):
+    side = np.abs(np.random.default_rng(0).normal(size=(500, 3))) + 0.1
+    cloud = pyvista.PolyData(np.vstack([side, side * (-1, 1, 1)]))
+    cloud["number"] = np.arange(1000)
+    half = symsurf.cut(cloud, symsurf.Plane((1, 0, 0), 0), capped=capped).like(cloud)
+    assert (half.points[:, 0] > 0).all() and set(half["number"]) == set(range(500))
+    assert "on_mirror" in half.point_data and "cap" not in half.cell_data
+    grid = pyvista.ImageData(dimensions=(4, 4, 4)).cast_to_unstructured_grid()
+    assert symsurf.cut(grid, symsurf.Plane((1, 0, 0), -1.5)).like(grid).n_points == 32
+
+
+def test_values_of_another_mesh_are_an_error():
+    mesh = ball(2)
+    half = symsurf.cut(mesh, PLANE)
+    transferred = symsurf.transfer(None, mesh, PLANE)
+    for carry in (half.carried, transferred.carried, transferred.displaced):
+        for count in (len(mesh.points) - 1, len(mesh.points) + 1):
+            with pytest.raises(symsurf.InvalidInput, match=f"{count} values; allowed is one of"):
+                carry(np.zeros((count, 3)))

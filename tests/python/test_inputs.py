@@ -264,3 +264,19 @@ def test_other_objects_are_as_they_were():
         assert result.faces is None and repr(result.mirror) == repr(
             symsurf.detect_plane(points).mirror
         )
+
+
+def test_blocks_are_to_be_combined():
+    pyvista = pytest.importorskip("pyvista")
+    blocks = pyvista.MultiBlock([pyvista.Sphere(center=(2, 0, 0)), pyvista.Cube()])
+    with pytest.raises(symsurf.InvalidInput, match="has 2 blocks; allowed is one of them"):
+        symsurf.detect(blocks)
+
+
+def test_a_grid_has_no_other_points():
+    pyvista = pytest.importorskip("pyvista")
+    image = pyvista.ImageData(dimensions=(6, 6, 6))
+    image["mask"] = np.arange(216) % 6 > 2
+    found = symsurf.asymmetry(image, symsurf.Plane((1, 0, 0), -4))
+    with pytest.raises(symsurf.InvalidInput, match="ImageData is a regular grid"):
+        found.like(image)

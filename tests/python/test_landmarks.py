@@ -313,6 +313,16 @@ def test_plane_of_landmarks_costs_least(rng):
             assert cost(other, points, both, alone) > least
 
 
+def test_normals_of_landmarks_point_to_one_side():
+    landmarks = np.array(
+        [(31, 62, 10), (-29, 63, 11), (70, 5, 0), (-69, 4, 2), (0, 71, 9), (1, 55, -60)], float
+    )
+    for seed in range(20):
+        placed = landmarks + np.random.default_rng(seed).normal(size=landmarks.shape)
+        for pairs in ([(0, 1)], [(2, 3)], [(1, 0), (2, 3)]):
+            assert symsurf.plane_of_landmarks(placed, pairs, [4, 5]).normal[0] > 0.9
+
+
 def test_landmarks_that_leave_the_plane_open():
     for midline in ([0], [0, 1]):
         with pytest.raises(symsurf.InvalidInput, match="leave the plane open"):

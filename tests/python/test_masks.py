@@ -41,13 +41,16 @@ def test_an_image_is_the_points_above_the_threshold():
     assert repr(by_name.mirror) == repr(result.mirror)
 
 
-@pytest.mark.parametrize("mask", ["bool", "uint8", "labels"])
+@pytest.mark.parametrize("mask", ["bool", "uint8", "float32", "labels"])
 def test_a_mask_needs_no_threshold(mask):
     grid = body()
     inside = grid["density"] > 1
-    grid["mask"] = {"bool": inside, "uint8": inside.astype(np.uint8), "labels": 3 + 4 * inside}[
-        mask
-    ]
+    grid["mask"] = {
+        "bool": inside,
+        "uint8": inside.astype(np.uint8),
+        "float32": inside.astype(np.float32),
+        "labels": 3 + 4 * inside,
+    }[mask]
     grid.set_active_scalars("mask")
     result = symsurf.detect(grid, "plane")
     assert len(result.points) == inside.sum() and is_near(

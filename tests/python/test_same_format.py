@@ -372,3 +372,24 @@ def test_a_cloud_is_completed_in_its_columns(broken_ball, tmp_path):
     assert rows[0] == "id,x,y,z,nx,ny,nz,origin" or rows[0] == "id,x,y,z,origin"
     assert [int(row.split(",")[0]) for row in rows[1:]] == expected.sources.tolist()
     np.testing.assert_array_equal(symsurf.read(made).points, expected.shape.points)
+
+
+@pytest.mark.parametrize("suffix", ["csv", "ply"])
+def test_points_that_are_not_finite_keep_what_they_have(suffix, tmp_path):
+    rows = ["nan nan nan 7", "1 2 0.5 1", "2 1 3 2", "-1 0 0.1 3", "-1 2 0.5 4", "-2 1 3 5"]
+    heads = {
+        "csv": "x,y,z,label\n",
+        "ply": "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\n"
+        "property double z\nproperty int label\nend_header\n",
+    }
+    file = tmp_path / f"points.{suffix}"
+    body = "\n".join(rows) + "\n"
+    file.write_text(heads[suffix] + (body.replace(" ", ",") if suffix == "csv" else body))
+    mirror = tmp_path / "mirror.json"
+    mirror.write_text('{"mirror": {"kind": "plane", "normal": [1, 0, 0], "offset": 0}}')
+    for operation in ("align", "transfer"):
+        done = run_here(f"{operation} {file} --mirror {mirror} --output {operation}", tmp_path)
+        assert done.returncode == 0 and "nothing of the file is kept" not in done.stderr
+        (made,) = (tmp_path / operation).glob(f"*.{suffix}")
+        labels = [line.replace(",", " ").split()[3] for line in made.read_text().splitlines()[-6:]]
+        assert labels[0] == "7" and (operation == "transfer" or labels == list("712345"))

@@ -21,7 +21,7 @@ __all__ = ["batch"]
 
 
 def batch(
-    files: Iterable[str | os.PathLike[str]],
+    files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     operation: str = DETECT,
     executor: Executor | None = None,
     *,
@@ -40,7 +40,7 @@ def batch(
     >>> pandas.DataFrame(symsurf.batch(files, "asymmetry", jobs=8))
 
     Args:
-        files: those that ``read`` takes; a folder stands for those in it.
+        files: those that ``read`` takes, or one; a folder stands for those in it.
         operation: "detect", or the name of one of ``operations()``.
         executor: of ``concurrent.futures``, or one that is like those, such as Dask's
             ``Client.get_executor()``. Its workers must see the files under the same names.
@@ -72,7 +72,8 @@ def batch(
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
             ``jobs`` beside an executor; two files of one name with an output folder.
     """
-    paths = files_in(Path(file) for file in files)
+    given = [files] if isinstance(files, (str, os.PathLike)) else files
+    paths = files_in(Path(file) for file in given)
     require_operation(operation)
     if executor is not None and jobs != 1:
         raise InvalidParameter(

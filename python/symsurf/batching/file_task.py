@@ -308,8 +308,9 @@ def _write(
 
 def about(found: Result) -> Record:
     """What a detection says without its points."""
+    pairs = {"pairs": len(found.pairs)} if found.parameters.get("pairs", True) else {}
     return {
-        "pairs": len(found.pairs),
+        **pairs,
         "surface_points": len(found.surface_points),
         "median_residual": plain(distribution(found.residuals).get("p50")),
         "residual": plain(distribution(found.residuals)),

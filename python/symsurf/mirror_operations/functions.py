@@ -20,7 +20,8 @@ _VALUES = (
 )
 
 _DOCUMENTED = {
-    "shape": "points, a mesh or a file, as ``detect`` takes them; all points finite.",
+    "shape": "points, a mesh or a file, as ``detect`` takes them; points that are not finite keep their "
+    'places and have no counterpart: ``statistics`` counts them as "nonfinite_points".',
     "result": "what ``detect`` found, or a mirror of any kind, in the unit and pose of the points; "
     "without it the mirror is found first.",
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
@@ -38,8 +39,7 @@ _OR_AXIS = (
 _ERRORS = """
 Raises:
     InvalidInput: no mirror is found, or, with ``require_found``, one with the verdict "none"; it
-        has images for less than half of the points; a point that is not finite; {mask}else as
-        ``detect`` does.
+        has images for less than half of the points; {mask}else as ``detect`` does.
     InvalidParameter, Cancelled: as ``detect`` does."""
 
 

@@ -11,6 +11,7 @@ from .checks import indices_of, pairs_of, points_of
 from .pairing import LandmarkPairs
 
 _SEPARATION = 1e-9  # of eigenvalues, of their scale: far above rounding
+_TO_SIDE = np.array([4.0, 2, 1])  # that normals point to, those of ``detect`` too
 
 
 def plane_of_landmarks(
@@ -23,7 +24,8 @@ def plane_of_landmarks(
     With x' the landmark that mirrors x, itself on the midline, it minimises the sum of
     ``|reflect(x) - x'|**2``: the landmarks, relabelled and reflected, are superimposed on themselves
     (Mardia, Bookstein and Moreton 2000). The plane goes through the centroid; its normal is the
-    eigenvector to the least eigenvalue of the sum of ``x x'^T`` about that.
+    eigenvector to the least eigenvalue of the sum of ``x x'^T`` about that, and points to the side of
+    (4, 2, 1), as that of ``detect``.
 
     Args:
         points: (k, 3). Pairs with a missing landmark, and missing ones of the midline, are left out.
@@ -53,5 +55,5 @@ def plane_of_landmarks(
         raise InvalidInput(
             "the landmarks leave the plane open; allowed are a pair, or three in all"
         )
-    normal = vectors[:, 0]
+    normal = vectors[:, 0] * (-1 if vectors[:, 0] @ _TO_SIDE < 0 else 1)
     return Plane(normal, -float(normal @ centroid))

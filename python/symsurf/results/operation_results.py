@@ -87,10 +87,18 @@ class OperationResult(Summarised):
         """What the points of ``shape`` have of values of the input's points, such as colours or
         texture coordinates: real numbers, and colours of three or four bytes, between those of a
         point's ``parents``, others those of its source. (n, ...) of ``shape`` from (k, ...) of the
-        input."""
+        input. Raises InvalidInput for another number of values."""
+        self._require_one_a_point(values)
         if self.parents is None or self.shares is None:
             return values[self.sources]
         return carried_values(values, self.sources, self.parents, self.shares)
+
+    def _require_one_a_point(self, values: NDArray[Any]) -> None:
+        if len(values) != len(self.given.points):
+            raise InvalidInput(
+                f"there are {len(values)} values; allowed is one of each of the input's "
+                f"{len(self.given.points)} points"
+            )
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -130,7 +138,7 @@ class OperationResult(Summarised):
             carried=self.carried if is_other or described.carries_values else None,
             keeps_texture=described.carries_values,
             arrays=self.arrays,
-            face_arrays=self.face_arrays,
+            face_arrays={} if self.shape.faces is None else self.face_arrays,
             figures=self.statistics,
         )
         return remade_like(given, len(self.given.points), made)
@@ -311,6 +319,7 @@ class Transferred(_OverMirror):
         from the other side is that of the displaced point's image, input units."""
         if self.parents is None or self.shares is None:
             raise InvalidInput("this result carries no values")
+        self._require_one_a_point(vectors)
         points = self.given.points
         images = self.mirror.reflect(points + vectors) - self.mirror.reflect(points)
         images = np.nan_to_num(images)  # of points that give nobody anything

@@ -77,7 +77,9 @@ def save_shape(
         old_faces=0 if shape.faces is None or result.is_other else len(shape.faces),
         sources=np.arange(len(shape.points)) if carries else result.sources,
         moved=result.is_other
-        or not np.array_equal(result.shape.points[: len(shape.points)], shape.points),
+        or not np.array_equal(
+            result.shape.points[: len(shape.points)], shape.points, equal_nan=True
+        ),
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
@@ -112,8 +114,12 @@ def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
     faces = np.empty((0, 3), np.int64) if made.faces is None else made.faces
     if made.points.shape != new.points.shape or faces.shape != new.faces.shape:
         return None
-    error = np.abs(made.points - new.points).max(initial=0)
-    return rewritten if error <= _SINGLE * np.abs(new.points).max(initial=0) else None
+    finite = np.isfinite(new.points)
+    if not np.array_equal(finite, np.isfinite(made.points)):
+        return None
+    wanted = new.points[finite]
+    error = np.abs(made.points[finite] - wanted).max(initial=0)
+    return rewritten if error <= _SINGLE * np.abs(wanted).max(initial=0) else None
 
 
 def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:

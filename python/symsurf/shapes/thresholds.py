@@ -79,9 +79,10 @@ def _is_number(value: Any) -> bool:
 def _mask(values: NDArray[Any], kind: str) -> NDArray[np.bool_]:
     if values.dtype.kind == "b":
         return values
-    if values.dtype.kind in "iu" and values.size:
+    if values.size:
         low, high = values.min(), values.max()
-        if low != high and ((values == low) | (values == high)).all():
+        is_whole = low == np.floor(low) and high == np.floor(high)
+        if is_whole and low != high and ((values == low) | (values == high)).all():
             return values == high
     raise InvalidInput(
         f"the {kind} is a regular grid, whose own symmetry is not asked for, and its scalars are no "

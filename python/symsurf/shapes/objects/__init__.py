@@ -70,6 +70,11 @@ def remade(given: Any, made: Remade) -> Any:
 
 def remade_like(given: Any, count: int, made: Remade) -> Any:
     """The same of an object that must have as many points."""
+    if grid_of(given) is not None:
+        raise InvalidInput(
+            f"the {type(given).__name__} is a regular grid, whose points do not move; allowed is a "
+            "surface or a cloud"
+        )
     points = len(points_of(given)) if is_known(given) else count
     if points != count:
         raise InvalidInput(
@@ -82,6 +87,7 @@ def remade_like(given: Any, count: int, made: Remade) -> Any:
 # The classes, after the package that has them.
 _MODULES = {
     "pyvista.DataSet": "pyvista",
+    "pyvista.MultiBlock": "pyvista",
     "trimesh.Trimesh": "trimesh",
     "trimesh.PointCloud": "trimesh",
     "trimesh.Scene": "trimesh",
