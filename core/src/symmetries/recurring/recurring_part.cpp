@@ -51,7 +51,8 @@ class PartSearch {
       if (best == candidates_.end()) break;
       parts.push_back(*best);
       if (graph_.noise > 0) complete(parts.back(), context);
-      for (const RecurringPart::Instance& instance : parts.back().instances) take(instance);
+      for (const RecurringPart::Instance& instance : parts.back().instances)
+        for (const Index line : instance.lines) taken_[line] = 1;
       drop_taken();
     }
     return parts;
@@ -113,52 +114,30 @@ class PartSearch {
     }
   }
 
-  // The lines of an instance are in no other part, nor with noise those between their corners.
-  void take(const RecurringPart::Instance& instance) {
-    std::vector<Index> corners;
-    for (const Index line : instance.lines) {
-      taken_[line] = 1;
-      corners.insert(corners.end(), {graph_.lines[line].start, graph_.lines[line].end});
-    }
-    if (!(graph_.noise > 0)) return;
-    std::sort(corners.begin(), corners.end());
-    const auto is_own = [&](Index corner) {
-      return std::binary_search(corners.begin(), corners.end(), corner);
-    };
-    for (const Index corner : corners)
-      for (const Index line : graph_.at[corner])
-        if (is_own(graph_.lines[line].start) && is_own(graph_.lines[line].end)) taken_[line] = 1;
-  }
-
   // Instances that lack lines for their noise: the part's lines are taken to any that are left.
   void complete(RecurringPart& part, const Context& context) {
     std::vector<char> is_own(graph_.lines.size(), 0), claimed(graph_.lines.size(), 0);
     for (const RecurringPart::Instance& instance : part.instances)
       for (const Index line : instance.lines) claimed[line] = 1;
-    constexpr std::size_t most_sources = 4;  // any of which may be distorted itself
-    for (std::size_t k = 0; k < std::min(most_sources, part.instances.size()); ++k) {
-      const RecurringPart::Instance source = part.instances[k];
-      for (const Index line : source.lines) is_own[line] = 1;
-      for (const Index line : source.lines)
-        for (const Index other : alike(line))
-          for (const LineMatching::Pose pose : LineMatching::poses) {
-            if (claimed[other]) break;
-            context.check();
-            const auto match = matching_.grown(line, other, pose);
-            if (!match) continue;
-            RecurringPart::Instance instance{match->map * source.map, {}};
-            double length = 0;
-            for (const auto& [from, onto] : match->lines)
-              if (is_own[from] && !claimed[onto]) {
-                instance.lines.push_back(onto);
-                length += graph_.lines[from].length;
-              }
-            if (length < least_share * part.length) continue;
-            for (const Index image : instance.lines) claimed[image] = 1;
-            part.instances.push_back(std::move(instance));
-          }
-      for (const Index line : source.lines) is_own[line] = 0;
-    }
+    for (const Index line : part.lines) is_own[line] = 1;
+    for (const Index line : part.lines)
+      for (const Index other : alike(line))
+        for (const LineMatching::Pose pose : LineMatching::poses) {
+          if (claimed[other]) break;
+          context.check();
+          const auto match = matching_.grown(line, other, pose);
+          if (!match) continue;
+          RecurringPart::Instance instance{match->map, {}};
+          double length = 0;
+          for (const auto& [from, onto] : match->lines)
+            if (is_own[from] && !claimed[onto]) {
+              instance.lines.push_back(onto);
+              length += graph_.lines[from].length;
+            }
+          if (length < least_share * part.length) continue;
+          for (const Index image : instance.lines) claimed[image] = 1;
+          part.instances.push_back(std::move(instance));
+        }
   }
 
   void mark(const RecurringPart& part, char tried) {
