@@ -139,9 +139,9 @@ struct AnalysisResult {
 };
 
 /// Runs an analysis. The points are read in place and must stay alive for the call. No symmetry is
-/// a result too. Throws InvalidInput as detect() does, and for
-/// colours that are not one a point or not finite, or missing where texture is true;
-/// InvalidParameter for an unknown name, parameter or value; Cancelled.
+/// a result too. Throws InvalidInput as detect() does, and for colours that are not one a point or
+/// not finite, or missing where texture is true; InvalidParameter for an unknown name, parameter or
+/// value; Cancelled.
 AnalysisResult analyse(std::string_view name, PointsView points,
                        const AnalysisOptions& options = {}, const Context& context = {});
 
