@@ -103,6 +103,7 @@ def test_what_is_no_axis_is_refused():
         (symsurf.InvalidParameter, "direction", {"symmetry": symsurf.Axis(axis.point, (0, 0, 0))}),
         (symsurf.InvalidParameter, "without axis_direction", {"symmetry": "axis", "axis_point": (1, 2, 3)}),
         (symsurf.InvalidParameter, "without axis_direction", {"symmetry": "axis", "axis_order": 3}),
+        (symsurf.InvalidParameter, "axis_order is 5 beside the symmetry 'mirror'", {"axis_order": 5}),
         (symsurf.InvalidParameter, "symmetry is of type int", {"symmetry": 3}),
         (symsurf.InvalidParameter, "symmetry is turn", {"symmetry": "turn"}),
         (symsurf.InvalidInput, "diagonals away from this axis", {"symmetry": symsurf.Axis(far, axis.direction)}),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import InvalidInput, InvalidParameter, Mirror
+from .._core import InvalidInput, InvalidParameter, Mirror, Parameter
 from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress, detect
 from ..reading.inputs import Input, as_input, warn_of
@@ -36,6 +36,7 @@ def operate(
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         result, parameters = _named_symmetry(result, parameters)
+        _require_axis_where_named(parameters, described)
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
     mirror = None
@@ -101,6 +102,20 @@ def _named_symmetry(
     if not np.any(result.direction):
         raise InvalidParameter("the axis has the direction (0, 0, 0); allowed is another")
     return None, parameters | own | {"symmetry": "axis"}
+
+
+def _require_axis_where_named(
+    parameters: Mapping[str, Any], described: Iterable[Parameter]
+) -> None:
+    """Numbers of an axis beside a mirror would say nothing."""
+    if parameters.get("symmetry", "mirror") == "axis":
+        return
+    for each in described:
+        value = parameters.get(each.name, each.default)
+        if each.name.startswith("axis_") and not np.array_equal(value, each.default):
+            raise InvalidParameter(
+                f"{each.name} is {value!r} beside the symmetry 'mirror'; allowed with symmetry='axis'"
+            )
 
 
 def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
