@@ -1,5 +1,10 @@
 #include <pybind11/stl.h>
 #include <symsurf/detect.h>
+#include <symsurf/placement.h>
+
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "bindings.h"
 #include "values.h"
@@ -24,6 +29,14 @@ void bind_methods(py::module_& module) {
       .def_readonly("maximum", &Parameter::maximum, "Greatest value allowed; numbers only.")
       .def_readonly("choices", &Parameter::choices, "What is allowed; choices only.")
       .def_readonly("doc", &Parameter::doc, "One sentence.")
+      .def_property_readonly(
+          "condition",
+          [](const Parameter& p) -> std::optional<std::pair<std::string, std::string>> {
+            const Placement& place = placement(p.name);
+            if (place.condition.empty()) return {};
+            return std::pair(std::string(place.condition), std::string(place.value));
+          },
+          "Another parameter and its value with which alone this one counts; None: it always does.")
       .def("__repr__", [](const Parameter& p) {
         return "<Parameter " + p.name + ": " + std::string(to_string(p.type)) + " " + p.allowed() +
                ", default " + to_string(p.default_value) + ">";

@@ -399,12 +399,13 @@ TEST(RecurringParts, OfACloudAreTheSameByAnyNumberOfThreads) {
 TEST(RecurringParts, AreNoneOfCloudsWithoutThem) {
   Points copies(2000, 3);
   for (Index i = 0; i < copies.rows(); ++i) copies.row(i) = Vector3(i % 20, i % 20 % 3, 0);
-  int found = 0;  // by chance, among the planes of a lattice
+  int found = 0;
   for (std::uint64_t seed = 0; seed < slow_seeds; ++seed) {
     RandomCloud random(seed);
-    for (const Points& points :
-         {random.box(20000), random.sphere(20000), random.lattice(8000, 20), random.box(4), copies})
-      found += recurring_parts_of_cloud(points).transformations.empty() ? 0 : 1;
+    for (const Points& points : {random.box(20000), random.sphere(20000), random.box(4), copies})
+      EXPECT_TRUE(recurring_parts_of_cloud(points).transformations.empty()) << seed;
+    // A lattice whose corners are taken by chance has planes with chance outlines.
+    found += recurring_parts_of_cloud(random.lattice(8000, 20)).transformations.empty() ? 0 : 1;
   }
   EXPECT_LE(found, 1);
 }

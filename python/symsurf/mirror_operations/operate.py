@@ -15,7 +15,7 @@ from ..base.lengths import as_fractions, diagonal_of
 from ..detection import Progress, detect
 from ..reading.inputs import Input, as_input, warn_of
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
-from ..results.operation_results import RESULTS
+from ..results.operation_results import RESULTS, require_one_a_point
 
 
 def operate(
@@ -36,7 +36,7 @@ def operate(
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         result, parameters = _named_symmetry(result, parameters)
-        _require_axis_where_named(parameters, described)
+    _require_conditions(parameters, described)
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
     mirror = None
@@ -67,11 +67,7 @@ def with_values(made: Transferred, values: Any) -> Transferred:
 
 def _carried(made: OperationResult, values: ArrayLike, name: object) -> NDArray[Any]:
     array = np.asarray(values)
-    points = len(made.given.points)
-    if array.ndim == 0 or len(array) != points:
-        raise InvalidInput(
-            f"{name} has shape {array.shape}; allowed is one value a point: ({points}, ...)"
-        )
+    require_one_a_point(array, made.given, name)
     return made.carried(array)
 
 
@@ -104,17 +100,17 @@ def _named_symmetry(
     return None, parameters | own | {"symmetry": "axis"}
 
 
-def _require_axis_where_named(
-    parameters: Mapping[str, Any], described: Iterable[Parameter]
-) -> None:
-    """Numbers of an axis beside a mirror would say nothing."""
-    if parameters.get("symmetry", "mirror") == "axis":
-        return
+def _require_conditions(parameters: Mapping[str, Any], described: Iterable[Parameter]) -> None:
+    """That parameters which count with another's value alone are not given beside other values."""
+    values = {each.name: parameters.get(each.name, each.default) for each in described}
     for each in described:
-        value = parameters.get(each.name, each.default)
-        if each.name.startswith("axis_") and not np.array_equal(value, each.default):
+        if each.condition is None or np.array_equal(values[each.name], each.default):
+            continue
+        other, value = each.condition
+        if values[other] != value:
             raise InvalidParameter(
-                f"{each.name} is {value!r} beside the symmetry 'mirror'; allowed with symmetry='axis'"
+                f"{each.name} is {values[each.name]!r} beside the {other} {values[other]!r}; allowed "
+                f"with {other}={value!r}"
             )
 
 

@@ -88,17 +88,10 @@ class OperationResult(Summarised):
         texture coordinates: real numbers, and colours of three or four bytes, between those of a
         point's ``parents``, others those of its source. (n, ...) of ``shape`` from (k, ...) of the
         input. Raises InvalidInput for another number of values."""
-        self._require_one_a_point(values)
+        require_one_a_point(values, self.given, "values")
         if self.parents is None or self.shares is None:
             return values[self.sources]
         return carried_values(values, self.sources, self.parents, self.shares)
-
-    def _require_one_a_point(self, values: NDArray[Any]) -> None:
-        if len(values) != len(self.given.points):
-            raise InvalidInput(
-                f"there are {len(values)} values; allowed is one of each of the input's "
-                f"{len(self.given.points)} points"
-            )
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -319,7 +312,7 @@ class Transferred(_OverMirror):
         from the other side is that of the displaced point's image, input units."""
         if self.parents is None or self.shares is None:
             raise InvalidInput("this result carries no values")
-        self._require_one_a_point(vectors)
+        require_one_a_point(vectors, self.given, "vectors")
         points = self.given.points
         images = self.mirror.reflect(points + vectors) - self.mirror.reflect(points)
         images = np.nan_to_num(images)  # of points that give nobody anything
@@ -412,6 +405,14 @@ RESULTS: dict[str, type[OperationResult]] = {
         Illuminated,
     )
 }
+
+
+def require_one_a_point(values: NDArray[Any], given: Shape, name: object) -> None:
+    points = len(given.points)
+    if values.ndim == 0 or len(values) != points:
+        raise InvalidInput(
+            f"{name} has shape {values.shape}; allowed is one value a point: ({points}, ...)"
+        )
 
 
 def carried_values(

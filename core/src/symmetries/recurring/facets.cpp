@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/eigenvectors.h"
@@ -39,6 +40,17 @@ FacetPlane plane_of(const SurfaceMoments& moments) {
   const LeastEigen eigen = least_eigen_of(moments.scatter());
   return {moments.centroid(), eigen.vector.normalized(),
           std::sqrt(moments.area / (eigen.next * moments.pieces))};
+}
+
+std::vector<std::vector<Index>> members_of(const std::vector<Index>& group) {
+  std::vector<std::vector<Index>> members;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (group[i] < 0) continue;
+    const auto own = static_cast<std::size_t>(group[i]);
+    if (own >= members.size()) members.resize(own + 1);
+    members[own].push_back(static_cast<Index>(i));
+  }
+  return members;
 }
 
 namespace {
@@ -132,26 +144,6 @@ class Merging {
   std::vector<Index> age_;
 };
 
-struct PieceGroups {
-  std::vector<SurfaceMoments> moments;
-  std::vector<std::vector<Index>> members;  // pieces, ascending
-};
-
-// The pieces of each facet, and their moments together.
-PieceGroups grouped_by(const std::vector<Index>& facet, const std::vector<SurfaceMoments>& pieces) {
-  PieceGroups all;
-  for (std::size_t i = 0; i < facet.size(); ++i) {
-    const auto own = static_cast<std::size_t>(facet[i]);
-    if (own >= all.moments.size()) {
-      all.moments.resize(own + 1);
-      all.members.resize(own + 1);
-    }
-    all.moments[own] += pieces[i];
-    all.members[own].push_back(static_cast<Index>(i));
-  }
-  return all;
-}
-
 std::vector<Index> merged(const std::vector<SurfaceMoments>& pieces, const Adjacency& adjacent,
                           double deviation, const Context& context) {
   Merging merging(pieces);
@@ -225,21 +217,23 @@ double noise_of(PointsView points, const SurfacePieces& pieces, const Context& c
   merging.run(
       pieces.adjacent, infinity,
       [&](const auto& a, const auto& b) { return a.pieces < full && b.pieces < full; }, context);
-  const auto [moments, members] = grouped_by(merging.numbered(), pieces.moments);
   std::vector<double> deviations;
-  for (std::size_t p = 0; p < members.size(); ++p) {
+  for (const std::vector<Index>& members : members_of(merging.numbered())) {
+    SurfaceMoments moments;
     std::vector<Index> own;
-    for (const Index piece : members[p])
+    for (const Index piece : members) {
+      moments += pieces.moments[piece];
       own.insert(own.end(), pieces.points[piece].begin(), pieces.points[piece].end());
+    }
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
-    if (own.size() < least || !(moments[p].area > 0)) continue;
-    const auto eigen = eigen_of(moments[p].scatter());
-    const double size = std::sqrt(eigen.values[2] / moments[p].area);
+    if (own.size() < least || !(moments.area > 0)) continue;
+    const auto eigen = eigen_of(moments.scatter());
+    const double size = std::sqrt(eigen.values[2] / moments.area);
     std::vector<Vector3> local;
     QuadraticFit fit;
     for (const Index i : own) {
-      local.push_back(eigen.vectors.transpose() * (points[i] - moments[p].centroid()) / size);
+      local.push_back(eigen.vectors.transpose() * (points[i] - moments.centroid()) / size);
       fit.add(local.back()[2], local.back()[1], local.back()[0]);
     }
     const QuadraticFit::Coefficients h = fit.coefficients();

@@ -41,6 +41,9 @@ struct FacetPlane {
 };
 FacetPlane plane_of(const SurfaceMoments& moments);
 
+/// Of each group the pieces in it, ascending; -1: in none.
+std::vector<std::vector<Index>> members_of(const std::vector<Index>& group);
+
 using Adjacency = std::vector<std::pair<Index, Index>>;
 
 /// Pieces of a surface: their moments, the points that each has, and which touch.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "symmetries/recurring/facets.h"
@@ -20,18 +19,10 @@ namespace symsurf {
 template <typename Pieces>
 std::vector<Index> great_facets(const Pieces& pieces, std::vector<Index> facet,
                                 const Context& context) {
-  std::vector<std::vector<Index>> members;
-  std::vector<double> area;
-  for (std::size_t piece = 0; piece < facet.size(); ++piece) {
-    if (facet[piece] < 0) continue;
-    const auto own = static_cast<std::size_t>(facet[piece]);
-    if (own >= members.size()) {
-      members.resize(own + 1);
-      area.resize(own + 1, 0);
-    }
-    members[own].push_back(static_cast<Index>(piece));
-    area[own] += pieces.moments(static_cast<Index>(piece)).area;
-  }
+  const std::vector<std::vector<Index>> members = members_of(facet);
+  std::vector<double> area(members.size(), 0);
+  for (std::size_t own = 0; own < members.size(); ++own)
+    for (const Index piece : members[own]) area[own] += pieces.moments(piece).area;
   std::vector<Index> order(members.size()), rank(members.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return area[a] > area[b]; });

@@ -32,7 +32,12 @@ def is_known(given: Any) -> bool:
 
 def parts_of(given: Any) -> Parts | None:
     """Points, faces and colours of an object of another package; None of what is none. Raises
-    InvalidInput for one that does not say which numbers its points are."""
+    InvalidInput for one that does not say which numbers its points are, and for several in one."""
+    if "pyvista.MultiBlock" in _names_of(type(given)):
+        raise InvalidInput(
+            f"the MultiBlock has {given.n_blocks} blocks; allowed is one of them, or all as one: "
+            "blocks.combine().extract_surface()"
+        )
     name = _name_of(given)
     return None if name is None else _module_of(name).parts_of(given)
 
@@ -87,7 +92,6 @@ def remade_like(given: Any, count: int, made: Remade) -> Any:
 # The classes, after the package that has them.
 _MODULES = {
     "pyvista.DataSet": "pyvista",
-    "pyvista.MultiBlock": "pyvista",
     "trimesh.Trimesh": "trimesh",
     "trimesh.PointCloud": "trimesh",
     "trimesh.Scene": "trimesh",

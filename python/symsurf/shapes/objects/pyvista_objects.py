@@ -10,7 +10,6 @@ import pyvista
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkStringArray
 
-from ..._core import InvalidInput
 from ..grids import (
     colours_of,
     drop_normals,
@@ -25,13 +24,8 @@ from .parts import Parts, Remade
 _Carried = Callable[[NDArray[Any]], NDArray[Any]]
 
 
-def parts_of(given: pyvista.DataSet | pyvista.MultiBlock) -> Parts:
-    """Of one that is no regular grid. Raises InvalidInput for one of several."""
-    if isinstance(given, pyvista.MultiBlock):
-        raise InvalidInput(
-            f"the MultiBlock has {given.n_blocks} blocks; allowed is one of them, or all as one: "
-            "blocks.combine().extract_surface()"
-        )
+def parts_of(given: pyvista.DataSet) -> Parts:
+    """Of one that is no regular grid."""
     return Parts(given.points, faces_of(given), colours_of(given))
 
 
