@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "cloud/voxel_grid.h"
 #include "formats.h"
-#include "spatial/voxel_grid.h"
 #include "text_scanner.h"
 
 namespace symsurf {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "cloud/point_tree.h"
 #include "random_cloud.h"
-#include "spatial/point_tree.h"
 
 namespace symsurf::any_unit_tests {
 namespace {

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "base/math.h"
-#include "methods/baselines/plane_iteration.h"
-#include "methods/baselines/symmetry_measure.h"
+#include "published/plane_iteration.h"
+#include "published/symmetry_measure.h"
 #include "random_cloud.h"
 
 namespace symsurf::baselines_tests {

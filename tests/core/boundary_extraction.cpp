@@ -6,9 +6,9 @@
 
 #include "cloud/cloud.h"
 #include "cloud/normals.h"
+#include "cloud/point_tree.h"
 #include "preprocess/boundary.h"
 #include "random_cloud.h"
-#include "spatial/point_tree.h"
 
 namespace symsurf::boundary_extraction_tests {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/closest_point_on_mesh.h"
+#include "cloud/closest_point_on_mesh.h"
 
 #include <gtest/gtest.h>
 

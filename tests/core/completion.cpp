@@ -9,8 +9,8 @@
 
 #include "base/math.h"
 #include "bumpy_ball.h"
-#include "mesh/closest_point_on_mesh.h"
-#include "mesh/triangle_mesh.h"
+#include "cloud/closest_point_on_mesh.h"
+#include "cloud/triangle_mesh.h"
 #include "random_cloud.h"
 
 namespace symsurf::completion_tests {

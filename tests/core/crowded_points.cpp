@@ -7,8 +7,8 @@
 #include <ctime>
 #include <numbers>
 
+#include "cloud/exact_isometries.h"
 #include "random_cloud.h"
-#include "symmetries/exact_isometries.h"
 
 namespace symsurf::crowded_points_tests {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "expect_error.h"
-#include "methods/registry.h"
 #include "random_cloud.h"
+#include "search/registry.h"
 
 namespace symsurf::duplicates_tests {
 namespace {

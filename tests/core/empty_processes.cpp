@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "detection/run_on_root.h"
 #include "expect_error.h"
 #include "process_threads.h"
+#include "processes/run_on_root.h"
 #include "random_cloud.h"
 
 namespace symsurf::empty_processes_tests {

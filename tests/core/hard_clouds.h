@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "cloud/point_tree.h"
 #include "random_cloud.h"
-#include "spatial/point_tree.h"
 
 namespace symsurf {
 

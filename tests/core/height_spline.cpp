@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "methods/free_form/bent_plane.h"
 #include "random_cloud.h"
+#include "search/bent_plane.h"
 
 namespace symsurf::perpendicular {
 namespace {

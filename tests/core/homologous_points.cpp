@@ -19,8 +19,8 @@
 #include "cloud/footprint.h"
 #include "expect_error.h"
 #include "figure.h"
-#include "operations/homologous/curvature.h"
-#include "operations/homologous/surface_graph.h"
+#include "homologous/curvature.h"
+#include "homologous/surface_graph.h"
 #include "random_cloud.h"
 
 namespace symsurf::homologous_points_tests {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bumpy_ball.h"
+#include "cloud/triangle_mesh.h"
 #include "figure.h"
-#include "mesh/triangle_mesh.h"
 #include "random_cloud.h"
 
 namespace symsurf::illumination_tests {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "cloud/point_tree.h"
 #include "limbed_body.h"
 #include "random_cloud.h"
-#include "spatial/point_tree.h"
 #include "symmetries/intrinsic/connected_surface.h"
 
 namespace symsurf::intrinsic_symmetry_tests {

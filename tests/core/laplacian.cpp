@@ -1,4 +1,4 @@
-#include "mesh/laplacian.h"
+#include "cloud/laplacian.h"
 
 #include <gtest/gtest.h>
 

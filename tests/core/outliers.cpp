@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "methods/registry.h"
 #include "mirrored_ball.h"
 #include "preprocess/outlier_removal.h"
 #include "random_cloud.h"
+#include "search/registry.h"
 
 namespace symsurf::outliers_tests {
 namespace {

@@ -1,4 +1,4 @@
-#include "spatial/point_tree.h"
+#include "cloud/point_tree.h"
 
 #include <gtest/gtest.h>
 

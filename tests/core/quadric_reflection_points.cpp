@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "optics/reflection_search.h"
+#include "light/reflection_search.h"
 #include "random_cloud.h"
 #include "reflected_light.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "detection/run_on_root.h"
+#include "processes/run_on_root.h"
 #include "random_cloud.h"
 
 namespace symsurf::serialize_tests {

@@ -1,4 +1,4 @@
-#include "distributed/slabs.h"
+#include "processes/slabs.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/mirrors.h>
@@ -9,12 +9,12 @@
 #include <numeric>
 
 #include "cloud/cloud.h"
-#include "methods/registry.h"
+#include "cloud/nearest_points.h"
+#include "pairing/matching.h"
 #include "process_threads.h"
+#include "processes/distributed_matching.h"
 #include "random_cloud.h"
-#include "score/distributed_matching.h"
-#include "score/matching.h"
-#include "spatial/nearest_points.h"
+#include "search/registry.h"
 
 namespace symsurf::slabs_tests {
 namespace {

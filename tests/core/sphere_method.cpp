@@ -9,7 +9,7 @@
 
 #include "base/nelder_mead.h"
 #include "expect_error.h"
-#include "methods/parametric/shapes.h"
+#include "fit/shapes.h"
 #include "random_cloud.h"
 
 namespace symsurf::sphere_method_tests {

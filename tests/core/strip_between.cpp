@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "mesh/rim_triangles.h"
+#include "cloud/rim_triangles.h"
 #include "mesh_area.h"
 #include "random_cloud.h"
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "cloud/cloud.h"
+#include "cloud/point_tree.h"
 #include "expect_error.h"
-#include "methods/registry.h"
 #include "random_cloud.h"
-#include "spatial/point_tree.h"
+#include "search/registry.h"
 #include "test_mesh.h"
 
 namespace symsurf::surface_samples_tests {

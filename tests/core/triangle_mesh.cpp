@@ -1,4 +1,4 @@
-#include "mesh/triangle_mesh.h"
+#include "cloud/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 #include <symsurf/context.h>

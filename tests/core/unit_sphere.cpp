@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cloud/principal_frame.h"
-#include "methods/parametric/shapes.h"
+#include "fit/shapes.h"
 #include "random_cloud.h"
 
 namespace symsurf::unit_sphere_tests {

@@ -1,4 +1,4 @@
-#include "spatial/voxel_grid.h"
+#include "cloud/voxel_grid.h"
 
 #include <gtest/gtest.h>
 

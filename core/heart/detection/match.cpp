@@ -1,0 +1,116 @@
+#include <symsurf/context.h>
+#include <symsurf/detect.h>
+#include <symsurf/mirrors.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "detection/pipeline.h"
+#include "pairing/matching.h"
+#include "preprocess/boundary.h"
+#include "score/mirror_score.h"
+#include "score/verdict.h"
+#include "search/registry.h"
+
+namespace symsurf {
+
+FoundMirror found_mirror(const Result& result, bool require_found) {
+  const bool found = result.verdict() == "found";
+  if (!found && (require_found || !result.mirror))
+    throw InvalidInput("the shape has no mirror: " + result.reason());
+  if (!result.mirror) throw InvalidInput("the result of " + result.method + " has no mirror");
+  if (found) return {result.mirror, ""};
+  return {result.mirror, "the verdict on the mirror is \"none\": " + result.reason() +
+                             "; it is used all the same, with require_found this is an error"};
+}
+
+const Parameter& require_found_parameter() {
+  static const Parameter parameter = Parameter::boolean(
+      "require_found", false,
+      "Refuse a mirror that is found with the verdict \"none\"; otherwise it is used, with a "
+      "warning.");
+  return parameter;
+}
+
+Values candidate_values(const Result& result) {
+  const auto count = static_cast<Index>(result.candidates.size());
+  if (count == 0) return {};
+  Eigen::MatrixXd scores(count, 1), normals(count, 3), offsets(count, 1);
+  bool planes = true;
+  for (Index row = 0; row < count; ++row) {
+    const Result& candidate = result.candidates[row];
+    scores(row, 0) = candidate.score;
+    const auto* plane = dynamic_cast<const Plane*>(candidate.mirror.get());
+    planes = planes && plane;
+    if (!planes) continue;
+    normals.row(row) = plane->normal().transpose();
+    offsets(row, 0) = plane->offset();
+  }
+  if (!planes) return {{"candidate_scores", scores}};
+  return {
+      {"candidate_scores", scores}, {"candidate_normals", normals}, {"candidate_offsets", offsets}};
+}
+
+namespace {
+
+Result scored(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+              const Context& context) {
+  const NearestPoints points(cloud.points, tree, context);
+  Result result;
+  MirrorScore(cloud, points, context).fill(mirror, result);
+  return result;
+}
+
+// A volumetric cloud by itself or by its boundary, whichever scores more.
+Result scored_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
+                   const Context& context) {
+  Result whole = scored(cloud, tree, mirror, context);
+  if (is_exact(whole) || !is_volumetric(cloud, context)) return whole;
+  const Points rows = chosen_rows(cloud.points, boundary_of(cloud, context));
+  Cloud boundary = checked_cloud(rows, {}, 1, context);
+  boundary.tolerance = cloud.tolerance;
+  Result outer = scored(boundary, PointTree(rows, context), mirror, context);
+  return outer.score > whole.score ? outer : whole;
+}
+
+// A known mirror in place of a method that finds one.
+MethodImplementation matching(const Mirror& mirror, double pair_distance) {
+  MethodImplementation method;
+  method.name = "match";
+  method.minimum_points = 1;
+  method.preprocessing = Preprocessing::none();
+  method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates = true;
+  method.run = [&mirror, pair_distance](const Cloud& cloud, const ParameterValues&,
+                                        const Context& context) {
+    PointTree tree(cloud.points, context.stage(0, 0.2));
+    Result result = scored_over(cloud, tree, mirror, context.stage(0, 0));
+    result.method = "match";
+    add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
+              context.stage(0.2, 1));
+    return result;
+  };
+  return method;
+}
+
+}  // namespace
+
+Result match(PointsView points, const Mirror& mirror, double pair_distance, const Context& context,
+             bool refuse_nonfinite, double tolerance) {
+  const ParameterValues values("match", {symsurf::tolerance()}, {{"tolerance", tolerance}});
+  if (!(pair_distance >= 0 && std::isfinite(pair_distance)))
+    throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
+                           "; allowed is [0, inf)");
+  const auto start = std::chrono::steady_clock::now();
+  Cloud cloud;
+  cloud.points = points;
+  cloud.tolerance = values.real("tolerance");
+  Result result =
+      run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
+  result.parameters = {{"pair_distance", pair_distance}, {"tolerance", tolerance}};
+  judge(result, true, usual_minimum_score);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,180 @@
+#include "fit/candidate.h"
+
+#include <array>
+#include <cmath>
+
+#include "base/math.h"
+#include "fit/shapes.h"
+#include "pairing/correspondence.h"
+
+namespace symsurf {
+
+namespace {
+
+// Mirrors act alike where they send a few positions to like positions.
+struct Action {
+  std::vector<Vector3> images;
+
+  template <typename Shape>
+  Action(const std::vector<Vector3>& probes, const Shape& shape) {
+    for (const Vector3& x : probes) images.push_back(shape.reflect(x));
+  }
+
+  // Root mean square, in diagonals.
+  double difference(const Action& other) const {
+    constexpr double apart = 0.5;  // where only one has an image
+    double squared = 0;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      const double gap = (images[k] - other.images[k]).squaredNorm();
+      const bool both = std::isfinite(gap);
+      squared += both ? std::min(gap, apart * apart)
+                      : (images[k].allFinite() == other.images[k].allFinite() ? 0 : apart * apart);
+    }
+    return std::sqrt(squared / static_cast<double>(images.size()));
+  }
+};
+
+// The mirror moved onto the surfels' images, looking less far with each step.
+template <typename Shape>
+Shape icp_steps(const Surfels& surfels, const SurfelMap& map, Shape shape, double widest,
+                double narrowest, int steps, Index stride) {
+  for (int step = 0; step < steps; ++step) {
+    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
+    typename Shape::Step sum(shape);
+    for (Index i = 0; i < surfels.size(); i += stride) {
+      const Surfel& s = surfels[i];
+      const double weight = displaced(shape.distance(s.position), tolerance);
+      if (weight <= 0) continue;
+      const Vector3 image = shape.reflect(s.position);
+      const Index j = map.nearest(image);
+      if (j < 0) continue;
+      const Vector3 gap = image - surfels[j].position;
+      const Correspondence correspondence(gap, shape.reflect_direction(s.position, s.normal),
+                                          s.flatness, surfels[j]);
+      sum.add(s.position, gap, correspondence.metric(), weight * correspondence.weight(tolerance));
+    }
+    shape = sum.taken();
+  }
+  return shape;
+}
+
+}  // namespace
+
+template <typename Shape>
+double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
+                     double tolerance, Index stride, double contradiction) {
+  constexpr double least_moved = 0.35;
+  double moved = 0, support = 0;
+  Index looked = 0;
+  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
+    const Surfel& s = surfels[i];
+    const double weight = displaced(shape.distance(s.position), tolerance);
+    if (weight <= 0) continue;
+    moved += weight;
+    const Vector3 image = shape.reflect(s.position);
+    const Index j = map.nearest(image);
+    if (j < 0) continue;
+    const Correspondence correspondence(image - surfels[j].position,
+                                        shape.reflect_direction(s.position, s.normal), s.flatness,
+                                        surfels[j]);
+    const double agrees = correspondence.weight(tolerance);
+    support += weight * (agrees - contradiction * (1 - agrees));
+  }
+  return support / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+template <typename Shape>
+Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
+                                    Candidate<Shape> candidate, double widest, double narrowest,
+                                    int steps, Index stride, double contradiction) {
+  candidate.shape = icp_steps(surfels, map, candidate.shape, widest, narrowest, steps, stride);
+  candidate.support =
+      support_share(surfels, map, candidate.shape, narrowest, stride, contradiction);
+  return candidate;
+}
+
+template <typename Shape>
+void suppress_non_maxima(const std::vector<Vector3>& probes,
+                         std::vector<Candidate<Shape>>& candidates, double distance, Index count) {
+  sort_best_first(candidates);
+  std::vector<Candidate<Shape>> kept;
+  std::vector<Action> actions;
+  for (const Candidate<Shape>& candidate : candidates) {
+    if (static_cast<Index>(kept.size()) == count) break;
+    const Action action(probes, candidate.shape);
+    const bool is_new = std::none_of(actions.begin(), actions.end(), [&](const Action& other) {
+      return other.difference(action) < distance;
+    });
+    if (!is_new) continue;
+    kept.push_back(candidate);
+    actions.push_back(action);
+  }
+  candidates = std::move(kept);
+}
+
+template <typename Shape>
+void suppress_non_maxima(const Surfels& surfels, std::vector<Candidate<Shape>>& candidates,
+                         double distance, Index count) {
+  constexpr Index probes = 12;
+  std::vector<Vector3> positions;
+  for (Index k = 0; k < probes; ++k)
+    positions.push_back(surfels[k * surfels.size() / probes].position);
+  suppress_non_maxima(positions, candidates, distance, count);
+}
+
+template <typename Shape>
+std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, const Surfels& surfels,
+                                      const SurfelMap& map, Index count, const Context& context) {
+  constexpr Index glance = 8, first_look = 24, second_look = 120;  // surfels tried on
+  constexpr double tolerance = 0.03, least_explained = 0.15;
+  constexpr std::size_t first_count = 1500, second_count = 300;
+  const auto stride = [&](Index wanted) { return std::max<Index>(1, surfels.size() / wanted); };
+  std::vector<Candidate<Shape>> found;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    if (i % 256 == 0) context.check();
+    const Shape& shape = hypotheses[i];
+    if (support_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
+    const double support = support_share(surfels, map, shape, tolerance, stride(first_look));
+    if (support > least_explained) found.push_back({shape, support});
+  }
+  sort_best_first(found);
+  found.resize(std::min(found.size(), first_count));
+  suppress_non_maxima(surfels, found, 0.04, second_count);
+  for (Candidate<Shape>& candidate : found) {
+    context.check();
+    candidate.support =
+        support_share(surfels, map, candidate.shape, tolerance, stride(second_look));
+  }
+  suppress_non_maxima(surfels, found, 0.06, count);
+  return found;
+}
+
+template double support_share(const Surfels&, const SurfelMap&, const UnitPlane&, double, Index,
+                              double);
+template double support_share(const Surfels&, const SurfelMap&, const UnitSphere&, double, Index,
+                              double);
+
+template Candidate<UnitPlane> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                 Candidate<UnitPlane>, double, double, int, Index,
+                                                 double);
+template Candidate<UnitSphere> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                  Candidate<UnitSphere>, double, double, int, Index,
+                                                  double);
+template Candidate<UnitCylinder> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                    Candidate<UnitCylinder>, double, double, int,
+                                                    Index, double);
+
+template void suppress_non_maxima(const std::vector<Vector3>&, std::vector<Candidate<UnitPlane>>&,
+                                  double, Index);
+template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitSphere>>&, double,
+                                  Index);
+template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitCylinder>>&, double,
+                                  Index);
+
+template std::vector<Candidate<UnitSphere>> best_of(const std::vector<UnitSphere>&, const Surfels&,
+                                                    const SurfelMap&, Index, const Context&);
+template std::vector<Candidate<UnitCylinder>> best_of(const std::vector<UnitCylinder>&,
+                                                      const Surfels&, const SurfelMap&, Index,
+                                                      const Context&);
+
+}  // namespace symsurf

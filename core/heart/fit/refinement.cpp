@@ -1,0 +1,302 @@
+#include "fit/refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "base/eigenvectors.h"
+#include "base/least_squares.h"
+#include "base/math.h"
+#include "fit/hypotheses.h"
+#include "fit/shapes.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double reach = 0.06;    // how far a partner may be
+constexpr double widest = 0.012;  // tolerance of what is only looked at
+constexpr double score_tolerance = 0.015;
+constexpr double least_moved = 0.35;  // share of the samples
+// Stricter than the score: where much is missing, how close the rest comes distinguishes a false
+// mirror from the true. As close as the noise lets it.
+constexpr double closest = 0.0003, close = 0.001;
+constexpr double near_miss = 0.016, penalty = 0.4;
+
+// Noise is taken off the points for planes alone: along the planes of patches, it would take what
+// tells how a mirror bends as well. Of 24 spheres through noise 22 are right without, 12 with it.
+template <typename Shape>
+constexpr bool is_plane = std::is_same_v<Shape, UnitPlane>;
+
+// The mean over tolerances from coarse to fine: images that meet a point exactly count in full,
+// chance correspondence less the finer one looks.
+double closeness(const Correspondence& correspondence) {
+  constexpr std::array tolerances{0.01, 0.005, 0.0025, 0.00125};
+  double sum = 0;
+  for (const double tolerance : tolerances) sum += correspondence.weight(tolerance);
+  return sum / static_cast<double>(tolerances.size());
+}
+
+// Along the Z-order curve of the principal frame, not of the input's: pose must not show.
+std::uint32_t place_on_curve(const Vector3& x) {
+  constexpr int bits = 8;
+  constexpr double shift = 0.038197;  // off any lattice, as the surfels' grid
+  const Eigen::Vector3i cell = ((x.array() + 1 + shift) * (1 << (bits - 1)) / 1.1).cast<int>();
+  std::uint32_t position = 0;
+  for (int bit = bits - 1; bit >= 0; --bit)
+    for (int axis = 0; axis < 3; ++axis) position = position << 1 | (cell[axis] >> bit & 1);
+  return position;
+}
+
+}  // namespace
+
+Refinement::Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
+                       const Surfels& fine)
+    : cloud_(cloud),
+      points_(points),
+      coarse_(coarse),
+      fine_(fine),
+      spacing_(coarse.spacing_of(cloud.points.size())) {
+  for (Index k = 0; k < fine.size(); ++k) {
+    const Vector3& x = fine[k].sampled;
+    if (const Surfel* surfel = surfel_at(x)) samples_.push_back({x, surfel, place_on_curve(x)});
+  }
+  std::stable_sort(samples_.begin(), samples_.end(),
+                   [](const Sample& a, const Sample& b) { return a.position < b.position; });
+  noise_ = measured_noise();
+  kernel_ = {.inlier = std::clamp(noise_.deviation(), closest, close),
+             .near_miss = near_miss,
+             .penalty = penalty};
+  for (Sample& s : samples_) s.smoothed = noise_.smoothed(s.point, *s.surfel);
+}
+
+SurfaceNoise Refinement::measured_noise() const {
+  constexpr Index wanted = 250;
+  const Index stride = stride_for(wanted);
+  std::vector<OnSurface> asked;
+  for (std::size_t i = 0; i < samples_.size(); i += stride)
+    asked.push_back({samples_[i].point, samples_[i].surfel});
+  return {asked, neighbours_of(asked, cloud_.frame, points_)};
+}
+
+Index Refinement::stride_for(Index wanted) const {
+  return std::max<Index>(1, (static_cast<Index>(samples_.size()) + wanted / 2) / wanted);
+}
+
+template <typename Shape>
+const Vector3& Refinement::position(const Sample& sample) const {
+  return is_plane<Shape> ? sample.smoothed : sample.point;
+}
+
+template <typename Shape>
+Vector3 Refinement::gap(const Shape& shape, const Match& match) const {
+  return shape.reflect(position<Shape>(*match.sample)) -
+         (is_plane<Shape> ? noise_.smoothed(match.partner, *match.surfel) : match.partner);
+}
+
+template <typename Shape>
+auto Refinement::matches(const Shape& shape, double limit, Index stride) const
+    -> std::vector<Match> {
+  std::vector<const Sample*> asked;
+  std::vector<Vector3> images;
+  for (std::size_t i = 0; i < samples_.size(); i += stride) {
+    const Vector3 image = shape.reflect(samples_[i].point);
+    if (!image.allFinite()) continue;
+    asked.push_back(&samples_[i]);
+    images.push_back(cloud_.frame.from_frame(image));
+  }
+  const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
+  std::vector<Match> found;
+  found.reserve(asked.size());
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (!partners[k].allFinite()) continue;
+    const Vector3 x = cloud_.frame.to_frame(partners[k]);
+    if (const Surfel* surfel = surfel_at(x)) found.push_back({asked[k], x, surfel});
+  }
+  return found;
+}
+
+template <typename Shape>
+double Refinement::support(const Shape& shape, Index samples) const {
+  const Index stride = stride_for(samples);
+  double moved = 0, support = 0;
+  Index looked = 0;
+  for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
+    moved += displaced(shape.distance(position<Shape>(samples_[i])), score_tolerance);
+  for (const Match& match : matches(shape, reach, stride)) {
+    const Sample& s = *match.sample;
+    const Vector3& x = position<Shape>(s);
+    const Vector3 off = gap(shape, match);
+    const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
+                                        s.surfel->flatness, *match.surfel);
+    const double agrees = is_plane<Shape> ? kernel_(distance_past(off, *match.surfel, spacing_),
+                                                    correspondence.normal_consistency)
+                                          : closeness(correspondence);
+    support += displaced(shape.distance(x), score_tolerance) * agrees;
+  }
+  return support / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+template <typename Shape>
+Candidate<Shape> Refinement::fitted(const Candidate<Shape>& start, const Fit& fit) const {
+  Candidate<Shape> candidate = start;
+  candidate.shape = fitted(start.shape, fit);
+  candidate.support = support(candidate.shape, fit.samples);
+  return candidate;
+}
+
+template <typename Shape>
+Shape Refinement::refined(const Shape& start) const {
+  constexpr double wide = 0.01;
+  constexpr Index many = 1000;
+  constexpr int steps = 12;
+  const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
+  const Shape close = fitted(fitted(start, {many, wide, steps}), {many, narrow, steps});
+  return exact(fitted(close, {static_cast<Index>(samples_.size()), narrow, 2}));
+}
+
+// Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
+// the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
+// nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
+// mirror has moved by a part of the spacing, or has converged between them.
+template <typename Shape>
+Shape Refinement::fitted(Shape shape, const Fit& fit) const {
+  constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
+  constexpr double along_surface = 0.01;  // partners hold a mirror hardly where they may slide
+  const double stale = 0.1 * spacing_, converged = 0.02 * spacing_;
+  const Index stride = stride_for(fit.samples);
+  double tolerance = fit.tolerance;
+  std::vector<Match> found;
+  double moved = infinity;
+  for (int step = 0; step < fit.steps; ++step) {
+    if (moved > stale) {
+      found = matches(shape, std::min(reach, 4 * tolerance + spacing_), stride);
+      moved = 0;
+    }
+    typename Shape::Step sum(shape);
+    double squares = 0, weights = 0;
+    for (const Match& match : found) {
+      const Sample& s = *match.sample;
+      const Vector3& x = position<Shape>(s);
+      const double weight = displaced(shape.distance(x), tolerance);
+      if (weight <= 0) continue;
+      const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_.deviation())};
+      const Vector3 off = gap(shape, match);
+      if (!off.allFinite()) continue;  // the mirror has moved since
+      const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
+                                          s.surfel->flatness, p);
+      const double r = distance_past(off, p, spacing_) / tolerance;
+      const double trusted = weight * correspondence.normal_consistency *
+                             inside_surface(off, p, spacing_) * fading(r * r / 2);
+      squares += trusted * r * r;
+      weights += trusted;
+      sum.add(x, off, correspondence.metric(along_surface), trusted);
+    }
+    if (weights < 4) return shape;
+    double change;
+    shape = sum.taken(&change);
+    moved += change;
+    tolerance =
+        std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
+    if (change < still) {
+      if (moved < converged) return shape;
+      moved = infinity;
+    }
+  }
+  return shape;
+}
+
+template <typename Shape>
+Shape Refinement::exact(const Shape& start) const {
+  constexpr Index wanted = 1000;
+  std::vector<Vector3> positions;
+  for (std::size_t i = 0; i < samples_.size(); i += stride_for(wanted))
+    positions.push_back(samples_[i].point);
+  return fitted_to_exact_pairs(start, positions, points_, cloud_.frame, spacing_).value_or(start);
+}
+
+template <typename Shape>
+Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const Shape& shape) const {
+  constexpr Index wanted = 400;
+  typename Shape::Step held(shape), moved(shape);
+  double count = 0;
+  for (const Match& match : matches(shape, reach, stride_for(wanted))) {
+    const Sample& s = *match.sample;
+    const Vector3& x = position<Shape>(s);
+    const double weight = displaced(shape.distance(x), widest);
+    if (weight <= 0) continue;
+    const Vector3 off = gap(shape, match);
+    const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
+                                        s.surfel->flatness, *match.surfel);
+    const Vector3& n = match.surfel->normal;
+    held.add(x, off, n * n.transpose(), weight * correspondence.weight(widest));
+    moved.add(x, off, Matrix3::Identity(), weight);
+    count += weight;
+  }
+  if (!(count > 0))
+    return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(moved.hessian().rows(), 2);
+  Eigen::MatrixXd moves = moved.hessian() / count;
+  moves.diagonal().array() += 1e-9 * moves.trace();
+  return eigen_of(Eigen::MatrixXd(held.hessian()), moves).vectors.leftCols(2);
+}
+
+// A mirror that is h higher over the plane moves the image by 2 h along its normal.
+PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
+  constexpr Index wanted = 1200;
+  constexpr int rounds = 3;
+  using Heights = Eigen::Vector<double, 6>;
+  const Vector3 u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
+  const std::vector<Match> found = matches(plane, reach, stride_for(wanted));
+  Heights heights = Heights::Zero();
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
+    Heights asked = Heights::Zero();
+    for (const Match& match : found) {
+      const Sample& x = *match.sample;
+      const double s = u.dot(x.smoothed), t = v.dot(x.smoothed);
+      const Heights terms(Heights{1, s, t, s * s / 2, s * t, t * t / 2});
+      const Vector3 flat = gap(plane, match);
+      const Vector3 off = flat + 2 * heights.dot(terms) * plane.normal;
+      const Correspondence correspondence(off, plane.reflect_direction(x.surfel->normal),
+                                          x.surfel->flatness, *match.surfel);
+      const double weight = displaced(plane.distance(x.smoothed), widest) *
+                            correspondence.weight(widest) *
+                            inside_surface(off, *match.surfel, spacing_);
+      const Vector3& across = match.surfel->normal;
+      const double slope = 2 * across.dot(plane.normal);
+      products += weight * slope * slope * terms * terms.transpose();
+      asked -= weight * slope * across.dot(flat) * terms;
+    }
+    products.diagonal().array() += 1e-9 * products.trace() + 1e-300;
+    heights = solved(products, asked);
+  }
+  Eigen::Matrix2d curvature;
+  curvature << heights[3], heights[4], heights[4], heights[5];
+  const SymmetricEigen<2> principal = eigen_of(curvature);
+  const int most = std::abs(principal.values[0]) > std::abs(principal.values[1]) ? 0 : 1;
+  const Eigen::Vector2d way = principal.vectors.col(most);
+  const Vector3 normal = (plane.normal - heights[1] * u - heights[2] * v).normalized();
+  const Vector3 along = way[0] * u + way[1] * v;
+  return {(heights[0] - plane.offset) * plane.normal, normal,
+          (along - along.dot(normal) * normal).normalized(), principal.values[most],
+          principal.values[1 - most]};
+}
+
+template UnitPlane Refinement::refined(const UnitPlane&) const;
+template UnitPlane Refinement::exact(const UnitPlane&) const;
+template Candidate<UnitPlane> Refinement::fitted(const Candidate<UnitPlane>&, const Fit&) const;
+template double Refinement::support(const UnitPlane&, Index) const;
+
+template UnitSphere Refinement::exact(const UnitSphere&) const;
+template Candidate<UnitSphere> Refinement::fitted(const Candidate<UnitSphere>&, const Fit&) const;
+template double Refinement::support(const UnitSphere&, Index) const;
+template Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const UnitSphere&) const;
+
+template UnitCylinder Refinement::exact(const UnitCylinder&) const;
+template Candidate<UnitCylinder> Refinement::fitted(const Candidate<UnitCylinder>&,
+                                                    const Fit&) const;
+template double Refinement::support(const UnitCylinder&, Index) const;
+template Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const UnitCylinder&) const;
+
+}  // namespace symsurf

@@ -1,0 +1,337 @@
+#include "operations/counterparts.h"
+
+#include <symsurf/context.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "cloud/closest_point_on_mesh.h"
+#include "cloud/distinct_points.h"
+#include "cloud/normals.h"
+#include "cloud/point_tree.h"
+#include "cloud/surface_points.h"
+#include "operations/copy_pairs.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr Index grain = 512;          // points; some ten microseconds each over a free-form mirror
+constexpr double corner = 1e-9;       // a barycentric weight below this is rounding
+constexpr double rim_of_mesh = 0.1;   // of the face's longest edge: how far past it is on it still
+constexpr double rim_of_cloud = 1.5;  // spacings: inside a surface the nearest point is nearer
+constexpr Index neighbours = 10;      // that a cloud's normals are estimated from
+constexpr double exact = 1e-6;        // diagonals between a point and an image: single precision
+
+void require_images(const Points& images, std::string_view kind) {
+  const Index count = images.rowwise().sum().array().isFinite().count();
+  if (2 * count < images.rows())
+    throw InvalidInput("only " + std::to_string(count) + " of " + std::to_string(images.rows()) +
+                       " points have an image over this " + std::string(kind) +
+                       "; at least half are needed: the mirror is to be in the unit and the pose "
+                       "of the points");
+}
+
+// NaN where one is not known: of a vertex that no face uses.
+double cosine_between(const Vector3& a, const Vector3& b) {
+  return a.isZero(0) || b.isZero(0) ? std::numeric_limits<double>::quiet_NaN() : a.dot(b);
+}
+
+double volume_of(PointsView points, TrianglesView faces) {
+  const Vector3 origin = points[0];
+  double volume = 0;
+  for (Index f = 0; f < faces.size(); ++f) {
+    const Vector3 a = points[faces[f][0]] - origin, b = points[faces[f][1]] - origin;
+    volume += a.cross(b).dot(points[faces[f][2]] - origin) / 6;
+  }
+  return volume;
+}
+
+// One a point: whether most of the connected part of the mesh that it belongs to faces the other
+// way than what it is the image of. A side is wound so that was mirrored without turning its faces.
+std::vector<bool> wound_against_their_images(PointsView points, TrianglesView faces,
+                                             const std::vector<signed char>& faces_alike) {
+  const DistinctPoints distinct = distinct_points(points, Context());
+  DisjointSets parts(static_cast<Index>(distinct.first.size()));
+  const auto part_of = [&](Index i) { return parts.root(distinct.number[i]); };
+  for (Index f = 0; f < faces.size(); ++f)
+    for (int c = 0; c < 2; ++c)
+      parts.join(distinct.number[faces[f][c]], distinct.number[faces[f][c + 1]]);
+  std::vector<Index> balance(parts.size(), 0);
+  for (Index i = 0; i < points.size(); ++i) balance[part_of(i)] += faces_alike[i];
+  std::vector<bool> against(points.size());
+  for (Index i = 0; i < points.size(); ++i) against[i] = balance[part_of(i)] < 0;
+  return against;
+}
+
+// How the map turns a normal at x, up to its sign: by what it does to two tangents, as a mirror
+// need not be an isometry.
+Vector3 mapped_normal(const SymmetryMap& map, const Vector3& x, const Vector3& image,
+                      const Vector3& normal, double step) {
+  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  const Vector3 along_u = map.image(x + step * u) - image;
+  const Vector3 along_v = map.image(x + step * v) - image;
+  return along_u.cross(along_v).stableNormalized();
+}
+
+}  // namespace
+
+Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
+                           const Limits& limits, const Context& context, Pairing pairing)
+    : map_(map),
+      limits_(limits),
+      pairing_(pairing),
+      all_(input.points.size()),
+      images_(map.images(input.points, context.stage(0, 0.3))) {
+  require_images(images_, map.kind());
+  if (!map.is_reflection()) preimages_ = map.inverse().images(input.points, context);
+  const double registered = pairing == Pairing::Homologous ? 0.8 : 0.3;
+  if (pairing == Pairing::Homologous)
+    homologous_ = homologous_points(input.points, input.faces, images_, context.stage(0.3, 0.8));
+  const Context rest = context.stage(registered, 1);
+  if (input.faces.empty())
+    match_cloud(input, rest);
+  else
+    match_mesh(input, rest);
+  if (map.is_reflection()) {
+    std::vector<Index> nearest;
+    for (const Counterpart& c : all_) nearest.push_back(c.nearest);
+    pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
+  }
+  if (pairing == Pairing::Homologous) go_back(input, context.stage(1, 1));
+  matched_ =
+      std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
+}
+
+void Counterparts::settle(Index i, double cosine) {
+  Counterpart& c = all_[i];
+  c.agreement = std::isfinite(cosine) ? std::clamp(cosine, 0.0, 1.0) : 1;
+  c.matched = !c.past_rim && c.gap <= limits_.distance && c.agreement >= limits_.cosine;
+}
+
+// From the homologous point of a point to the homologous point of that.
+void Counterparts::go_back(const OperationInput& input, const Context& context) {
+  parallel_for(context, input.points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Counterpart& c = all_[i];
+      if (!c.matched || homologous_.partners[i] >= 0) continue;
+      Vector3 displacement = Vector3::Zero();
+      if (c.face < 0)
+        displacement = homologous_.displacements.row(c.nearest).transpose();
+      else
+        for (int k = 0; k < 3; ++k)
+          displacement +=
+              c.weights[k] * homologous_.displacements.row(input.faces[c.face][k]).transpose();
+      const Vector3 back = map_.preimage(c.on_surface + displacement);
+      c.return_gap = (back - input.points[i]).norm();
+      if (!std::isfinite(c.return_gap)) c.return_gap = limits_.distance;
+    }
+  });
+}
+
+double Counterparts::confidence(Index i, PointsView points) const {
+  const Counterpart& c = all_[i];
+  if (!c.matched) return 0;
+  double gap = pairing_ == Pairing::Closest ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  if (!std::isfinite(gap)) gap = c.gap;  // a point without an image may be another's
+  return gap == 0 ? c.agreement : c.agreement / (1 + gap * gap / (spacing_ * spacing_));
+}
+
+void Counterparts::report_unmatched(Values& statistics) const {
+  const auto share = [&](const auto& is_so) {
+    const auto count = std::count_if(all_.begin(), all_.end(),
+                                     [&](const Counterpart& c) { return !c.matched && is_so(c); });
+    return static_cast<double>(count) / static_cast<double>(all_.size());
+  };
+  const auto has_none = [](const Counterpart& c) { return c.nearest < 0; };
+  const auto is_far = [&](const Counterpart& c) {
+    return c.nearest >= 0 && !c.past_rim && c.gap > limits_.distance;
+  };
+  const auto is_turned = [&](const Counterpart& c) {
+    return c.nearest >= 0 && !c.past_rim && c.gap <= limits_.distance;
+  };
+  statistics["unmatched_share"] = share([](const Counterpart&) { return true; });
+  statistics["unmatched_without_image"] = share(has_none);
+  statistics["unmatched_past_rim"] = share([](const Counterpart& c) { return c.past_rim; });
+  statistics["unmatched_too_far"] = share(is_far);
+  statistics["unmatched_turned"] = share(is_turned);
+}
+
+void Counterparts::match_mesh(const OperationInput& input, const Context& context) {
+  const PointsView points = input.points;
+  const TriangleMesh& mesh = mesh_.emplace(points, input.faces, context.stage(0, 0));
+  const std::vector<bool> is_boundary = mesh.is_boundary();
+  normals_ = mesh.vertex_normals();
+  // A mirror turns the winding round.
+  const double winding = map_.is_reflection() ? -1 : 1;
+  const Points image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
+  const bool is_closed = std::none_of(is_boundary.begin(), is_boundary.end(), std::identity());
+  is_watertight_ = is_closed && mesh.refused().total() == 0;
+  const double outwards = is_closed && volume_of(points, input.faces) < 0 ? -1 : 1;
+  std::vector<Index> face_at(points.size(), -1);
+  for (Index f = input.faces.size() - 1; f >= 0; --f)
+    for (int c = 0; c < 3; ++c) face_at[input.faces[f][c]] = f;
+
+  const double exact_reach = exact * diagonal_of(points);
+  const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
+  const auto settle_at = [&](Index i, const ClosestPoint& closest, bool by_lines) {
+    Counterpart& c = all_[i];
+    const Vector3 x = query(points, i);
+    const Index* corners = input.faces[closest.face];
+    c.face = closest.face;
+    c.weights = closest.weights;
+    c.place = closest.point;
+    c.gap = (closest.point - points[i]).norm();
+    c.on_surface = Vector3::Zero();
+    Vector3 normal = Vector3::Zero();
+    c.on_rim = true;
+    double longest = 0, nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 y = image(corners[k]);
+      c.on_surface += closest.weights[k] * points[corners[k]];
+      normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
+      c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
+      longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
+      const double squared = (y - x).squaredNorm();
+      if (squared < nearest) {
+        nearest = squared;
+        c.nearest = corners[k];
+      }
+    }
+    normal.stableNormalize();
+    const Vector3 gap = x - closest.point;
+    c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+    const double cosine = cosine_between(normal, normals_.row(i).transpose());
+    settle(i, by_lines ? std::abs(cosine) : cosine);
+    return cosine;
+  };
+  // A point that is the image of another, whatever the faces around the two.
+  const auto settle_at_point = [&](Index i, Index partner, bool is_exact) {
+    Counterpart& c = all_[i];
+    c.nearest = partner;
+    c.face = face_at[partner];
+    for (int k = 0; k < 3; ++k) c.weights[k] = input.faces[c.face][k] == partner ? 1 : 0;
+    c.place = image(partner);
+    c.on_surface = points[partner];
+    c.gap = (c.place - points[i]).norm();
+    c.on_rim = is_boundary[partner];
+    const double cosine =
+        cosine_between(image_normals.row(partner).transpose(), normals_.row(i).transpose());
+    settle(i, std::abs(cosine));
+    c.matched = c.matched || is_exact;
+    return cosine;
+  };
+
+  const PointTree images(images_, context.stage(0.2, 0.3));
+  // Whether the closest place faces the way the point does: 1 or -1; 0: neither, or not known.
+  std::vector<signed char> faces_alike(points.size(), 0);
+  parallel_for(context.stage(0.3, 0.9), points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
+      const bool is_exact = partner >= 0;
+      if (!is_exact && pairing_ == Pairing::Homologous) partner = homologous_.partners[i];
+      const auto look = [&](double cosine) {
+        if (std::abs(cosine) >= limits_.cosine) faces_alike[i] = cosine < 0 ? -1 : 1;
+      };
+      if (partner >= 0 && face_at[partner] >= 0) {
+        look(settle_at_point(i, partner, is_exact));
+        continue;
+      }
+      const Vector3 x = query(points, i);
+      const ClosestPoint closest = mirrored(x);
+      if (closest.face < 0) continue;
+      const double cosine = settle_at(i, closest, false);
+      if (all_[i].agreement < limits_.cosine) {
+        // Where the sides of a thin part differ, the closest layer is the wrong one.
+        const ClosestPoint facing =
+            mirrored.facing(x, winding * normals_.row(i).transpose(), limits_.cosine,
+                            limits_.distance * limits_.distance);
+        if (facing.face >= 0) settle_at(i, facing, false);
+      }
+      if (!all_[i].past_rim && all_[i].gap <= limits_.distance) look(all_[i].matched ? 1 : cosine);
+    }
+  });
+  const std::vector<bool> by_lines = wound_against_their_images(points, input.faces, faces_alike);
+  parallel_for(context.stage(0.9, 1), points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      if (by_lines[i] && all_[i].gap > exact_reach) settle_at(i, mirrored(query(points, i)), true);
+  });
+  normals_ *= outwards;
+  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
+}
+
+void Counterparts::match_cloud(const OperationInput& input, const Context& context) {
+  const PointsView points = input.points;
+  const PointTree tree(points, context.stage(0, 0.1));
+  normals_ = estimate_normals(points, tree, std::min(neighbours, points.size()), "pca",
+                              context.stage(0.1, 0.3));
+  const Vector3 centroid = points.matrix().colwise().mean().transpose();
+  for (Index i = 0; i < points.size(); ++i)
+    if ((points[i] - centroid).dot(normals_.row(i).transpose()) < 0) normals_.row(i) *= -1;
+  spacing_ = surface_spacing(points, tree);
+  const double step = 1e-2 * spacing_, exact_reach = exact * diagonal_of(points);
+
+  const PointTree mirrored(images_, context.stage(0.3, 0.4));
+  parallel_for(context.stage(0.4, 1), points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Counterpart& c = all_[i];
+      const Vector3 x = query(points, i);
+      c.nearest = mirrored.nearest(x).index;
+      if (c.nearest < 0) continue;
+      const Vector3 y = image(c.nearest), gap = x - y;
+      const Vector3 normal =
+          mapped_normal(map_, points[c.nearest], y, normals_.row(c.nearest).transpose(), step);
+      const Vector3 along = gap - gap.dot(normal) * normal;
+      c.place = y + along;
+      c.on_surface = map_.preimage(c.place);
+      if (!c.on_surface.allFinite()) {  // past the points that have images
+        c = {};
+        continue;
+      }
+      c.gap =
+          pairing_ == Pairing::Closest ? std::abs(gap.dot(normal)) : (c.place - points[i]).norm();
+      c.past_rim = along.norm() > rim_of_cloud * spacing_;
+      // Estimated normals have no sign.
+      settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
+      c.matched = c.matched || gap.norm() <= exact_reach;
+    }
+  });
+}
+
+Parameter max_distance() {
+  return Parameter::real("max_distance", 0.1, 0, 1, "diagonal",
+                         "A point whose image is farther from the surface has no counterpart.");
+}
+
+Parameter max_angle() {
+  return Parameter::real("max_angle", 60, 0, 90, "degrees",
+                         "A point whose mirrored normal differs by more from that of the surface "
+                         "has no counterpart.");
+}
+
+Parameter pairing() {
+  return Parameter::choice(
+      "pairing", "closest", {"closest", "homologous"},
+      "What a point is compared with: the closest point of the mirrored surface, or the homologous "
+      "one, by non-rigid registration.");
+}
+
+Pairing pairing_of(const ParameterValues& values) {
+  return values.choice("pairing") == "homologous" ? Pairing::Homologous : Pairing::Closest;
+}
+
+Counterparts::Limits limits_of(const ParameterValues& values, PointsView points) {
+  // A right angle is allowed to be one to rounding.
+  return {values.real("max_distance") * diagonal_of(points),
+          std::cos(values.real("max_angle") * std::numbers::pi / 180) - 1e-12};
+}
+
+}  // namespace symsurf

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <symsurf/operations.h>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "cloud/footprint.h"
+#include "cloud/triangle_mesh.h"
+#include "homologous/homologous_points.h"
+#include "operations/symmetry_map.h"
+
+namespace symsurf {
+
+/// Points nearer to the mirror than this lie on it, in diagonals: single precision.
+constexpr double mirror_tolerance = 1e-6;
+
+/// Which point of the mirrored surface a point is compared with: the closest one, or the one that a
+/// non-rigid registration finds to be its homologous point.
+enum class Pairing { Closest, Homologous };
+
+/// Where the other side of a shape says that one of its points should be: a point of the mirrored
+/// surface, that is of the faces between the images of their corners. Of a rotation, the turned
+/// one.
+struct Counterpart {
+  Vector3 place = nowhere;       ///< that point; NaN where there is none
+  Vector3 on_surface = nowhere;  ///< what it is the image of
+  Index nearest = -1;  ///< a point of the input: of a cloud the one whose image is closest, of a
+                       ///< mesh the corner of the face whose image is
+  Index face = -1;     ///< of a mesh, whose image the place lies on
+  Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
+  double gap = 0;                     ///< from the point to the mirrored surface, input units
+  double return_gap = 0;  ///< of a homologous point: from the point to what the way there and back
+                          ///< leads to, input units
+  double agreement = 0;   ///< cosine between the normals there, 0 to 1
+  bool on_rim = false;    ///< the place is on a boundary of the mirrored mesh
+  bool past_rim = false;  ///< the point lies beside the mirrored surface, not above it
+  /// Whose image is a point, or which is not past a rim, nor farther away or turned by more than
+  /// allowed.
+  bool matched = false;
+
+  static inline const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+
+/// Of all points of a shape.
+class Counterparts {
+ public:
+  struct Limits {
+    double distance;  ///< from a point to the mirrored surface, input units
+    double cosine;    ///< between the normals
+  };
+
+  /// Throws InvalidInput where the mirror has images for less than half of the points.
+  Counterparts(const OperationInput& input, const SymmetryMap& map, const Limits& limits,
+               const Context& context, Pairing pairing = Pairing::Closest);
+
+  const Counterpart& operator[](Index i) const { return all_[i]; }
+  Index matched() const { return matched_; }
+
+  /// 0 to 1: the cosine between the normals, halved where the closest image of a point, or the way
+  /// there and back between homologous points, ends a spacing away. 0 without a counterpart.
+  double confidence(Index i, PointsView points) const;
+
+  /// Of all points the share without a counterpart, and what of it is so for which reason.
+  void report_unmatched(Values& statistics) const;
+
+  /// Of a point, NaN where it has none.
+  Vector3 image(Index i) const { return images_.row(i).transpose(); }
+  /// What has the point for its image: over a mirror the same.
+  Vector3 preimage(Index i) const {
+    return map_.is_reflection() ? image(i) : Vector3(preimages_.row(i).transpose());
+  }
+
+  /// Unit normals, one a point: of a closed mesh outwards, of an open one by its winding, of a
+  /// cloud away from its centroid.
+  const Points& normals() const { return normals_; }
+
+  /// Between neighbouring points, in input units: of a mesh the side of a square as large as a
+  /// point's share of the area.
+  double spacing() const { return spacing_; }
+
+  /// Of a shape with faces.
+  const TriangleMesh& mesh() const { return *mesh_; }
+
+  /// Of a mesh that is closed and without faces that a manifold has no room for.
+  bool is_watertight() const { return is_watertight_; }
+
+ private:
+  void match_mesh(const OperationInput& input, const Context& context);
+  void match_cloud(const OperationInput& input, const Context& context);
+  void settle(Index i, double cosine);
+  void go_back(const OperationInput& input, const Context& context);
+
+  // From where the counterpart of a point is looked for.
+  Vector3 query(PointsView points, Index i) const {
+    if (pairing_ == Pairing::Closest) return points[i];
+    return points[i] + homologous_.displacements.row(i).transpose();
+  }
+
+  const SymmetryMap map_;
+  const Limits limits_;
+  const Pairing pairing_;
+  HomologousPoints homologous_;  // where these are asked for
+  std::vector<Counterpart> all_;
+  std::optional<TriangleMesh> mesh_;
+  Points images_, preimages_, normals_;  // preimages: of a rotation
+  double spacing_ = 0;
+  Index matched_ = 0;
+  bool is_watertight_ = false;
+};
+
+/// Parameters that operations share, and the limits that they set.
+Parameter max_distance();
+Parameter max_angle();
+Parameter pairing();
+Pairing pairing_of(const ParameterValues& values);
+Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
+
+}  // namespace symsurf

@@ -1,0 +1,95 @@
+#include "pairing/matching.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace symsurf {
+
+namespace {
+
+// Has memory send a row that is read soon.
+void prefetch(PointsView points, Index i) {
+#ifdef __GNUC__
+  __builtin_prefetch(points.data() + 3 * i);
+#endif
+}
+
+}  // namespace
+
+Partners find_partners(PointsView points, const PointTree& tree, const Mirror& mirror, double limit,
+                       const Context& context) {
+  constexpr Index grain = 1024;
+  constexpr Index ahead = 8;  // points along the curve lie scattered: a tenth of `plane` of 10^6
+  Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
+  const std::vector<std::int32_t>& order = tree.order();
+  parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
+    for (Index p = begin; p < end; ++p) {
+      const std::int32_t i = order[p];
+      if (p + ahead < end) prefetch(points, order[p + ahead]);
+      const Neighbour found = tree.nearest(mirror.reflect(points[i]), limit * limit);
+      partners.index[i] = static_cast<std::int32_t>(found.index);
+      partners.squared[i] = found.squared_distance;
+    }
+  });
+  return partners;
+}
+
+// Little is held beside the tree, and beside the result: at a million points that is what counts.
+void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
+               double limit, const Context& context) {
+  Partners partners;
+  {
+    const PointTree consumed = std::move(tree);
+    partners = find_partners(points, consumed, mirror, limit, context);
+  }
+  const Index size = points.size();
+  const Index found = size - std::count(partners.index.begin(), partners.index.end(), -1);
+  // The largest first, into the space that the tree left.
+  result.surface_points.resize(found, 3);
+  Pairs& pairs = result.pairs;
+  pairs.resize(found, 2);
+  Index row = 0;
+  interruptible_for(context, size, [&](Index i) {
+    const Index partner = partners.index[i];
+    if (partner < 0) return;
+    partners.squared[row] = partners.squared[i];
+    pairs.row(row++) << i, partner;
+  });
+  partners.index = std::vector<std::int32_t>();
+  result.residuals = std::move(partners.squared);
+  result.residuals.conservativeResize(found);
+  result.residuals = result.residuals.cwiseSqrt();
+  interruptible_for(context, found, [&](Index k) {
+    result.surface_points.row(k) = (points[pairs(k, 0)] + points[pairs(k, 1)]).transpose() / 2;
+  });
+}
+
+void add_pairs(Result& result, const Cloud& cloud, PointTree&& tree, const ParameterValues& values,
+               const Context& context) {
+  if (values.boolean("pairs"))
+    add_pairs(result, cloud.points, std::move(tree), *result.mirror,
+              values.real("pair_distance") * cloud.diagonal, context);
+}
+
+void keep_pairs(Result& result, const std::vector<Index>& rows) {
+  result.pairs = Pairs(result.pairs(rows, Eigen::indexing::all));
+  result.residuals = Eigen::VectorXd(result.residuals(rows));
+  result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
+}
+
+void pair_anew(Result& result, PointsView points, double limit, const Context& context) {
+  if (!result.mirror) return;
+  add_pairs(result, points, PointTree(points, context), *result.mirror, limit, context);
+  if (result.mirror->kind() != "free-form" && result.mirror->kind() != "quadric") return;
+  result.surface_points = result.mirror->project(result.surface_points, context);
+  std::vector<Index> reached;
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    if (result.surface_points.row(row).allFinite()) reached.push_back(row);
+  keep_pairs(result, reached);
+}
+
+}  // namespace symsurf

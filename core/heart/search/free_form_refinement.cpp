@@ -1,0 +1,220 @@
+#include "search/free_form_refinement.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigenvectors.h"
+#include "base/math.h"
+
+namespace symsurf::perpendicular {
+namespace {
+constexpr double exact_miss = 0.25;  // spacings
+// Of the partners found. Where single points are missing fewer are exact, and the others say more
+// about the mirror than a surface would that goes only where partners are.
+constexpr double least_exact = 0.8;
+constexpr double flat_enough = 0.995;
+constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
+constexpr double least_component = 0.15;                   // of the largest
+constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
+
+struct Smoothing {
+  Index neighbours;  // data a patch is fitted to
+  double along;
+  double robust_scale;  // in units of the diagonal
+  double most_missed;   // a patch whose data miss by more, in the median, is none
+};
+
+// So many that noise averages out.
+Index around_a_patch(const SearchCloud& cloud) {
+  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
+  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
+  return static_cast<Index>(std::min(most, least * excess * excess));
+}
+
+double median_miss(const std::vector<Carried>& data) {
+  std::vector<double> squared;
+  for (const Carried& c : data) squared.push_back(c.miss.squaredNorm());
+  return std::sqrt(median(std::move(squared)));
+}
+
+Points feet_of(const std::vector<Carried>& carried) {
+  Points feet(static_cast<Index>(carried.size()), 3);
+  for (Index i = 0; i < feet.rows(); ++i) feet.row(i) = carried[i].foot.transpose();
+  return feet;
+}
+
+// Small connected components beside a large one are pairs by chance.
+void drop_small_components(const SearchCloud& cloud, std::vector<Carried>& carried) {
+  if (carried.empty()) return;
+  const Points feet = feet_of(carried);
+  const PointTree tree(feet);
+  std::vector<std::int32_t> component(carried.size(), -1);
+  std::vector<Index> sizes, open;
+  for (Index first = 0; first < feet.rows(); ++first) {
+    if (component[first] >= 0) continue;
+    const auto label = static_cast<std::int32_t>(sizes.size());
+    sizes.push_back(0);
+    component[first] = label;
+    open.push_back(first);
+    while (!open.empty()) {
+      const Index i = open.back();
+      open.pop_back();
+      ++sizes[label];
+      tree.within(feet.row(i), together * cloud.spacing, [&](Index other, double) {
+        if (component[other] >= 0) return;
+        if (std::abs(carried[other].normal.dot(carried[i].normal)) < together_normals) return;
+        component[other] = label;
+        open.push_back(other);
+      });
+    }
+  }
+  const auto least =
+      least_component * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+  std::size_t k = 0;
+  std::erase_if(carried,
+                [&](const Carried&) { return static_cast<double>(sizes[component[k++]]) < least; });
+}
+
+// Patches about one spacing apart, each fitted to the data around it.
+std::shared_ptr<const FreeForm> fitted(const SearchCloud& cloud,
+                                       const std::vector<Carried>& carried,
+                                       const Smoothing& smoothing) {
+  if (carried.size() < 6) return nullptr;
+  const Points feet = feet_of(carried);
+  const PointTree tree(feet);
+  const double apart = 0.9 * cloud.spacing;
+  std::vector<char> covered(carried.size(), 0);
+  std::vector<Index> nodes;
+  for (Index i = 0; i < feet.rows(); ++i) {
+    if (covered[i]) continue;
+    nodes.push_back(i);
+    tree.within(feet.row(i), apart, [&](Index other, double) {
+      if (carried[other].normal.dot(carried[i].normal) > 0.5) covered[other] = 1;
+    });
+  }
+  Points centres(static_cast<Index>(nodes.size()), 3);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    centres.row(static_cast<Index>(k)) = feet.row(nodes[k]);
+  const PointTree centre_tree(centres);
+
+  std::vector<Patch> patches;
+  std::vector<Neighbour> found;
+  std::vector<Carried> data;
+  for (const Index node : nodes) {
+    cloud.context.check();
+    const Carried& own = carried[node];
+    tree.nearest(own.foot, std::min<Index>(smoothing.neighbours, feet.rows()), found);
+    FitWeights weights;
+    weights.radius = 1.1 * std::sqrt(found.back().squared_distance) + 1e-6;
+    weights.along = smoothing.along;
+    weights.robust_scale = smoothing.robust_scale;
+    data.clear();
+    for (const Neighbour& other : found) data.push_back(carried[other.index]);
+    if (median_miss(data) > smoothing.most_missed) continue;
+    Patch patch;
+    if (!fit_patch(own.foot, own.normal, data, weights, patch)) continue;
+    centre_tree.nearest(own.foot, std::min<Index>(8, centres.rows()), found);
+    patch.radius = std::max(2.2 * apart, std::sqrt(found.back().squared_distance));
+    patch.radius = std::min(patch.radius, 8 * apart);
+    patches.push_back(patch);
+  }
+  if (patches.size() < 3) return nullptr;
+  return std::make_shared<FreeForm>(std::move(patches));
+}
+
+double local_spacing(const SearchCloud& cloud, Index i) {
+  return std::max(cloud.spacing, cloud.spacings[i]);
+}
+
+}  // namespace
+
+double reach(const GrownSurface& surface) { return surface.exact ? 0.8 : 1.3; }
+
+void match(const SearchCloud& cloud, const FootOf& foot_of, GrownSurface& surface) {
+  surface.carried.clear();
+  surface.points.clear();
+  surface.partners.clear();
+  std::vector<double> misses;
+  for (Index p = 0; p < cloud.size(); ++p) {
+    cloud.context.check();
+    const Index i = cloud.tree.order()[p];
+    Carried c;
+    const Vector3 x = cloud.point(i);
+    if (!foot_of(x, c.foot, c.normal)) continue;
+    c.distance = c.normal.dot(x - c.foot);
+    const Vector3 image = x - 2 * c.distance * c.normal;
+    const double farthest = reach(surface) * local_spacing(cloud, i);
+    const Neighbour near = cloud.tree.nearest(image, farthest * farthest);
+    if (near.index < 0 || near.index == i) continue;
+    const Vector3 n = cloud.normal(i), other = cloud.normal(near.index);
+    const double cosine = std::abs(other.dot(n - 2 * c.normal.dot(n) * c.normal));
+    c.turned = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    if (c.turned > 0.75) continue;
+    c.miss = cloud.point(near.index) - image;
+    c.partner_normal = cloud.normal(near.index);
+    misses.push_back(c.miss.norm() / cloud.spacing);
+    surface.carried.push_back(c);
+    surface.points.push_back(static_cast<std::int32_t>(i));
+    surface.partners.push_back(static_cast<std::int32_t>(near.index));
+  }
+  if (misses.empty()) return;
+  const auto exact =
+      std::count_if(misses.begin(), misses.end(), [](double miss) { return miss < exact_miss; });
+  surface.exact = static_cast<double>(exact) >= least_exact * static_cast<double>(misses.size());
+  surface.typical_miss = median(std::move(misses));
+}
+
+void match(const SearchCloud& cloud, double precision, GrownSurface& surface) {
+  match(
+      cloud,
+      [&](const Vector3& x, Vector3& foot, Vector3& normal) {
+        return surface.mirror->foot(x, precision, foot, normal);
+      },
+      surface);
+}
+
+double flatness(const GrownSurface& surface) {
+  Matrix3 spread = Matrix3::Zero();
+  for (const Carried& c : surface.carried) spread += c.normal * c.normal.transpose();
+  return eigen_of(spread).values[2] / static_cast<double>(surface.carried.size());
+}
+
+bool is_flat(const GrownSurface& surface) { return flatness(surface) > flat_enough; }
+
+void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
+  std::size_t matched = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const Smoothing smoothing =
+        surface.exact ? Smoothing{14, 1, 0.02 * cloud.spacing, 0.15 * cloud.spacing}
+                      : Smoothing{around_a_patch(cloud), 0.08, 0.6 * cloud.spacing, 1};
+    const bool fresh = !surface.mirror;
+    if (!surface.exact) drop_small_components(cloud, surface.carried);
+    surface.mirror = fitted(cloud, surface.carried,
+                            fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
+    if (!surface.mirror) return;
+    match(cloud, surface.exact ? exact_foot_precision : foot_precision, surface);
+    if (surface.carried.size() < 6) {
+      surface.mirror = nullptr;
+      return;
+    }
+    surface.support = support(cloud, surface);
+    if (round > 1 && surface.carried.size() <= matched + matched / 200) return;
+    matched = surface.carried.size();
+  }
+}
+
+double support(const SearchCloud& cloud, const GrownSurface& surface) {
+  double sum = 0;
+  for (std::size_t k = 0; k < surface.carried.size(); ++k) {
+    const Carried& c = surface.carried[k];
+    const double tau = local_spacing(cloud, surface.points[k]);
+    // Exact partners differ from their neighbours however near the mirror they are.
+    const double least = surface.exact ? 0.3 * tau : tau;
+    const double moved = std::clamp(2 * std::abs(c.distance) / least - 1, 0.0, 1.0);
+    sum += moved * closeness(c, tau);
+  }
+  return sum / static_cast<double>(cloud.size());
+}
+
+}  // namespace symsurf::perpendicular

@@ -1,0 +1,176 @@
+#include "detect_shared.h"
+
+#include <symsurf/context.h>
+#include <symsurf/point_summary.h>
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "base/eigenvectors.h"
+#include "detection/pipeline.h"
+#include "distributed_matching.h"
+#include "partition.h"
+#include "run_on_root.h"
+#include "slabs.h"
+
+namespace symsurf {
+
+namespace {
+
+// A communicator whose processes stop together: where one is cancelled, all throw at their next
+// all-gather. Otherwise they would wait for it for ever.
+class JointCancellation : public Communicator {
+ public:
+  explicit JointCancellation(const Context& outer)
+      : outer_(outer), processes_(*outer.communicator()) {}
+
+  Context context() const {
+    const auto report = [this](double fraction) {
+      try {
+        outer_.report(fraction);
+      } catch (const Cancelled&) {
+        cancelled_ = true;
+      }
+      return true;
+    };
+    return Context(report, outer_.threads());
+  }
+
+  int rank() const override { return processes_.rank(); }
+  int size() const override { return processes_.size(); }
+
+  std::vector<Bytes> all_gather(std::span<const std::byte> own) const override {
+    Bytes bytes(own.begin(), own.end());
+    bytes.push_back(std::byte{cancelled_});
+    std::vector<Bytes> all = processes_.all_gather(bytes);
+    bool cancelled = false;
+    for (Bytes& part : all) {
+      cancelled = cancelled || part.back() != std::byte{0};
+      part.pop_back();
+    }
+    if (cancelled) throw Cancelled();
+    return all;
+  }
+
+  Bytes send_recv(int other, std::span<const std::byte> bytes) const override {
+    return processes_.send_recv(other, bytes);
+  }
+
+ private:
+  const Context& outer_;
+  const Communicator& processes_;
+  mutable bool cancelled_ = false;
+};
+
+// Of all on the root, of some on the others; in as many rounds as a tree has levels.
+void merge_on_root(PointSummary& summary, const Communicator& processes) {
+  const int rank = processes.rank();
+  for (int step = 1; step < processes.size(); step *= 2) {
+    if (rank % (2 * step) == step) {
+      processes.send_recv(rank - step, summary.bytes());
+      break;
+    }
+    if (rank + step < processes.size())
+      summary.add(PointSummary::from_bytes(processes.send_recv(rank + step, {})));
+  }
+}
+
+// What the others need of the thinned points, to look for partners.
+struct Layout {
+  Vector3 centre = Vector3::Zero();
+  Vector3 along = Vector3::UnitX();  // the mirror, where the cloud extends most
+  double diagonal = 0;
+};
+
+// Slabs across such a direction hold most points with their partners.
+Vector3 along_mirror(const Mirror& mirror, const Points& thinned, const PrincipalFrame& frame) {
+  Matrix3 chords = Matrix3::Zero();
+  for (const auto row : thinned.rowwise()) {
+    const Vector3 x = row.transpose(), chord = mirror.reflect(x) - x;
+    if (chord.allFinite()) chords += chord * chord.transpose();
+  }
+  const Vector3 across = eigen_of(chords).vectors.col(2);
+  const Matrix3 onto = Matrix3::Identity() - across * across.transpose();
+  const Matrix3 variance = frame.axes * frame.variance.asDiagonal() * frame.axes.transpose();
+  return eigen_of(Matrix3(onto * variance * onto)).vectors.col(2);
+}
+
+Layout layout_of(const Result& result, const Points& thinned, const Options& options) {
+  const PrincipalFrame frame = principal_frame(thinned, Context());
+  return {frame.centroid, along_mirror(*result.mirror, thinned, frame), diagonal(thinned, options)};
+}
+
+// Of the points that were given, in place of the thinned ones.
+void add_own_pairs(Result& result, PointsView own, const Partition& whole, const Layout& layout,
+                   const Finder& finder, const Context& context) {
+  const Slabs slabs(own, whole, layout.along, layout.centre, layout.diagonal,
+                    context.stage(0, 0.2));
+  PointTree tree(slabs.points(), context.stage(0.2, 0.4));
+  add_pairs(result, own, slabs, std::move(tree), *finder.pair_distance * layout.diagonal,
+            context.stage(0.4, 1));
+  report_pairs(result, finder.method, whole.sum(Index{result.pairs.rows()}), whole.total(),
+               whole.sum(result.residuals.sum()));
+}
+
+void require_own(PointsView own, const Options& options, Index first) {
+  require_numerable(own.size());
+  if (options.refuse_nonfinite) require_finite(own, "point", first);
+  require_coordinates(own, first);
+}
+
+// By a summary of the points on the root, whatever their number.
+Result detect_thinned(PointsView own, const Options& options, const MethodImplementation& method,
+                      const ParameterValues& values, const Context& context) {
+  const JointCancellation processes(context);
+  const Partition whole(own.size(), processes);
+  whole.require([&] { require_own(own, options, whole.first()); });
+  PointSummary summary;
+  summary.add(own);
+  const Index nonfinite = whole.sum(summary.nonfinite());
+  merge_on_root(summary, processes);
+  const Points thinned = processes.rank() == 0 ? summary.means() : Points(0, 3);
+  Options without_pairs = options;
+  without_pairs.parameters["pairs"] = false;
+  without_pairs.faces = {};
+  const ParameterValues used(method.name, method.parameters, without_pairs.parameters);
+  Result result =
+      run_on_root(thinned, {}, *context.communicator(), [&](PointsView points, PointsView) {
+        return detect_in_one(points, without_pairs, method, used, context.stage(0.1, 0.6));
+      });
+  if (result.parameters.contains("pairs")) result.parameters["pairs"] = values.boolean("pairs");
+  if (nonfinite > 0) result.statistics["nonfinite_points"] = nonfinite;
+  const Finder finder = finder_of(result, method, values);
+  if (!result.mirror || !finder.pair_distance) return result;
+  std::vector<Layout> layout;
+  if (processes.rank() == 0) layout = {layout_of(result, thinned, options)};
+  layout = all_gather(processes, layout).front();
+  const Context rest = processes.context();
+  add_own_pairs(result, own, whole, layout.front(), finder, rest.stage(0.6, 1));
+  return result;
+}
+
+// Thesis and baselines see the points as they are.
+bool may_be_thinned(const MethodImplementation& method) {
+  return !method.preprocessing.order_points;
+}
+
+}  // namespace
+
+Result detect_shared(PointsView own, const Options& options, const MethodImplementation& method,
+                     const ParameterValues& values, const Context& context) {
+  const Communicator& processes = *context.communicator();
+  const Index count = Partition(own.size(), processes).total();
+  const bool has_normals = Partition(options.normals.size(), processes).total() > 0;
+  // The root has room for as many points as a summary has.
+  if (may_be_thinned(method) && !has_normals && count > PointSummary::usual_cells)
+    return detect_thinned(own, options, method, values, context);
+  return run_on_root(own, options.normals, processes, [&](PointsView points, PointsView normals) {
+    Options all = options;
+    all.normals = normals;
+    all.faces = {};
+    return detect_in_one(points, all, method, values, context);
+  });
+}
+
+}  // namespace symsurf

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <symsurf/detect.h>
+#include <symsurf/parameter.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cloud/cloud.h"
+#include "cloud/point_tree.h"
+#include "cloud/principal_frame.h"
+
+namespace symsurf {
+
+/// Points in the principal frame and, of each, the one nearest to its image over a plane.
+struct Correspondences {
+  const Points& points;
+  const std::vector<Neighbour>& partner;
+};
+
+/// The next plane, from the correspondences over this one.
+using PlaneUpdate = std::function<UnitPlane(const Correspondences&, const UnitPlane&)>;
+
+/// The thinned cloud that starts are tried on: positions of about 500 surfels, in the
+/// principal frame.
+Points thinned_points(const Cloud& cloud, const Context& context);
+
+/// Iterative closest points under a reflection (Besl and McKay 1992), coarse to fine: nearest
+/// points, then the update, until the plane rests. From every start on the thinned cloud; the best
+/// few planes go on on all points, and the score ranks them.
+Result iterated_planes(const std::string& method, const Cloud& cloud, const Points& thinned,
+                       const std::vector<UnitPlane>& starts, const PlaneUpdate& update,
+                       const ParameterValues& values, const Context& context);
+
+/// The best of the planes by the score, with its pairs; the others are its candidates.
+Result ranked_planes(const std::string& method, const Cloud& cloud,
+                     const std::vector<std::shared_ptr<Mirror>>& planes,
+                     const ParameterValues& values, const Context& context);
+
+/// The parameter "normal" of a start, and the start that it asks for; none where it is zero.
+Parameter start_normal(std::string doc);
+std::vector<UnitPlane> given_start(const Cloud& cloud, const ParameterValues& values);
+
+/// The plane of Combes et al. (2008) that minimises sum w |S(x) - y|^2 over pairs (x, y), S its
+/// reflection, w = exp(-r^2 / (2 s^2)) of the residual r, s from the median one.
+///
+/// |S(x) - y|^2 = |x - y|^2 + 4 (n . (x - p)) (n . (y - p)) for a plane through p with the normal
+/// n. So the plane goes through the weighted mean m of the midpoints, and n is the eigenvector of
+/// the least eigenvalue of the symmetric part of sum w (x - m)(y - m)'.
+UnitPlane robust_update(const Correspondences& correspondences, const UnitPlane& before);
+
+/// The reflection of Nagar and Raman (2020) over mutual pairs, those of which each is the partner
+/// of the other: S = U V' of W = sum (y - c)(x - c)' = U D V', c a point of the plane before; then
+/// c moves to the mean of the midpoints, where n . c is the best for that S.
+///
+/// Each pair counts both ways, so W is symmetric. If one eigenvalue is negative, U V' is I - 2 n n'
+/// with its eigenvector n. If none or several are, U V' is no reflection in a plane; that which
+/// maximises trace(S W) = trace(W) - 2 n' W n has the eigenvector of the least.
+UnitPlane mutual_update(const Correspondences& correspondences, const UnitPlane& before);
+
+}  // namespace symsurf
