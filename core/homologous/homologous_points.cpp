@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "cloud/cloud_laplacian.h"
-#include "cloud/distinct_points.h"
+#include "cloud/cloud.h"
+#include "cloud/laplacian.h"
 #include "registration.h"
-#include "surface_graph.h"
 #include "vertex_table.h"
 
 namespace symsurf {

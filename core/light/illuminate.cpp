@@ -1,10 +1,11 @@
+#include "illuminate.h"
+
 #include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <limits>
 
 #include "cloud/triangle_mesh.h"
-#include "operations/operation_registry.h"
 
 namespace symsurf {
 

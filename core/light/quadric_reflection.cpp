@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "reflection_search.h"
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "cloud/footprint.h"
-#include "partition.h"
+#include "cloud/cloud.h"
+#include "slabs.h"
 
 namespace symsurf {
 

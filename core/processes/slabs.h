@@ -3,12 +3,105 @@
 #include <symsurf/context.h>
 #include <symsurf/points.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "partition.h"
-
 namespace symsurf {
+
+// Point-to-point exchange of plain data between processes, after MPI.
+
+template <typename T>
+std::span<const std::byte> bytes_of(const std::vector<T>& items) {
+  return std::as_bytes(std::span(items));
+}
+
+template <typename T>
+std::vector<T> items_of(const Communicator::Bytes& bytes) {
+  std::vector<T> items(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(static_cast<void*>(items.data()), bytes.data(), bytes.size());
+  return items;
+}
+
+/// What every process has, by rank.
+template <typename T>
+std::vector<std::vector<T>> all_gather(const Communicator& processes, const std::vector<T>& own) {
+  std::vector<std::vector<T>> all;
+  for (const Communicator::Bytes& bytes : processes.all_gather(bytes_of(own)))
+    all.push_back(items_of<T>(bytes));
+  return all;
+}
+
+/// Sends items to another process and receives those that it sends.
+template <typename T>
+std::vector<T> send_recv(const Communicator& processes, int other, const std::vector<T>& items) {
+  return items_of<T>(processes.send_recv(other, bytes_of(items)));
+}
+
+/// Calls exchange(other) for each other process, in rounds that pair all processes off.
+template <typename Exchange>
+void for_each_pair(const Communicator& processes, const Exchange& exchange) {
+  const int size = processes.size(), rank = processes.rank();
+  for (int round = 0; round < size; ++round) {
+    const int other = (round - rank + size) % size;
+    if (other != rank) exchange(other);
+  }
+}
+
+/// Sends every process, this one too, item(process, k) for k below sent(process), and calls
+/// take(process, k, item) for the received(process) items from each. In chunks, to bound memory.
+template <typename T, typename Sent, typename Received, typename Item, typename Take>
+void all_to_all(const Communicator& processes, const Sent& sent, const Received& received,
+                const Item& item, const Take& take) {
+  constexpr Index chunk = 1 << 14;
+  const int rank = processes.rank();
+  for (Index k = 0; k < sent(rank); ++k) take(rank, k, item(rank, k));
+  for_each_pair(processes, [&](int other) {
+    const Index given = sent(other), most = std::max<Index>(given, received(other));
+    for (Index at = 0; at < most; at += chunk) {
+      std::vector<T> mine;
+      mine.reserve(std::clamp<Index>(given - at, 0, chunk));
+      for (Index k = at; k < std::min(at + chunk, given); ++k) mine.push_back(item(other, k));
+      const std::vector<T> theirs = send_recv(processes, other, mine);
+      for (std::size_t k = 0; k < theirs.size(); ++k)
+        take(other, at + static_cast<Index>(k), theirs[k]);
+    }
+  });
+}
+
+/// The part of a point set that one process holds, and sums over the parts of all. These are
+/// collective, as in MPI, and take the parts in the order of the ranks: all get the same bits.
+class Partition {
+ public:
+  /// Collective.
+  Partition(Index own, const Communicator& processes);
+
+  Index first() const { return first_; }  ///< number of points on the processes before this one
+  Index total() const { return total_; }  ///< number of points on all processes
+  const Communicator& processes() const { return processes_; }
+
+  /// The first own point to take where every `stride`-th of all is taken.
+  Index first_of_every(Index stride) const { return (stride - first_ % stride) % stride; }
+
+  /// The sum over all processes (all-reduce).
+  template <typename T>
+  T sum(const T& own) const {
+    T sum{};
+    for (const std::vector<T>& part : all_gather(processes_, std::vector{own})) sum += part.front();
+    return sum;
+  }
+
+  /// Throws on all processes the InvalidInput of the first on which `check` throws one.
+  void require(const std::function<void()>& check) const;
+
+ private:
+  const Communicator& processes_;
+  Index first_ = 0, total_ = 0;
+};
 
 /// A point set redistributed over its processes by space: one slab each, of about as many points.
 /// Slabs across a mirror hold most points with their partners.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/least_squares.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 

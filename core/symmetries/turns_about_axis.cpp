@@ -5,12 +5,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/math.h"
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 #include "cloud/surfels.h"
+#include "operations/complete.h"
 #include "point_group/symmetry_search.h"
 #include "preprocess/surface_samples.h"
 
@@ -132,8 +134,6 @@ class Coverage {
   std::vector<Bins> near_;  // one a cell
 };
 
-}  // namespace
-
 std::vector<Parameter> axis_parameters() {
   return {
       Parameter::choice("symmetry", "mirror", {"mirror", "axis"},
@@ -147,6 +147,9 @@ std::vector<Parameter> axis_parameters() {
                          "turn does. Of an axis that is found it is found, too.")};
 }
 
+// The axis that the parameters give, or the main one of the shape where they give none. Throws
+// InvalidParameter where they make no axis, InvalidInput where it is far from the points or none is
+// found.
 SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
                      const Context& context) {
   constexpr double farthest = 10;  // diagonals, as of mirrors
@@ -174,6 +177,8 @@ SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
   return axis;
 }
 
+// The least turn about the axis, in radians, of those that lay most of the shape where the turned
+// shape has nothing: few fill what it lacks. None where it lacks next to nothing.
 std::optional<double> covering_turn(PointsView points, TrianglesView faces,
                                     const SymmetryAxis& axis, const Context& context) {
   Cloud cloud;
@@ -190,6 +195,38 @@ std::optional<double> covering_turn(PointsView points, TrianglesView faces,
   const Index turn = coverage.best_turn();
   if (turn == 0) return {};
   return coverage.radians(turn);
+}
+
+void run_about_axis(const OperationInput& input, const ParameterValues& values,
+                    const Context& context, OperationResult& result) {
+  constexpr Index most_turns = 16;
+  const SymmetryAxis axis = axis_of(input, values, context.stage(0, 0.4));
+  start_completion(input, result);
+  Index turns = 0;
+  for (double left = 0.6; turns < most_turns; ++turns, left /= 2) {
+    const Context rest = context.stage(1 - left, 1 - left / 2);
+    const std::optional<double> angle = covering_turn(result.points, result.faces, axis, rest);
+    if (!angle) break;
+    // What the shape turned back does not reach is what the turned shape adds.
+    const Matrix3 back = Eigen::AngleAxisd(-*angle, axis.direction).toRotationMatrix();
+    const Index before = result.points.rows();
+    complete_by(SymmetryMap(map_taking(back, axis.point, axis.point)), values, rest, result);
+    if (result.points.rows() == before) break;
+  }
+  for (const char* name : {"added_points", "added_faces", "seam_faces"})
+    result.statistics.try_emplace(name, Index{0});
+  result.statistics["turns"] = turns;
+  result.statistics["axis_point"] = axis.point;
+  result.statistics["axis_direction"] = axis.direction;
+  result.statistics["axis_order"] = axis.order;
+}
+
+}  // namespace
+
+OperationImplementation also_about_axis(OperationImplementation completion) {
+  for (const Parameter& parameter : axis_parameters()) completion.parameters.push_back(parameter);
+  completion.run_about_axis = run_about_axis;
+  return completion;
 }
 
 }  // namespace symsurf

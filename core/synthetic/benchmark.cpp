@@ -6,8 +6,8 @@
 #include <memory>
 #include <numeric>
 
-#include "base/find_named.h"
 #include "base/math.h"
+#include "base/named_values.h"
 #include "base/random.h"
 #include "benchmark_mirror.h"
 #include "random_body.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/find_named.h"
 #include "base/math.h"
+#include "base/named_values.h"
 #include "base/random.h"
 #include "cloud/cloud.h"
 

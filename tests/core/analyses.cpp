@@ -8,7 +8,7 @@
 
 #include "expect_error.h"
 #include "random_cloud.h"
-#include "symmetries/analysis_registry.h"
+#include "symmetries/analysis.h"
 
 namespace symsurf::analyses_tests {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "base/math.h"
 #include "published/plane_iteration.h"
-#include "published/symmetry_measure.h"
 #include "random_cloud.h"
 
 namespace symsurf::baselines_tests {

@@ -10,7 +10,7 @@
 
 #include "expect_error.h"
 #include "random_cloud.h"
-#include "search/registry.h"
+#include "registry.h"
 
 namespace symsurf::duplicates_tests {
 namespace {

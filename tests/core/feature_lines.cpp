@@ -10,7 +10,7 @@
 
 #include "base/math.h"
 #include "random_cloud.h"
-#include "symmetries/recurring/cloud_facets.h"
+#include "symmetries/recurring/facets.h"
 
 namespace symsurf::feature_lines_tests {
 namespace {

@@ -16,11 +16,11 @@
 
 #include "base/math.h"
 #include "bumpy_ball.h"
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 #include "expect_error.h"
 #include "figure.h"
-#include "homologous/curvature.h"
-#include "homologous/surface_graph.h"
+#include "homologous/registration.h"
+#include "homologous/vertex_table.h"
 #include "random_cloud.h"
 
 namespace symsurf::homologous_points_tests {

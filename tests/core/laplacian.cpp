@@ -7,8 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "base/sparse_eigen.h"
-#include "cloud/cloud_laplacian.h"
+#include "base/linear_algebra.h"
 #include "random_cloud.h"
 
 namespace symsurf::laplacian_tests {

@@ -7,9 +7,9 @@
 
 #include "cloud/cloud.h"
 #include "mirrored_ball.h"
-#include "preprocess/outlier_removal.h"
+#include "preprocess/preprocessing.h"
 #include "random_cloud.h"
-#include "search/registry.h"
+#include "registry.h"
 
 namespace symsurf::outliers_tests {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "expect_error.h"
-#include "search/registry.h"
+#include "registry.h"
 
 namespace symsurf::parameter_tests {
 namespace {

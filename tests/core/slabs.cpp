@@ -9,12 +9,12 @@
 #include <numeric>
 
 #include "cloud/cloud.h"
-#include "cloud/nearest_points.h"
+#include "cloud/point_tree.h"
 #include "pairing/matching.h"
 #include "process_threads.h"
-#include "processes/distributed_matching.h"
+#include "processes/detect_shared.h"
 #include "random_cloud.h"
-#include "search/registry.h"
+#include "search/methods.h"
 
 namespace symsurf::slabs_tests {
 namespace {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "cloud/rim_triangles.h"
+#include "cloud/triangulation.h"
 #include "mesh_area.h"
 #include "random_cloud.h"
 

@@ -15,7 +15,7 @@
 #include "cloud/point_tree.h"
 #include "expect_error.h"
 #include "random_cloud.h"
-#include "search/registry.h"
+#include "registry.h"
 #include "test_mesh.h"
 
 namespace symsurf::surface_samples_tests {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "random_cloud.h"
 
 namespace symsurf::symmetric_eigen_tests {

@@ -3,10 +3,16 @@
 #include <symsurf/context.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "cloud/footprint.h"
+#include "base/math.h"
+#include "base/parallel.h"
+#include "cloud/voxel_grid.h"
 
 namespace symsurf {
 
@@ -130,6 +136,91 @@ Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
   cloud.normals = normals;
   validate(cloud, minimum_points, context);
   return cloud;
+}
+
+std::vector<Index> farthest_points(PointsView points, Index count, const Context& context) {
+  const auto squared_distances = [&](const Vector3& from) {
+    Eigen::VectorXd squares(points.size());
+    for (Index i = 0; i < points.size(); ++i) squares[i] = (points[i] - from).squaredNorm();
+    return squares;
+  };
+  Eigen::VectorXd distances = squared_distances(points.matrix().colwise().mean().transpose());
+  std::vector<Index> chosen;
+  while (static_cast<Index>(chosen.size()) < std::min(count, points.size())) {
+    context.check();
+    Index farthest;
+    distances.maxCoeff(&farthest);
+    const Eigen::VectorXd from = squared_distances(points[farthest]);
+    distances = chosen.empty() ? from : Eigen::VectorXd(distances.cwiseMin(from));
+    chosen.push_back(farthest);
+  }
+  return chosen;
+}
+
+std::vector<Vector3> extreme_points(PointsView points) {
+  std::vector<Vector3> extremes;
+  for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
+    Index low, high;
+    points.matrix().col(axis).minCoeff(&low);
+    points.matrix().col(axis).maxCoeff(&high);
+    extremes.insert(extremes.end(), {points[low], points[high]});
+  }
+  return extremes;
+}
+
+Points footprint_of(const Cloud& cloud) {
+  const PointsView points = cloud.footprint.empty() ? cloud.points : cloud.footprint;
+  constexpr Index enough = 2000;
+  const Index stride = std::max<Index>(1, points.size() / enough);
+  std::vector<Vector3> chosen;
+  for (Index i = 0; i < points.size(); i += stride) chosen.push_back(points[i]);
+  const std::vector<Vector3> extremes = extreme_points(points);
+  chosen.insert(chosen.end(), extremes.begin(), extremes.end());
+  return rows_of(chosen);
+}
+
+void set_footprint(Result& result, const Cloud& cloud) {
+  if (result.mirror) set_footprint(result, footprint_of(cloud));
+}
+
+void set_footprint(Result& result, Points rows) {
+  const auto footprint = std::make_shared<const Points>(std::move(rows));
+  if (result.mirror) result.mirror->set_footprint(footprint);
+  for (Result& candidate : result.candidates)
+    if (candidate.mirror) candidate.mirror->set_footprint(footprint);
+}
+
+DistinctPoints distinct_points(PointsView points, const Context& context) {
+  DistinctPoints distinct;
+  distinct.number.resize(points.size());
+  TripleIndex positions;
+  interruptible_for(context, points.size(), [&](Index i) {
+    const Index position = positions.add(ordered_bits(points[i]));
+    if (position == static_cast<Index>(distinct.first.size()))
+      distinct.first.push_back(static_cast<std::int32_t>(i));
+    distinct.number[i] = static_cast<std::int32_t>(position);
+  });
+  return distinct;
+}
+
+// By the points with the least hashes, each with all of its copies (Bar-Yossef et al., "Counting
+// distinct elements in a data stream", 2002).
+bool has_many_duplicates(PointsView points, const Context& context) {
+  constexpr std::size_t most = 1000;  // distinct points looked at
+  constexpr double notable = 0.05;
+  std::map<std::uint64_t, Index> copies;  // by hash
+  std::uint64_t greatest = ~std::uint64_t{0};
+  interruptible_for(context, points.size(), [&](Index i) {
+    const std::uint64_t hash = hash_of(points[i]);
+    if (hash > greatest) return;
+    ++copies[hash];
+    if (copies.size() <= most) return;
+    copies.erase(std::prev(copies.end()));
+    greatest = copies.rbegin()->first;
+  });
+  Index all = 0;
+  for (const auto& [hash, count] : copies) all += count;
+  return static_cast<double>(copies.size()) < (1 - notable) * static_cast<double>(all);
 }
 
 }  // namespace symsurf

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/parallel.h"
 #include "cloud/cloud.h"
 

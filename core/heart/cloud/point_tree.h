@@ -6,11 +6,124 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <nanoflann.hpp>
+#include <utility>
 #include <vector>
 
-#include "cloud/kd_tree.h"
-
 namespace symsurf {
+
+/// A k-d tree (nanoflann) of points in a few dimensions. Searches offer candidates to the caller,
+/// who decides about them and how far to look on; PointTree is what most callers want.
+template <int dimension>
+class KdTree {
+ public:
+  using Point = Eigen::Matrix<double, dimension, 1>;
+
+  /// At least one point, all finite. Checks the context for cancellation while it builds.
+  KdTree(std::vector<Point> points, const Context& context)
+      : points_{std::move(points), &context}, tree_(dimension, points_, leaf_size) {
+    points_.building = nullptr;
+  }
+  KdTree(const KdTree&) = delete;
+
+  /// Calls limit = offer(i, squared distance) for each point i whose squared distance from the
+  /// query is less than `limit`, near ones first, as long as there are any. To see all points at a
+  /// limit, ties among them, let limits be at_most() it.
+  template <typename Offer>
+  void search(const Point& query, double limit, const Offer& offer) const {
+    struct ResultSet {
+      double limit;
+      const Offer& offer;
+
+      double worstDist() const { return limit; }
+      bool addPoint(double squared, std::uint32_t i) {
+        if (squared < limit) limit = offer(i, squared);
+        return true;
+      }
+      bool full() const { return true; }
+    } results{limit, offer};
+    tree_.findNeighbors(results, query.data(), {});
+  }
+
+  /// A limit that lets squared distances of up to this one pass: nanoflann compares with "<", and
+  /// sums bounds with rounding.
+  static double at_most(double squared) { return squared * (1 + 1e-12) + 1e-300; }
+
+  /// The same with a distance of the caller's: bound(low, high) is no more than its square anywhere
+  /// in the box of these corners. Calls offer(i) of what lies in a leaf, unmeasured.
+  template <typename Bound, typename Offer>
+  void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
+    Part root{tree_.root_node, {}, {}};
+    for (int axis = 0; axis < dimension; ++axis) {
+      root.low[axis] = tree_.root_bbox[axis].low;
+      root.high[axis] = tree_.root_bbox[axis].high;
+    }
+    descend(root, bound, limit, offer);
+  }
+
+ private:
+  static constexpr std::size_t leaf_size = 16;  // points; of 4 to 24 the fastest up to 10^6 points
+
+  struct PointSource {
+    std::vector<Point> points;
+    const Context* building;
+
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    // For the construction alone, which passes over all points on every level of the tree.
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+      constexpr std::size_t stretch = 1 << 16;  // points, a fraction of a millisecond
+      if (i % stretch == 0) [[unlikely]]
+        building->check();
+      return points[i][static_cast<Index>(axis)];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  // In place of nanoflann's own, which reads by kdtree_get_pt.
+  struct SquaredDistance {
+    using ElementType = double;
+    using DistanceType = double;
+    const PointSource& source;
+
+    explicit SquaredDistance(const PointSource& points) : source(points) {}
+    double evalMetric(const double* query, std::uint32_t i, std::size_t) const {
+      return (source.points[i] - Eigen::Map<const Point>(query)).squaredNorm();
+    }
+    double accum_dist(double a, double b, std::size_t) const { return (a - b) * (a - b); }
+  };
+
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<SquaredDistance, PointSource, dimension>;
+
+  struct Part {
+    const typename Tree::Node* node;
+    Point low, high;
+    double bound = 0;
+  };
+
+  template <typename Bound, typename Offer>
+  void descend(const Part& part, const Bound& bound, double& limit, const Offer& offer) const {
+    if (!part.node->child1) {
+      const auto& leaf = part.node->node_type.lr;
+      for (auto k = leaf.left; k < leaf.right; ++k) limit = offer(tree_.vAcc[k]);
+      return;
+    }
+    const auto& split = part.node->node_type.sub;
+    Part first{part.node->child1, part.low, part.high},
+        second{part.node->child2, part.low, part.high};
+    first.high[split.divfeat] = split.divlow;
+    second.low[split.divfeat] = split.divhigh;
+    for (Part* child : {&first, &second}) child->bound = bound(child->low, child->high);
+    if (second.bound < first.bound) std::swap(first, second);
+    for (const Part* child : {&first, &second})
+      if (child->bound <= limit) descend(*child, bound, limit, offer);
+  }
+
+  PointSource points_;
+  Tree tree_;
+};
 
 /// A point of the cloud and its squared distance from a query; index -1: none.
 struct Neighbour {
@@ -98,6 +211,27 @@ class PointTree {
   std::vector<std::int32_t> order_;
   std::vector<std::int32_t> begins_;  // of the tree's points and the end; empty: none has copies
   std::unique_ptr<const Tree> tree_;  // of the distinct finite points from origin_, on the curve
+};
+
+/// Nearest points of a cloud to many queries.
+class NearestPoints {
+ public:
+  /// The tree is that of the points.
+  NearestPoints(PointsView points, const PointTree& tree, const Context& context)
+      : points_(points), tree_(tree), context_(context) {}
+
+  /// The nearest point to each query, NaN where none is within `reach`.
+  std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;
+
+  /// The nearest but one, copies of the nearest left out; of a single position, that one.
+  std::vector<Vector3> second_nearest(const std::vector<Vector3>& queries) const;
+
+ private:
+  Vector3 second_nearest(const Vector3& query) const;
+
+  PointsView points_;
+  const PointTree& tree_;
+  const Context context_;
 };
 
 }  // namespace symsurf

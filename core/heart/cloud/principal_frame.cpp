@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 

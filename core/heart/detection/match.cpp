@@ -11,7 +11,7 @@
 #include "preprocess/boundary.h"
 #include "score/mirror_score.h"
 #include "score/verdict.h"
-#include "search/registry.h"
+#include "search/methods.h"
 
 namespace symsurf {
 

@@ -1,9 +1,10 @@
 #include "detection/pipeline.h"
 
-#include "base/finite_values.h"
-#include "cloud/footprint.h"
+#include "base/named_values.h"
+#include "cloud/cloud.h"
 #include "cloud/triangle_mesh.h"
 #include "score/mirror_score.h"
+#include "score/verdict.h"
 
 namespace symsurf {
 
@@ -18,6 +19,16 @@ bool may_hide_exact_mirror(const Result& of_boundary, const Cloud& body) {
   return of_boundary.score > by_chance && !is_exact(of_boundary) && body.points.size() <= few;
 }
 
+Cloud cloud_of(PointsView points, PointsView normals, const Options& options,
+               double tolerance = usual_tolerance) {
+  Cloud cloud;
+  cloud.points = points;
+  cloud.normals = normals;
+  cloud.seed = options.seed;
+  cloud.tolerance = tolerance;
+  return cloud;
+}
+
 }  // namespace
 
 void report_pairs(Result& result, const MethodImplementation& finder, Index paired, Index total,
@@ -30,7 +41,7 @@ void report_pairs(Result& result, const MethodImplementation& finder, Index pair
 Finder finder_of(const Result& result, const MethodImplementation& method,
                  const ParameterValues& values) {
   const bool is_own = result.method == method.name || result.method.empty();
-  const MethodImplementation& finder = is_own ? method : implementation(result.method);
+  const MethodImplementation& finder = is_own ? method : heart_method(result.method);
   if (values.all().contains("pairs") && !values.boolean("pairs")) return {finder, {}};
   const ParameterValues defaults(finder.name, finder.parameters, {});
   const ParameterValues& used = is_own ? values : defaults;
@@ -85,6 +96,31 @@ Result run_pipeline(const MethodImplementation& method, const ParameterValues& v
   drop_nonfinite(result.statistics);
   for (Result& candidate : result.candidates) drop_nonfinite(candidate.statistics);
   return result;
+}
+
+Result detect_in_one(PointsView points, const Options& options, const MethodImplementation& method,
+                     const ParameterValues& values, const Context& context) {
+  Cloud cloud = cloud_of(points, options.normals, options, values.real("tolerance"));
+  cloud.faces = options.faces;
+  Result result = run_pipeline(method, values, cloud, options.refuse_nonfinite, context);
+  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+  return result;
+}
+
+double diagonal_of(PointsView points, const Options& options, const MethodImplementation& method,
+                   const Context& context) {
+  double found = 0;
+  MethodImplementation measuring;  // in place of the method
+  measuring.name = method.name;
+  measuring.minimum_points = method.minimum_points;
+  measuring.preprocessing = Preprocessing::none();
+  measuring.preprocessing.remove_outliers = method.preprocessing.remove_outliers;
+  measuring.run = [&found](const Cloud& cloud, const ParameterValues&, const Context&) {
+    found = cloud.diagonal;
+    return Result{};
+  };
+  run_pipeline(measuring, {}, cloud_of(points, {}, options), options.refuse_nonfinite, context);
+  return found;
 }
 
 }  // namespace symsurf

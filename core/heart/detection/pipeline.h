@@ -1,6 +1,6 @@
 #pragma once
 
-#include "search/registry.h"
+#include "search/methods.h"
 
 namespace symsurf {
 
@@ -8,6 +8,14 @@ namespace symsurf {
 /// `cloud`: what the caller gave, with its seed.
 Result run_pipeline(const MethodImplementation& method, const ParameterValues& values, Cloud cloud,
                     bool refuse_nonfinite, const Context& context);
+
+/// detect() of points that are all in this process, by a method.
+Result detect_in_one(PointsView points, const Options& options, const MethodImplementation& method,
+                     const ParameterValues& values, const Context& context);
+
+/// The diagonal that a method's lengths are fractions of, outliers removed as it does.
+double diagonal_of(PointsView points, const Options& options, const MethodImplementation& method,
+                   const Context& context);
 
 /// The method that found a result, which "auto" leaves to others, and how far it lets a partner be,
 /// in diagonals: none where it looks for no pairs.

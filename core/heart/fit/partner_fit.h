@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "cloud/nearest_points.h"
-#include "search/sphere_candidates.h"
+#include "cloud/point_tree.h"
+#include "search/sphere.h"
 
 namespace symsurf {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/least_squares.h"
+#include "base/linear_algebra.h"
 #include "cloud/principal_frame.h"
 #include "pairing/correspondence.h"
 

@@ -8,8 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/eigenvectors.h"
-#include "base/least_squares.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"

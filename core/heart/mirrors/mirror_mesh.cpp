@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "cloud/cloud.h"
 #include "cloud/point_tree.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/find_named.h"
 #include "base/math.h"
+#include "base/named_values.h"
 #include "mirrors/mirror_mesh.h"
 
 namespace symsurf {

@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "operations/counterparts.h"
-#include "operations/operation_registry.h"
+#include "operations/operation.h"
 
 namespace symsurf {
 
@@ -137,13 +137,13 @@ void report_sides(Values& statistics, const OperationInput& input, const Mirror&
       Sides::index(std::abs(sides.positive_volume), std::abs(sides.negative_volume));
 }
 
-void run_asymmetry(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
-                   const Context& context, OperationResult& result) {
+void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, const Mirror& mirror,
+                   const ParameterValues& values, const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
   const double diagonal = diagonal_of(points);
   const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
-                                  pairing_of(values));
+                                  pairing_of(values, homologous));
   Points vector(count, 3), weights(count, 3);
   Eigen::VectorXd distance(count), outward(count), tangential(count), lateral(count),
       matched(count), face(count), confidence(count);
@@ -182,7 +182,7 @@ void run_asymmetry(const OperationInput& input, const Mirror& mirror, const Para
 
 }  // namespace
 
-OperationImplementation asymmetry_operation() {
+OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
   OperationImplementation operation;
   operation.name = "asymmetry";
   operation.title = "Mirror asymmetry";
@@ -210,7 +210,7 @@ OperationImplementation asymmetry_operation() {
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
   operation.shown = "signed";
-  operation.run = run_asymmetry;
+  operation.run = std::bind_front(run_asymmetry, homologous);
   return operation;
 }
 

@@ -1,3 +1,5 @@
+#include "operations/complete.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -5,14 +7,13 @@
 #include <optional>
 
 #include "base/disjoint_sets.h"
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
 #include "operations/counterparts.h"
-#include "operations/operation_registry.h"
+#include "operations/operation.h"
 #include "operations/seam.h"
-#include "symmetries/turns_about_axis.h"
 
 namespace symsurf {
 
@@ -277,8 +278,8 @@ class Completion {
   AddedPart added_;
 };
 
-// The shape with the preimages under a map of what they are missing from. `result` starts as the
-// shape, with the sources and the origin of each of its points.
+}  // namespace
+
 void complete_by(const SymmetryMap& map, const ParameterValues& values, const Context& context,
                  OperationResult& result) {
   const Points given = result.points;
@@ -320,7 +321,7 @@ void complete_by(const SymmetryMap& map, const ParameterValues& values, const Co
   count("seam_faces", result.faces.rows() - faces - patch);
 }
 
-void start(const OperationInput& input, OperationResult& result) {
+void start_completion(const OperationInput& input, OperationResult& result) {
   result.point_sources.resize(input.points.size());
   result.face_sources.resize(input.faces.size());
   std::iota(result.point_sources.begin(), result.point_sources.end(), 0);
@@ -328,35 +329,12 @@ void start(const OperationInput& input, OperationResult& result) {
   result.arrays["origin"] = Eigen::MatrixXd::Constant(input.points.size(), 1, original);
 }
 
+namespace {
+
 void run_complete(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
                   const Context& context, OperationResult& result) {
-  start(input, result);
+  start_completion(input, result);
   complete_by(mirror, values, context, result);
-}
-
-// Turn after turn, each of what is there by then.
-void run_about_axis(const OperationInput& input, const ParameterValues& values,
-                    const Context& context, OperationResult& result) {
-  constexpr Index most_turns = 16;
-  const SymmetryAxis axis = axis_of(input, values, context.stage(0, 0.4));
-  start(input, result);
-  Index turns = 0;
-  for (double left = 0.6; turns < most_turns; ++turns, left /= 2) {
-    const Context rest = context.stage(1 - left, 1 - left / 2);
-    const std::optional<double> angle = covering_turn(result.points, result.faces, axis, rest);
-    if (!angle) break;
-    // What the shape turned back does not reach is what the turned shape adds.
-    const Matrix3 back = Eigen::AngleAxisd(-*angle, axis.direction).toRotationMatrix();
-    const Index before = result.points.rows();
-    complete_by(SymmetryMap(map_taking(back, axis.point, axis.point)), values, rest, result);
-    if (result.points.rows() == before) break;
-  }
-  for (const char* name : {"added_points", "added_faces", "seam_faces"})
-    result.statistics.try_emplace(name, Index{0});
-  result.statistics["turns"] = turns;
-  result.statistics["axis_point"] = axis.point;
-  result.statistics["axis_direction"] = axis.direction;
-  result.statistics["axis_order"] = axis.order;
 }
 
 }  // namespace
@@ -378,13 +356,11 @@ OperationImplementation complete_operation() {
                       "From the rim as far as this, what is added is bent to meet the shape; 0: it "
                       "is the exact image."),
       max_distance(), max_angle()};
-  for (const Parameter& parameter : axis_parameters()) operation.parameters.push_back(parameter);
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};
   operation.shown = "origin";
   operation.adds_points = true;
   operation.run = run_complete;
-  operation.run_about_axis = run_about_axis;
   return operation;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "cloud/distinct_points.h"
+#include "cloud/cloud.h"
 #include "cloud/voxel_grid.h"
 
 namespace symsurf {

@@ -1,17 +1,17 @@
 #include "operations/counterparts.h"
-#include "operations/operation_registry.h"
+#include "operations/operation.h"
 
 namespace symsurf {
 
 namespace {
 
-void run_correspondences(const OperationInput& input, const Mirror& mirror,
-                         const ParameterValues& values, const Context& context,
-                         OperationResult& result) {
+void run_correspondences(HomologousMatcher homologous, const OperationInput& input,
+                         const Mirror& mirror, const ParameterValues& values,
+                         const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
   const Counterparts counterparts(input, mirror, limits_of(values, points), context,
-                                  pairing_of(values));
+                                  pairing_of(values, homologous));
   Eigen::VectorXd index(count), confidence(count), face(count);
   Points weights(count, 3);
   for (Index i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ void run_correspondences(const OperationInput& input, const Mirror& mirror,
 
 }  // namespace
 
-OperationImplementation correspondences_operation() {
+OperationImplementation correspondences_operation(HomologousMatcher homologous) {
   OperationImplementation operation;
   operation.name = "correspondences";
   operation.title = "Mirror correspondences";
@@ -64,7 +64,77 @@ OperationImplementation correspondences_operation() {
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
   };
   operation.shown = "confidence";
-  operation.run = run_correspondences;
+  operation.run = std::bind_front(run_correspondences, homologous);
+  return operation;
+}
+
+namespace {
+
+// The share of its own values that a point keeps.
+double own_share(const std::string& side, double signed_distance, double near) {
+  if (side == "average") return 0.5;
+  const double inside = side == "positive" ? signed_distance : -signed_distance;
+  return inside >= -near ? 1 : 0;
+}
+
+void run_transfer(HomologousMatcher homologous, const OperationInput& input, const Mirror& mirror,
+                  const ParameterValues& values, const Context& context, OperationResult& result) {
+  const PointsView points = input.points;
+  const Index count = points.size();
+  const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
+                                  pairing_of(values, homologous));
+  const Eigen::VectorXd distances = mirror.signed_distance(points, context.stage(0.8, 1));
+  const std::string& side = values.choice("side");
+  const double near = mirror_tolerance * diagonal_of(points);
+  result.point_parents.resize(count, 4);
+  result.point_shares.setZero(count, 4);
+  Eigen::VectorXd failed = Eigen::VectorXd::Zero(count);
+  for (Index i = 0; i < count; ++i) {
+    const Counterpart& c = counterparts[i];
+    double own = own_share(side, distances[i], near);
+    failed[i] = own < 1 && !c.matched;
+    if (!c.matched) own = 1;
+    result.point_parents.row(i).setConstant(i);
+    result.point_shares(i, 0) = own;
+    result.point_sources.push_back(own < 0.5 ? c.nearest : i);
+    if (own == 1) continue;
+    // A vertex gives its own values, also where it has copies with others.
+    if (c.face < 0 || c.weights.maxCoeff() == 1) {
+      result.point_parents(i, 1) = c.nearest;
+      result.point_shares(i, 1) = 1 - own;
+      continue;
+    }
+    for (int k = 0; k < 3; ++k) {
+      result.point_parents(i, k + 1) = input.faces[c.face][k];
+      result.point_shares(i, k + 1) = (1 - own) * c.weights[k];
+    }
+  }
+  result.statistics["failed_points"] = static_cast<Index>(failed.sum());
+  counterparts.report_unmatched(result.statistics);
+  result.arrays = {{"failed", failed}};
+}
+
+}  // namespace
+
+OperationImplementation transfer_operation(HomologousMatcher homologous) {
+  OperationImplementation operation;
+  operation.name = "transfer";
+  operation.title = "Mirror transfer";
+  operation.summary =
+      "Carries what the points have, such as labels, weights and colours, from one side to the "
+      "other, or averages it.";
+  operation.parameters = {
+      Parameter::choice("side", "positive", {"positive", "negative", "average"},
+                        "Whose values both sides will have: those of the side where signed "
+                        "distances from the mirror are positive or negative, or their average; "
+                        "integers have none and stay as they are then."),
+      pairing(), max_distance(), max_angle()};
+  operation.arrays = {
+      {"failed", ParameterType::Boolean, 1,
+       "Whether the point has no counterpart to take values from: it keeps its own."}};
+  operation.shown = "";
+  operation.carries_values = true;
+  operation.run = std::bind_front(run_transfer, homologous);
   return operation;
 }
 

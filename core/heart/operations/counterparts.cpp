@@ -13,7 +13,7 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "cloud/closest_point_on_mesh.h"
-#include "cloud/distinct_points.h"
+#include "cloud/cloud.h"
 #include "cloud/normals.h"
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"
@@ -84,17 +84,18 @@ Vector3 mapped_normal(const SymmetryMap& map, const Vector3& x, const Vector3& i
 }  // namespace
 
 Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
-                           const Limits& limits, const Context& context, Pairing pairing)
+                           const Limits& limits, const Context& context,
+                           HomologousMatcher homologous)
     : map_(map),
       limits_(limits),
-      pairing_(pairing),
+      is_homologous_(homologous != nullptr),
       all_(input.points.size()),
       images_(map.images(input.points, context.stage(0, 0.3))) {
   require_images(images_, map.kind());
   if (!map.is_reflection()) preimages_ = map.inverse().images(input.points, context);
-  const double registered = pairing == Pairing::Homologous ? 0.8 : 0.3;
-  if (pairing == Pairing::Homologous)
-    homologous_ = homologous_points(input.points, input.faces, images_, context.stage(0.3, 0.8));
+  const double registered = homologous ? 0.8 : 0.3;
+  if (homologous)
+    homologous_ = homologous(input.points, input.faces, images_, context.stage(0.3, 0.8));
   const Context rest = context.stage(registered, 1);
   if (input.faces.empty())
     match_cloud(input, rest);
@@ -106,7 +107,7 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
     pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
   }
-  if (pairing == Pairing::Homologous) go_back(input, context.stage(1, 1));
+  if (homologous) go_back(input, context.stage(1, 1));
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
@@ -140,7 +141,7 @@ void Counterparts::go_back(const OperationInput& input, const Context& context) 
 double Counterparts::confidence(Index i, PointsView points) const {
   const Counterpart& c = all_[i];
   if (!c.matched) return 0;
-  double gap = pairing_ == Pairing::Closest ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  double gap = !is_homologous_ ? (image(i) - points[c.nearest]).norm() : c.return_gap;
   if (!std::isfinite(gap)) gap = c.gap;  // a point without an image may be another's
   return gap == 0 ? c.agreement : c.agreement / (1 + gap * gap / (spacing_ * spacing_));
 }
@@ -237,7 +238,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     for (Index i = begin; i < end; ++i) {
       Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
       const bool is_exact = partner >= 0;
-      if (!is_exact && pairing_ == Pairing::Homologous) partner = homologous_.partners[i];
+      if (!is_exact && is_homologous_) partner = homologous_.partners[i];
       const auto look = [&](double cosine) {
         if (std::abs(cosine) >= limits_.cosine) faces_alike[i] = cosine < 0 ? -1 : 1;
       };
@@ -296,8 +297,7 @@ void Counterparts::match_cloud(const OperationInput& input, const Context& conte
         c = {};
         continue;
       }
-      c.gap =
-          pairing_ == Pairing::Closest ? std::abs(gap.dot(normal)) : (c.place - points[i]).norm();
+      c.gap = !is_homologous_ ? std::abs(gap.dot(normal)) : (c.place - points[i]).norm();
       c.past_rim = along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
       settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
@@ -324,8 +324,8 @@ Parameter pairing() {
       "one, by non-rigid registration.");
 }
 
-Pairing pairing_of(const ParameterValues& values) {
-  return values.choice("pairing") == "homologous" ? Pairing::Homologous : Pairing::Closest;
+HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous) {
+  return values.choice("pairing") == "homologous" ? homologous : nullptr;
 }
 
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points) {

@@ -6,9 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 #include "cloud/triangle_mesh.h"
-#include "homologous/homologous_points.h"
 #include "operations/symmetry_map.h"
 
 namespace symsurf {
@@ -16,9 +15,15 @@ namespace symsurf {
 /// Points nearer to the mirror than this lie on it, in diagonals: single precision.
 constexpr double mirror_tolerance = 1e-6;
 
-/// Which point of the mirrored surface a point is compared with: the closest one, or the one that a
-/// non-rigid registration finds to be its homologous point.
-enum class Pairing { Closest, Homologous };
+/// Where the homologous points of a shape's points lie on its mirror image.
+struct HomologousPoints {
+  Points displacements;  ///< from each point to it, smooth: on the image but for what is fine
+  std::vector<Index> partners;  ///< of each point the one that it is the image of; -1: not known
+};
+
+/// Finds them. `images`: of the points, NaN where there are none.
+using HomologousMatcher = HomologousPoints (*)(PointsView points, TrianglesView faces,
+                                               PointsView images, const Context& context);
 
 /// Where the other side of a shape says that one of its points should be: a point of the mirrored
 /// surface, that is of the faces between the images of their corners. Of a rotation, the turned
@@ -51,9 +56,11 @@ class Counterparts {
     double cosine;    ///< between the normals
   };
 
+  /// A point is compared with the closest point of the mirrored surface, or with the one that
+  /// `homologous` finds.
   /// Throws InvalidInput where the mirror has images for less than half of the points.
   Counterparts(const OperationInput& input, const SymmetryMap& map, const Limits& limits,
-               const Context& context, Pairing pairing = Pairing::Closest);
+               const Context& context, HomologousMatcher homologous = nullptr);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
   Index matched() const { return matched_; }
@@ -94,13 +101,13 @@ class Counterparts {
 
   // From where the counterpart of a point is looked for.
   Vector3 query(PointsView points, Index i) const {
-    if (pairing_ == Pairing::Closest) return points[i];
+    if (!is_homologous_) return points[i];
     return points[i] + homologous_.displacements.row(i).transpose();
   }
 
   const SymmetryMap map_;
   const Limits limits_;
-  const Pairing pairing_;
+  const bool is_homologous_;
   HomologousPoints homologous_;  // where these are asked for
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;
@@ -114,7 +121,8 @@ class Counterparts {
 Parameter max_distance();
 Parameter max_angle();
 Parameter pairing();
-Pairing pairing_of(const ParameterValues& values);
+/// The matcher where "pairing" asks for it; null for the closest points.
+HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous);
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
 
 }  // namespace symsurf

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/math.h"
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 
 namespace symsurf {
 

@@ -1,12 +1,11 @@
 #include <cmath>
 
 #include "cloud/closest_point_on_mesh.h"
-#include "cloud/distinct_points.h"
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 #include "cloud/isotropic_remeshing.h"
 #include "cloud/triangle_mesh.h"
 #include "operations/half.h"
-#include "operations/operation_registry.h"
+#include "operations/operation.h"
 
 namespace symsurf {
 

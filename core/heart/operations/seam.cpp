@@ -7,7 +7,7 @@
 
 #include "base/math.h"
 #include "cloud/point_tree.h"
-#include "cloud/rim_triangles.h"
+#include "cloud/triangulation.h"
 
 namespace symsurf {
 

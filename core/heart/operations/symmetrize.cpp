@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "operations/counterparts.h"
 #include "operations/half.h"
-#include "operations/operation_registry.h"
+#include "operations/operation.h"
 
 namespace symsurf {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/normals.h"

@@ -9,10 +9,10 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
-#include "cloud/exact_planes.h"
+#include "cloud/exact_isometries.h"
 #include "cloud/voxel_grid.h"
 #include "pairing/matching.h"
-#include "score/mesh_symmetry.h"
+#include "score/verdict.h"
 
 namespace symsurf {
 

@@ -9,7 +9,7 @@
 
 #include "base/math.h"
 #include "cloud/principal_frame.h"
-#include "cloud/surface_noise.h"
+#include "cloud/surfels.h"
 #include "pairing/correspondence.h"
 #include "score/mirror_layers.h"
 

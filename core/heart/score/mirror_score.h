@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "cloud/nearest_points.h"
 #include "cloud/point_tree.h"
 #include "cloud/surfels.h"
 #include "score/cloud_halves.h"
-#include "score/mesh_symmetry.h"
+#include "score/verdict.h"
 
 namespace symsurf {
 

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/detect.h>
+#include <symsurf/mirror.h>
+#include <symsurf/points.h>
 
 #include <cmath>
+
+#include "cloud/closest_point_on_mesh.h"
+#include "cloud/point_tree.h"
 
 namespace symsurf {
 
@@ -34,5 +40,22 @@ inline void judge(Result& result, bool has_mirror, double minimum_score) {
   const auto [reason, is_new] = result.statistics.try_emplace("reason", score);
   if (!is_new && !found) reason->second = score + "; " + std::get<std::string>(reason->second);
 }
+
+/// Whether mirrors map a mesh onto itself: vertices onto vertices, to rounding, and the surface
+/// nearly, as faces may divide its two sides along different diagonals.
+class MeshSymmetry {
+ public:
+  /// `diagonal`: of the mesh. The vertices must outlive this.
+  MeshSymmetry(PointsView vertices, TrianglesView faces, double diagonal, const Context& context);
+
+  /// `samples`: of the surface.
+  bool operator()(const Mirror& mirror, PointsView samples) const;
+
+ private:
+  PointsView vertices_;
+  double diagonal_;
+  PointTree tree_;
+  ClosestPointOnMesh surface_;
+};
 
 }  // namespace symsurf

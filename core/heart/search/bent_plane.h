@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "search/free_form_refinement.h"
 #include "search/search_cloud.h"
 
 namespace symsurf::perpendicular {
@@ -123,5 +124,17 @@ class BentPlane {
   double support_ = 0;
   std::vector<Neighbour> near_;  // of the last image
 };
+
+/// Adds the planes that map the whole cloud onto itself, of which a thinned cloud does not have the
+/// partners. False: there are none.
+bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
+                      std::vector<GrownSurface>& surfaces, const Context& context);
+
+/// Adds the surfaces that the best mirror planes and the principal planes of the cloud become when
+/// they are bent until they mirror it. Unlike surfaces that grow they need no partners that stand
+/// close to the images, and take hold of what both sides have in common by and by; but they have to
+/// be within reach of a plane.
+void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
+                 const Context& context);
 
 }  // namespace symsurf::perpendicular

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 
 namespace symsurf::perpendicular {

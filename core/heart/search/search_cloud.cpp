@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/least_squares.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/radix_sort.h"
-#include "cloud/footprint.h"
+#include "cloud/cloud.h"
 #include "cloud/surface_points.h"
 
 namespace symsurf::perpendicular {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "base/sparse_eigen.h"
 
 namespace symsurf {
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
-#include "base/sparse_eigen.h"
-#include "cloud/cloud_laplacian.h"
-#include "cloud/distinct_points.h"
+#include "cloud/cloud.h"
+#include "cloud/laplacian.h"
 #include "cloud/point_tree.h"
 
 namespace symsurf {

@@ -2,13 +2,69 @@
 
 #include <symsurf/context.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
+#include "cloud/point_tree.h"
 #include "intrinsic/connected_surface.h"
-#include "intrinsic/patches.h"
 
 namespace symsurf {
+
+/// How a map changes patches of a surface.
+struct PatchChange {
+  double bending = 0;     ///< mean distance from reflected samples to their images, in patch sizes
+  double handedness = 0;  ///< 1: reflections fit patches, -1: rotations do; 0: both as well
+};
+
+/// Patches about samples of a posed body. A pose keeps each about rigid, so that a reflection takes
+/// it to its image: that sets right, and says between the samples, what eigenfunctions give
+/// roughly (as rigid as possible: Sorkine and Alexa 2007). Refers to what it is made of.
+class Patches {
+ public:
+  Patches(const ConnectedSurface& surface, const SampledPoints& samples, const PointTree& vertices,
+          double radius);
+
+  /// Of the map that sends the samples to these vertices.
+  PatchChange change(const std::vector<Index>& images) const;
+
+  /// The images of the samples, after so many rounds of patches reflected to their images and of
+  /// samples moved to where these reflections send them.
+  std::vector<Index> refined(std::vector<Index> images, int rounds) const;
+
+  /// The map for points of space: a point beside a vertex goes beside the vertex's image, as the
+  /// reflection of its patch says.
+  class Extended {
+   public:
+    Vector3 image(const Vector3& x, Index vertex) const;
+
+   private:
+    friend class Patches;
+    const Patches* patches_;
+    std::vector<Eigen::Isometry3d> reflections_;
+    std::vector<Index> images_;  // of all vertices
+  };
+
+  Extended extended(const std::vector<Index>& images, const Context& context) const;
+
+ private:
+  struct Member {
+    Index sample;
+    double weight;
+  };
+  struct Moments;
+
+  static double residual(const Moments& sums, double parity);
+  Moments moments(const std::vector<Member>& patch, const std::vector<Index>& images) const;
+  std::vector<Eigen::Isometry3d> reflections(const std::vector<Index>& images) const;
+  Index image(const std::vector<Eigen::Isometry3d>& reflections, Index vertex) const;
+
+  const ConnectedSurface& surface_;
+  const SampledPoints& samples_;
+  const PointTree& vertices_;
+  std::vector<double> radii_;  // of the patches, in the longest distance
+  std::vector<std::vector<Member>> patches_;
+};
 
 /// A map of a surface onto itself, by where it sends samples, that keeps its eigenfunctions up to
 /// their signs.

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/eigenvectors.h"
-#include "base/least_squares.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/random.h"
 #include "cloud/surface_points.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/eigenvectors.h"
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "cloud/nearest_points.h"
 #include "cloud/point_tree.h"
-#include "cloud/surface_noise.h"
 #include "cloud/surfels.h"
 
 namespace symsurf {

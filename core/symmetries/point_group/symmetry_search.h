@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "cloud/cloud.h"
+#include "point_group/element_search.h"
 #include "point_group/point_group.h"
-#include "point_group/symmetry_test.h"
 
 namespace symsurf {
 

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <symsurf/operations.h>
+
+#include <functional>
+#include <vector>
+
+#include "operations/counterparts.h"
+
+namespace symsurf {
+
+/// An operation and how it runs.
+struct OperationImplementation : Operation {
+  /// Fills in points, arrays and statistics; the points are there already, as they were given.
+  std::function<void(const OperationInput& input, const Mirror& mirror,
+                     const ParameterValues& values, const Context& context,
+                     OperationResult& result)>
+      run;
+  /// The same about an axis, where the parameter "symmetry" says so: no mirror is needed then.
+  void (*run_about_axis)(const OperationInput& input, const ParameterValues& values,
+                         const Context& context, OperationResult& result) = nullptr;
+};
+
+/// Pairings that a satellite provides are passed in.
+OperationImplementation asymmetry_operation(HomologousMatcher homologous);
+OperationImplementation correspondences_operation(HomologousMatcher homologous);
+OperationImplementation align_operation();
+OperationImplementation complete_operation();
+OperationImplementation symmetrize_operation();
+OperationImplementation straighten_operation();
+OperationImplementation remesh_operation();
+OperationImplementation cut_operation();
+OperationImplementation transfer_operation(HomologousMatcher homologous);
+
+/// Whether an operation with these values is done over a mirror, not about an axis.
+bool is_over_mirror(const OperationImplementation& operation, const ParameterValues& values);
+
+/// Checks the input, runs the operation on its finite points and maps the result back. `mirror` may
+/// be null where none is needed. Throws what operate() does.
+OperationResult run_operation(const OperationImplementation& operation, const OperationInput& given,
+                              const Mirror* mirror, const Values& parameters,
+                              const Context& context);
+
+/// What an operation works on where some points are not finite, as in clouds of depth cameras: the
+/// others and the faces between them. The points left out keep their places in the result, without
+/// values.
+class FinitePart {
+ public:
+  /// Throws InvalidInput where no point is finite. Both must outlive it.
+  FinitePart(const OperationInput& whole, const Operation& operation);
+  FinitePart(const FinitePart&) = delete;
+  FinitePart& operator=(const FinitePart&) = delete;
+
+  const OperationInput& input() const { return part_; }
+
+  /// Makes the result for the part that for the whole, and counts the points left out.
+  void map_back(OperationResult& result) const;
+
+ private:
+  // Of one of the part, or added behind it, its number among the whole and what is added.
+  Index whole_point(Index i) const;
+  Index whole_face(Index f) const;
+  void map_sources(OperationResult& result) const;
+  void map_rows(OperationResult& result) const;
+  void map_arrays(OperationResult& result) const;
+
+  const OperationInput& whole_;
+  const Operation& operation_;
+  OperationInput part_;
+  std::vector<Index> kept_points_, kept_faces_;  // where some are left out
+  Points points_;
+  Triangles faces_;
+};
+
+}  // namespace symsurf

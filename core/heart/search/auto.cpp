@@ -1,0 +1,370 @@
+#include "search/auto.h"
+
+#include <symsurf/mirrors.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/linear_algebra.h"
+#include "cloud/cloud.h"
+#include "cloud/surface_points.h"
+#include "pairing/matching.h"
+#include "preprocess/boundary.h"
+#include "score/mirror_score.h"
+#include "score/verdict.h"
+#include "search/methods.h"
+
+namespace symsurf {
+
+namespace {
+
+// Shares of what a mirror covers: one that maps so much leaves freer mirrors, and none that it is
+// bent into, nothing to explain; where it covers so much, as what has lost a fifth of its points on
+// one side does.
+constexpr double enough = 0.85, straight = 0.97, enough_covered = 0.6;
+// Of what a simple mirror covers and does not map, a freer simple kind has to leave less; and it
+// has to explain so much more of the shape.
+constexpr double left = 0.4, tie = 0.01;
+// Beside one that maps enough it has to leave so much: sides that differ smoothly look bent, too.
+constexpr double left_of_little = 0.01;
+constexpr std::size_t planes_bent = 3;  // the best ones
+// Explained share of the shape that a free form has to gain. On 24 bent bodies of 10,000 points
+// with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
+// the best of the wrong ones 0.26 less at least, where a mirror was found.
+constexpr double free_form_gain = 0.12;
+constexpr double well_explained = 0.6;  // by a free form
+constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
+constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
+constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
+constexpr Index few = 1000;             // points: the score of fewer is unreliable
+
+// Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
+// hide where the score looks least closely: among few points, and inside bodies.
+bool may_hide_exact_one(const Cloud& cloud, const Context& context) {
+  return cloud.points.size() <= few ||
+         (cloud.points.size() <= thinned_size && is_volumetric(cloud, context));
+}
+
+std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
+
+// Points of the cloud, dense where it is dense.
+class ThinnedCloud {
+ public:
+  ThinnedCloud(const Cloud& cloud, const Context& context) : cloud_(cloud) {
+    if (cloud.points.size() <= thinned_size) return;
+    const std::vector<Index> rows = spread_along_curve(cloud.points, thinned_size, context);
+    points_ = chosen_rows(cloud.points, rows);
+    normals_ = chosen_rows(cloud.normals, rows);
+    cloud_ = checked_cloud(points_, normals_, 1, context);
+    cloud_.seed = cloud.seed;
+    cloud_.tolerance = cloud.tolerance;
+  }
+  const Cloud& cloud() const { return cloud_; }
+
+ private:
+  Points points_, normals_ = Points(0, 3);
+  Cloud cloud_;
+};
+
+ParameterValues usual_values(const MethodImplementation& method, bool pairs) {
+  return {method.name, method.parameters, {{"pairs", pairs}}};
+}
+
+Result run_usual(const MethodImplementation& method, const Cloud& cloud, bool pairs,
+                 const Context& context) {
+  const ParameterValues values = usual_values(method, pairs);
+  Result result = method.run(cloud, values, context);
+  result.parameters = values.all();
+  return result;
+}
+
+double explained(const Result& result) { return statistic(result, "explained_share"); }
+
+double covered(const Result& result) { return statistic(result, "covered_share"); }
+
+bool maps(double share, const Result& result, double of) {
+  return result.score >= enough_covered && explained(result) >= share * of;
+}
+
+bool maps_of_covered(double share, const Result& result) {
+  return maps(share, result, covered(result));
+}
+
+// Which kind is meant: a freer mirror has to explain more, and to leave a part of what either
+// covers and the simpler one does not map. Where the simpler one is none, a free form that is found
+// has not to: its score knows what chance makes.
+bool explains_more(const Result& freer, const Result& simpler) {
+  if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
+  const bool is_free = freer.mirror->kind() == "free-form";
+  if (is_free && simpler.score < usual_minimum_score && freer.score >= usual_minimum_score)
+    return true;
+  const double gain = is_free ? free_form_gain : tie;
+  const double either_covers = std::max(covered(freer), covered(simpler));
+  const auto lacking = [&](const Result& r) { return either_covers - explained(r); };
+  const double most =
+      maps(enough, simpler, either_covers) ? left_of_little : left * lacking(simpler);
+  return explained(freer) > explained(simpler) + gain && lacking(freer) < most;
+}
+
+// Whether it maps the shape well, and better than the plane: kinds that come near it do so, too.
+bool leads(const Result& free_form, const Result& plane) {
+  return free_form.mirror && explained(free_form) >= well_explained &&
+         explains_more(free_form, plane);
+}
+
+using Kinds = BentPlanes::Kinds;
+
+Kinds simple_kinds(Index points) {
+  Kinds kinds;
+  for (const MethodImplementation& kind : heart_methods())
+    if (kind.distance_from && points >= kind.minimum_points) kinds.push_back(&kind);
+  return kinds;
+}
+
+// Those that a mirror comes near, the nearest first.
+Kinds near_kinds(const Kinds& kinds, const Mirror& mirror, double diagonal) {
+  const auto& free_form = dynamic_cast<const FreeForm&>(mirror);
+  std::vector<std::pair<double, const MethodImplementation*>> near;
+  for (const MethodImplementation* kind : kinds) {
+    const double distance = kind->distance_from(free_form);
+    if (distance <= another_shape * diagonal) near.push_back({distance, kind});
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  Kinds ordered;
+  for (const auto& [distance, kind] : near) ordered.push_back(kind);
+  return ordered;
+}
+
+// The best of the kinds so far, and what was tried.
+struct Contest {
+  using Run = std::function<Result(const Cloud&, const Context&)>;
+
+  bool pairs;  // whether the result is to have some
+  Result best;
+  const MethodImplementation* winner;
+  Run of_all = {};         // finds the winner again, on all points; none where it saw them
+  double least_score = 0;  // simple mirrors are free forms too: what explains more is as certain
+  Values scores = {};
+  std::string tried = {};
+
+  void take(const MethodImplementation& kind, Result result, bool wins, Run again) {
+    scores["score_" + kind.name] = result.score;
+    tried += ", " + kind.name + " " + text(explained(result));
+    if (!wins) return;
+    least_score = std::max(least_score, best.score);
+    best = std::move(result);
+    winner = &kind;
+    of_all = std::move(again);
+  }
+};
+
+Contest::Run anew(const MethodImplementation& kind, bool pairs) {
+  return [&kind, pairs](const Cloud& cloud, const Context& context) {
+    return run_usual(kind, cloud, pairs, context);
+  };
+}
+
+// Beside a plane that maps the shape well a free form meets hardly each point: only exact mirrors
+// of other kinds count. Elsewhere it comes first, as it says which of them may fit.
+void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const Context& context) {
+  double done = 0;
+  std::optional<ThinnedCloud> thinned;
+  const auto thinner = [&]() -> const Cloud& {
+    if (!thinned) thinned.emplace(cloud, context.stage(done, done));
+    return thinned->cloud();
+  };
+  const MethodImplementation& bending = heart_method("perpendicular");
+  const bool bends_all = cloud.points.size() <= bent_size;
+  Kinds kinds = simple_kinds(cloud.points.size());
+  std::optional<Result> free_form;
+  if (!content && cloud.points.size() >= bending.minimum_points) {
+    free_form = run_usual(bending, bends_all ? cloud : thinner(), bends_all && contest.pairs,
+                          context.stage(0, 0.4));
+    done = 0.4;
+  }
+  const bool leading = free_form && leads(*free_form, contest.best);
+  if (leading) kinds = near_kinds(kinds, *free_form->mirror, cloud.diagonal);
+  const bool all = cloud.points.size() <= (leading ? bent_size : thinned_size);
+  for (const MethodImplementation* kind : kinds) {
+    if (is_exact(contest.best)) break;
+    if (leading && !is_exact(*free_form) && !explains_more(*free_form, contest.best)) break;
+    Result result = run_usual(*kind, all ? cloud : thinner(), all && contest.pairs,
+                              context.stage(done, done + 0.2));
+    done += 0.2;
+    const bool wins = is_exact(result) ? result.score > contest.best.score
+                                       : !content && explains_more(result, contest.best);
+    contest.take(*kind, std::move(result), wins, all ? Contest::Run() : anew(*kind, contest.pairs));
+  }
+  if (free_form && !is_exact(contest.best)) {
+    const bool wins = is_exact(*free_form) ? free_form->score > contest.best.score
+                                           : explains_more(*free_form, contest.best);
+    contest.take(bending, std::move(*free_form), wins,
+                 bends_all ? Contest::Run() : anew(bending, contest.pairs));
+  }
+}
+
+// What the planes are bent into, on no more points than tell.
+void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& context) {
+  std::vector<Plane> planes{dynamic_cast<const Plane&>(*contest.best.mirror)};
+  for (const Result& other : contest.best.candidates)
+    if (planes.size() < planes_bent) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
+  const ThinnedCloud thinned(cloud, context.stage(0, 0.2));
+  const BentPlanes bent(thinned.cloud(), context.stage(0.2, 0.5));
+  const Kinds kinds = simple_kinds(cloud.points.size());
+  for (const Plane& plane : planes) {
+    Result result = bent.best_of(kinds, plane);
+    if (!result.mirror) continue;
+    const MethodImplementation& kind = heart_method(result.method);
+    const bool wins = explains_more(result, contest.best);
+    const ParameterValues values = usual_values(kind, contest.pairs);
+    contest.take(kind, std::move(result), wins,
+                 [&kind, plane, values](const Cloud& whole, const Context& c) {
+                   return BentPlanes(whole, c.stage(0, 0.5))
+                       .with_pairs(kind, plane, values, c.stage(0.5, 1));
+                 });
+  }
+}
+
+Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const MethodImplementation& plane = heart_method("plane");
+  const bool pairs = values.boolean("pairs");
+  Contest contest{pairs, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), &plane};
+  contest.scores["score_plane"] = contest.best.score;
+  contest.tried = "plane " + text(explained(contest.best));
+  std::string reason = "the plane maps " + text(explained(contest.best)) +
+                       " of the shape onto it, and " + text(1 - covered(contest.best)) +
+                       " has no counterpart: nothing is left for freer mirrors to explain";
+  if (is_exact(contest.best)) {
+    reason = "every point has an exact partner over the plane";
+  } else {
+    if (!maps_of_covered(straight, contest.best))
+      try_bent_planes(cloud, contest, context.stage(0.2, 0.3));
+    const bool content = maps_of_covered(enough, contest.best);
+    if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))
+      try_freer_kinds(cloud, content, contest, context.stage(0.3, 0.9));
+    if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
+    if (contest.best.mirror) contest.best.score = std::max(contest.best.score, contest.least_score);
+    if (!content || contest.winner != &plane)
+      reason = contest.winner->name +
+               " is the simplest of those that explain most of the shape: " + contest.tried;
+  }
+  contest.scores["reason"] = reason;
+  contest.best.statistics.merge(contest.scores);
+  contest.best.parameters["minimum_score"] = values.real("minimum_score");
+  contest.best.parameters["tolerance"] = values.real("tolerance");
+  return contest.best;
+}
+
+}  // namespace
+
+MethodImplementation auto_method() {
+  MethodImplementation method;
+  method.name = "auto";
+  method.title = "Mirror (best of all kinds)";
+  method.summary =
+      "Finds the plane, and where that leaves something to explain tries freer kinds of mirror; of "
+      "those that fit alike the simplest is the result.";
+  method.run = run_auto;
+  return method;
+}
+
+namespace {
+
+constexpr Index sample_size = 700;   // surfels, as many as the searches for these kinds take
+constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal, .1 % high
+
+}  // namespace
+
+BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
+    : cloud_(cloud),
+      surfels_(cloud, sample_size, context.stage(0, 0.2)),
+      fine_(cloud, samples_a_patch * sample_size, context.stage(0.2, 0.3)),
+      tree_(cloud.points, context.stage(0.3, 0.6)),
+      points_(cloud.points, tree_, context),
+      refinement_(cloud, points_, surfels_, fine_),
+      score_(cloud, points_, context.stage(0.6, 1)) {}
+
+Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
+  const PlaneBend bend = bend_of(plane);
+  return std::abs(bend.greater) < least_bend ? Result() : best_of(kinds, bend);
+}
+
+Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
+  Result best;
+  MirrorFit most{.share = -1};
+  for (const MethodImplementation* kind : kinds) {
+    const std::shared_ptr<Mirror> mirror = kind->bent_from(bend, refinement_, cloud_.frame);
+    const MirrorFit fit = score_.fit(*mirror);
+    if (fit.share <= most.share) continue;
+    most = fit;
+    best.method = kind->name;
+    best.mirror = mirror;
+  }
+  if (best.mirror) score_.fill(*best.mirror, most, best);
+  return best;
+}
+
+Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& plane,
+                              const ParameterValues& values, const Context& context) && {
+  Result result = best_of({&kind}, bend_of(plane));
+  result.parameters = values.all();
+  add_pairs(result, cloud_, std::move(tree_), values, context);
+  return result;
+}
+
+PlaneBend BentPlanes::bend_of(const Plane& plane) const {
+  return refinement_.bend_of(in_frame(plane, cloud_.frame));
+}
+
+namespace {
+
+// Of the rows from the sphere, or circle, that fits them: |x - c|^2 = r^2 is linear in c and
+// r^2 - |c|^2. Flat ones fit a straight one better than any that this finds.
+template <int n>
+double distance_from_round(const Eigen::Matrix<double, Eigen::Dynamic, n>& rows) {
+  const auto count = static_cast<double>(rows.rows());
+  Eigen::Matrix<double, Eigen::Dynamic, n> unit = rows.rowwise() - rows.colwise().mean();
+  const double size = std::sqrt(unit.squaredNorm() / count);
+  if (!(size > 0)) return 0;
+  unit /= size;
+  const Eigen::Matrix<double, n, n> scatter = unit.transpose() * unit;
+  const double flat = std::sqrt(std::max(0.0, eigen_of(scatter).values[0]) / count);
+  Eigen::MatrixXd design(rows.rows(), n + 1);
+  design << 2 * unit, Eigen::VectorXd::Ones(rows.rows());
+  const Eigen::VectorXd fit =
+      solved(design.transpose() * design, design.transpose() * unit.rowwise().squaredNorm());
+  const Eigen::Vector<double, n> centre = fit.head<n>();
+  const double radius = std::sqrt(std::max(0.0, fit[n] + centre.squaredNorm()));
+  const Eigen::VectorXd off =
+      (unit.rowwise() - centre.transpose()).rowwise().norm().array() - radius;
+  return size * std::min(flat, std::sqrt(off.squaredNorm() / count));
+}
+
+Points centres_of(const FreeForm& mirror) {
+  Points centres(static_cast<Index>(mirror.patches().size()), 3);
+  for (Index i = 0; i < centres.rows(); ++i)
+    centres.row(i) = mirror.patches()[i].centre.transpose();
+  return centres;
+}
+
+}  // namespace
+
+double distance_from_sphere(const FreeForm& mirror) {
+  return distance_from_round<3>(centres_of(mirror));
+}
+
+double distance_from_cylinder(const FreeForm& mirror) {
+  Matrix3 normals = Matrix3::Zero();
+  for (const Patch& patch : mirror.patches())
+    normals += patch.frame.row(2).transpose() * patch.frame.row(2);
+  const Matrix3 axes = eigen_of(normals).vectors;
+  return distance_from_round<2>(centres_of(mirror) * axes.rightCols<2>());
+}
+
+}  // namespace symsurf

@@ -1,0 +1,406 @@
+#include "search/plane.h"
+
+#include <symsurf/mirrors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/linear_algebra.h"
+#include "base/math.h"
+#include "base/nelder_mead.h"
+#include "cloud/cloud.h"
+#include "cloud/exact_isometries.h"
+#include "cloud/point_tree.h"
+#include "cloud/surface_points.h"
+#include "fit/candidate.h"
+#include "fit/refinement.h"
+#include "fit/shapes.h"
+#include "pairing/matching.h"
+#include "score/mirror_score.h"
+#include "search/methods.h"
+
+namespace symsurf {
+
+namespace {
+
+constexpr double shortest_chord = 0.04;
+constexpr double facing_cosine = 0.88;                           // 28 degrees
+constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
+constexpr double search_tolerance = 0.015;
+constexpr double least_explained = 0.1;
+constexpr double many = 1000;  // surfels; see Search
+constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
+
+// The mean of similar planes, each weighted by what it explains: Hruda et al. add the vectors
+// (a, b, c, d) of two planes, or subtract them where their normals point apart.
+struct Average {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  double weight = 0;
+
+  void add(const UnitPlane& plane, double support) {
+    const double sign = plane.normal.dot(sum.head<3>()) < 0 ? -1 : 1;
+    sum.head<3>() += sign * support * plane.normal;
+    sum[3] += sign * support * plane.offset;
+    weight += support;
+  }
+  UnitPlane plane() const {
+    const double length = sum.head<3>().norm();
+    return {sum.head<3>() / length, sum[3] / length};
+  }
+};
+
+// Planes with normals within about 10 degrees and offsets within a 25th of the size share a bin.
+std::int32_t bin(const UnitPlane& plane) {
+  constexpr double normal_bins = 6, offset_bins = 25;
+  int axis;
+  plane.normal.cwiseAbs().maxCoeff(&axis);
+  const double major = plane.normal[axis];
+  const auto cell = [](double value, double scale) {
+    return static_cast<std::int32_t>(std::lround(value * scale));
+  };
+  const std::int32_t u = cell(plane.normal[(axis + 1) % 3] / major, normal_bins) + 8;
+  const std::int32_t v = cell(plane.normal[(axis + 2) % 3] / major, normal_bins) + 8;
+  const std::int32_t w = cell(plane.offset / major * std::abs(major), offset_bins) + 64;
+  return ((axis * 16 + u) * 16 + v) * 128 + w;
+}
+
+// Thins pairs evenly and each by itself, so that one pair more or less changes no other's lot.
+std::uint32_t ticket(Index i, Index j) {
+  const std::uint32_t mixed =
+      static_cast<std::uint32_t>(i) * 2654435761u ^ static_cast<std::uint32_t>(j) * 2246822519u;
+  return mixed ^ mixed >> 15;
+}
+
+UnitPlane plane_between(const Vector3& a, const Vector3& b) {
+  const Vector3 normal = (b - a).normalized();
+  return {normal, -normal.dot(a + b) / 2};
+}
+
+void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
+  if (static_cast<double>(candidates.size()) <= count) return;
+  sort_best_first(candidates);
+  candidates.resize(static_cast<std::size_t>(count));
+}
+
+}  // namespace
+
+std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
+                                             const Search& search, Index count) {
+  const Index step = std::max<Index>(1, surfels.size() / search.seeds);
+  const Index glancing = std::max<Index>(1, surfels.size() / glance);
+  const Index coarse = std::max<Index>(1, surfels.size() / first_look);
+  struct Pair {
+    std::uint32_t ticket;
+    std::int32_t i, j;
+  };
+  std::vector<Pair> pairs;
+  double informative = 0;
+  for (Index i = 0; i < surfels.size(); i += step)
+    for (Index j = i + step; j < surfels.size(); j += step) {
+      const Surfel &a = surfels[i], &b = surfels[j];
+      const Vector3 chord = b.position - a.position;
+      const double squared = chord.squaredNorm();
+      if (squared < shortest_chord * shortest_chord) continue;
+      const bool surfaces = a.flatness * b.flatness > 0.25;
+      const double cosine =
+          a.normal.dot(b.normal) - 2 * chord.dot(a.normal) * chord.dot(b.normal) / squared;
+      if (surfaces && std::abs(cosine) < facing_cosine) continue;
+      informative += surfaces ? 1 : blind;
+      pairs.push_back({ticket(i, j), static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+    }
+
+  std::vector<PlaneCandidate> found;
+  const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
+  const double last_ticket =
+      sparser * search.pairs / informative * std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [ticket, i, j] : pairs) {
+    if (ticket > last_ticket) continue;
+    const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
+    const double support =
+        support_share(surfels, map, plane, search_tolerance, glancing, contradiction);
+    if (support > least_explained) found.push_back({plane, support});
+  }
+  keep_best(found, sparser * search.promising);
+
+  std::map<std::int32_t, Average> bins;
+  for (const auto& [plane, glanced, partnered] : found) {
+    const double support =
+        support_share(surfels, map, plane, search_tolerance, coarse, contradiction);
+    if (support > least_explained) bins[bin(plane)].add(plane, support);
+  }
+  found.clear();
+  for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
+  keep_best(found, sparser * search.averages);
+  const Index fine = std::max<Index>(1, surfels.size() / second_look);
+  for (PlaneCandidate& candidate : found)
+    candidate.support =
+        support_share(surfels, map, candidate.shape, search_tolerance, fine, contradiction);
+  suppress_non_maxima(found, 0.08, count);
+  return found;
+}
+
+void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
+  // The corners of a tetrahedron as wide as the cloud.
+  static const std::vector<Vector3> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
+                                           Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
+  suppress_non_maxima(probes, candidates, distance, count);
+}
+
+namespace {
+
+// Few samples are enough to tell which planes are worth more.
+constexpr Fit quick{.samples = 250, .tolerance = 0.02, .steps = 2},
+    careful{.samples = 1300, .tolerance = 0.01, .steps = 2};
+constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
+constexpr Index refined_at_most = 4;
+// Score below which planes are moved to its maximum, and what that has to gain over the best: a
+// tenth of clutter beside a nearly symmetric body leaves .76, and makes other planes gain .02.
+constexpr double worth_polishing = 0.75, least_gain = 0.03;
+constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
+constexpr double alike_planes = 0.05;  // planes closer than this are one
+
+struct Effort {
+  Search search;
+  Index started;          // candidates that are refined on the surfels, roughly
+  Index refined_well;     // of these, are refined closely
+  Index quickly_fitted;   // of these, are fitted to the full cloud
+  Index finalists;        // of these, are fitted carefully
+  double far_below_best;  // below the best by this share of it: not worth fitting
+};
+
+constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.6};
+// For clouds that a usual search explains no better than this: where most of one side is missing,
+// few pairs define the mirror, and patches distinguish it badly from others.
+constexpr double unexplained = 0.15;
+constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
+
+std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
+  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
+}
+
+double below(double best, double share) { return best - share * std::max(best, least_best); }
+
+void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) {
+  const double least = below(candidates.front().support, share);
+  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.support < least; });
+}
+
+// On the thinned cloud alone.
+std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const SurfelMap& map,
+                                             const Effort& effort, const Context& context) {
+  std::vector<PlaneCandidate> candidates =
+      candidate_planes(surfels, map, effort.search, effort.started);
+  if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
+  for (PlaneCandidate& candidate : candidates)
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
+  suppress_non_maxima(candidates, alike_planes, effort.started);
+  context.report(0.5);
+  drop_far_below_best(candidates, effort.far_below_best);
+  suppress_non_maxima(candidates, alike_planes, effort.refined_well);
+  for (PlaneCandidate& candidate : candidates)
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3, contradiction);
+  suppress_non_maxima(candidates, alike_planes, effort.quickly_fitted);
+  context.report(1);
+  return candidates;
+}
+
+// Each by itself.
+template <typename Step>
+void improve(std::vector<PlaneCandidate>& candidates, const Context& context, const Step& step) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i] = step(candidates[i]);
+    context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
+  }
+}
+
+// Planes on the full cloud.
+class FullCloud {
+ public:
+  FullCloud(const Cloud& cloud, const Refinement& refinement, const MirrorScore& score)
+      : cloud_(cloud), refinement_(refinement), score_(score) {}
+
+  // Moved a little.
+  void fit(const Effort& effort, std::vector<PlaneCandidate>& candidates,
+           const Context& context) const {
+    improve(candidates, context.stage(0, 0.5),
+            [&](const PlaneCandidate& c) { return refinement_.fitted(c, quick); });
+    suppress_non_maxima(candidates, alike_planes, effort.finalists);
+    drop_far_below_best(candidates, effort.far_below_best);
+    improve(candidates, context.stage(0.5, 1),
+            [&](const PlaneCandidate& c) { return refinement_.fitted(c, careful); });
+    suppress_non_maxima(candidates, alike_planes, effort.finalists);
+  }
+
+  PlaneCandidate glanced(const PlaneCandidate& c) const { return {c.shape, share(c.shape)}; }
+
+  // The score's maximum next to a plane.
+  UnitPlane polished(const UnitPlane& plane) const {
+    constexpr double step = 0.02, precision = 5e-4;  // radians and diagonals
+    int evaluations = 80;
+    const Matrix3 axes = least_rotation(Vector3::UnitZ(), plane.normal);
+    const auto moved = [&](const Vector3& by) -> UnitPlane {
+      return {(axes * Vector3(by.x(), by.y(), 1)).normalized(), plane.offset + by.z()};
+    };
+    const auto share_of = [&](const Vector3& by) { return share(moved(by)); };
+    const Vector3 start = Vector3::Zero();
+    return moved(nelder_mead<3>(share_of, start, step, precision, evaluations));
+  }
+
+ private:
+  double share(const UnitPlane& plane) const {
+    return score_.glance(in_input_units(plane, cloud_.frame)).share;
+  }
+  const Cloud& cloud_;
+  const Refinement& refinement_;
+  const MirrorScore& score_;
+};
+
+// Of planes that score alike, as those of a box do, the one across the longer extent comes first,
+// whatever the order of the points.
+void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) {
+  constexpr double same = 1e-9;  // of the greatest variance
+  const auto variance = [&](const UnitPlane& plane) {
+    const double along = frame.variance.dot(plane.normal.cwiseAbs2());
+    return std::round(along / (same * frame.variance.maxCoeff()));
+  };
+  std::stable_sort(planes.begin(), planes.end(), [&](const UnitPlane& a, const UnitPlane& b) {
+    return variance(a) > variance(b);
+  });
+}
+
+// The best that a search finds, refined.
+std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
+                                       const SurfelMap& map, const Refinement& refinement,
+                                       const FullCloud& whole,
+                                       std::vector<PlaneCandidate> candidates,
+                                       const Context& context) {
+  whole.fit(usual, candidates, context.stage(0, 0.4));
+  if (candidates.front().support < unexplained) {
+    std::vector<PlaneCandidate> more =
+        promising_planes(surfels, map, thorough, context.stage(0.4, 0.6));
+    whole.fit(thorough, more, context.stage(0.6, 0.7));
+    candidates.insert(candidates.end(), more.begin(), more.end());
+    suppress_non_maxima(candidates, alike_planes, thorough.finalists);
+  }
+  improve(candidates, context.stage(0.7, 0.75),
+          [&](const PlaneCandidate& c) { return whole.glanced(c); });
+  suppress_non_maxima(candidates, alike_planes, refined_at_most);
+  // Of a body thinner than the patches these say nothing about the plane along it.
+  if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
+    candidates.push_back({{Vector3::UnitZ(), 0}, 0});
+  improve(candidates, context.stage(0.7, 1), [&](const PlaneCandidate& c) {
+    return PlaneCandidate{refinement.refined(c.shape), c.support};
+  });
+  suppress_non_maxima(candidates, alike_planes, static_cast<Index>(candidates.size()));
+  std::vector<UnitPlane> planes;
+  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
+  return planes;
+}
+
+// The planes of a mesh of which some vertices stand on both sides, as most do where a part of a
+// symmetric mesh was cut off or moved: through these, to rounding.
+void fit_to_vertices(std::vector<UnitPlane>& planes, const Cloud& cloud, const Context& context) {
+  const PointTree tree(cloud.vertices, context);
+  const NearestPoints vertices(cloud.vertices, tree, context);
+  const double spacing = surface_spacing(cloud.vertices, tree);
+  const PrincipalFrame& frame = cloud.frame;
+  std::vector<Vector3> corners;
+  for (Index i = 0; i < cloud.vertices.size(); ++i)
+    corners.push_back(frame.to_frame(cloud.vertices[i]));
+  for (UnitPlane& plane : planes)
+    plane = fitted_to_exact_pairs(plane, corners, vertices, frame, spacing / frame.size)
+                .value_or(plane);
+}
+
+bool are_alike(const UnitPlane& a, const UnitPlane& b) {
+  const double sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
+  return (a.normal - sign * b.normal).norm() < alike_planes &&
+         std::abs(a.offset - sign * b.offset) < alike_planes;
+}
+
+// Those that are none of the others.
+void drop_known(std::vector<UnitPlane>& planes, const std::vector<UnitPlane>& known) {
+  std::erase_if(planes, [&](const UnitPlane& plane) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const UnitPlane& other) { return are_alike(plane, other); });
+  });
+}
+
+Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
+  const Index sample_size = values.integer("sample_size");
+  const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
+  const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
+  const SurfelMap map(coarse);
+  const std::vector<PlaneCandidate> promising =
+      promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
+
+  PointTree tree(cloud.points, context.stage(0.25, 0.4));
+  const NearestPoints points(cloud.points, tree, context);
+  const Refinement refinement(cloud, points, coarse, fine);
+  const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
+  const auto ranked = [&](std::vector<UnitPlane> planes) {
+    longest_first(planes, cloud.frame);
+    std::vector<std::shared_ptr<Mirror>> mirrors;
+    for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
+    return score.ranked("plane", mirrors);
+  };
+  const FullCloud whole(cloud, refinement, score);
+  std::vector<UnitPlane> planes;
+  for (const Plane& plane : cloud.vertex_planes) planes.push_back(in_frame(plane, cloud.frame));
+  if (cloud.vertices.empty()) {
+    planes = exact_planes(cloud, points, coarse);
+    for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  }
+  Result best;
+  if (!planes.empty()) best = ranked(planes);
+  // Of planes of the vertices alone faces are missing on one side.
+  if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
+    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
+                                                  context.stage(0.46, 0.55));
+    if (!cloud.vertices.empty()) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
+    drop_known(more, planes);
+    planes.insert(planes.end(), more.begin(), more.end());
+    best = ranked(planes);
+    // Where much of a side is missing or unlike the other, the fit to partners is not the score's
+    // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
+    if (cloud.vertices.empty() && best.score < worth_polishing) {
+      const double enough = best.score + least_gain;
+      bool any_gains = false;
+      for (UnitPlane& plane : planes) {
+        const UnitPlane moved = whole.polished(plane);
+        if (score.fit(in_input_units(moved, cloud.frame)).share <= enough) continue;
+        plane = moved;
+        any_gains = true;
+      }
+      if (any_gains) best = ranked(planes);
+    }
+  }
+  const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
+  if (best.candidates.size() > most) best.candidates.resize(most);
+  add_pairs(best, cloud, std::move(tree), values, context.stage(0.55, 1));
+  return best;
+}
+
+}  // namespace
+
+MethodImplementation plane_method() {
+  MethodImplementation method;
+  method.name = "plane";
+  method.title = "Mirror plane";
+  method.summary = "Finds the plane that mirrors the shape best, refined on the full cloud.";
+  method.parameters = {
+      surfels_searched(1000, "the plane"),
+      max_candidates(64, 64, "planes"),
+      pair_distance(),
+  };
+  method.automatic = true;
+  method.reports_unpaired_points = true;
+  method.reports_mean_residual = true;
+  method.run = run_plane;
+  return method;
+}
+
+}  // namespace symsurf

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "operations/operation.h"
+
+namespace symsurf {
+
+OperationImplementation illuminate_operation();
+
+}  // namespace symsurf
