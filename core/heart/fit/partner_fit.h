@@ -4,9 +4,12 @@
 
 #include "cloud/cloud.h"
 #include "cloud/point_tree.h"
-#include "search/sphere.h"
+#include "fit/candidate.h"
+#include "fit/shapes.h"
 
 namespace symsurf {
+
+using SphereCandidate = Candidate<UnitSphere>;
 
 /// Fits spheres where the same points stand on both sides. A surface that slides along itself holds
 /// a sphere loosely, partners hold it firmly: the sphere passes through the midpoint m of a point

@@ -134,7 +134,7 @@ void FinitePart::map_back(OperationResult& result) const {
   if (kept_points_.empty()) return;
   result.statistics["nonfinite_points"] = whole_.points.size() - points_.rows();
   map_sources(result);
-  if (result.is_other_shape()) return;
+  if (result.point_parents.rows() > 0 && !operation_.carries_values) return;
   map_rows(result);
   map_arrays(result);
 }

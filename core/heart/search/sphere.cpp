@@ -1,5 +1,3 @@
-#include "search/sphere.h"
-
 #include <symsurf/mirrors.h>
 
 #include <algorithm>
@@ -19,6 +17,9 @@
 namespace symsurf {
 
 namespace {
+
+// Spheres closer than this are one, for suppress_non_maxima.
+constexpr double alike_spheres = 0.04;
 
 constexpr Index sphere_pairs_tried = 40000, sphere_pairs_kept = 4000;
 
@@ -51,33 +52,8 @@ void drop_weakly_supported(std::vector<SphereCandidate>& candidates) {
   std::erase_if(candidates, [&](const SphereCandidate& c) { return c.support < least; });
 }
 
-}  // namespace
-
-std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
-                                               std::uint64_t seed, Index count,
-                                               const Context& context) {
-  std::vector<SphereCandidate> candidates =
-      candidate_spheres(surfels, map, seed, started_spheres, context);
-  if (candidates.empty()) candidates.push_back({});
-  for (SphereCandidate& candidate : candidates) {
-    context.check();
-    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
-  }
-  std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
-  if (!candidates.empty()) {
-    suppress_non_maxima(surfels, candidates, alike_spheres, started_spheres);
-    drop_weakly_supported(candidates);
-  }
-  for (SphereCandidate& candidate : candidates) {
-    context.check();
-    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
-  }
-  suppress_non_maxima(surfels, candidates, alike_spheres, count);
-  candidates.insert(candidates.end(), planes.begin(), planes.end());
-  return candidates;
-}
-
-namespace {
+// Spheres so large that they may be planes. Each meets the plane that touches it where it is
+// nearest to the cloud's middle, fitted in the same way.
 
 constexpr double bent = 0.6;  // diagonals: smaller spheres are no planes
 constexpr double widest_sphere =
@@ -108,8 +84,8 @@ void drop(const IsPlane& is_plane, std::vector<SphereCandidate>& candidates) {
   if (!spheres.empty()) candidates = std::move(spheres);
 }
 
-}  // namespace
-
+// Takes out of the candidates those that a plane explains as well, measured on surfels, and returns
+// the best few of them.
 std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap& map,
                                          std::vector<SphereCandidate>& candidates) {
   const auto planes =
@@ -125,6 +101,8 @@ std::vector<SphereCandidate> take_planes(const Surfels& surfels, const SurfelMap
   return taken;
 }
 
+// Drops those without partners that a plane explains as well, measured on points; all but where
+// there is nothing else. Those that differ from a plane by rounding only go in any case.
 void drop_planes(const Refinement& refinement, std::vector<SphereCandidate>& candidates) {
   drop(
       [&](const SphereCandidate& c) {
@@ -134,6 +112,7 @@ void drop_planes(const Refinement& refinement, std::vector<SphereCandidate>& can
       candidates);
 }
 
+// The same by the score, with partners or without.
 void drop_planes(const Refinement& refinement, const MirrorScore& score,
                  const PrincipalFrame& frame, std::vector<SphereCandidate>& candidates) {
   drop(
@@ -145,7 +124,32 @@ void drop_planes(const Refinement& refinement, const MirrorScore& score,
       candidates);
 }
 
-namespace {
+// The best `count` spheres that differ, on the thinned cloud alone: from pairs of surfels, of any
+// radius, refined on the surfels. Behind them the best of those that fit the surfels no better than
+// a plane.
+std::vector<SphereCandidate> promising_spheres(const Surfels& surfels, const SurfelMap& map,
+                                               std::uint64_t seed, Index count,
+                                               const Context& context) {
+  std::vector<SphereCandidate> candidates =
+      candidate_spheres(surfels, map, seed, started_spheres, context);
+  if (candidates.empty()) candidates.push_back({});
+  for (SphereCandidate& candidate : candidates) {
+    context.check();
+    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 4, 3);
+  }
+  std::vector<SphereCandidate> planes = take_planes(surfels, map, candidates);
+  if (!candidates.empty()) {
+    suppress_non_maxima(surfels, candidates, alike_spheres, started_spheres);
+    drop_weakly_supported(candidates);
+  }
+  for (SphereCandidate& candidate : candidates) {
+    context.check();
+    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 1);
+  }
+  suppress_non_maxima(surfels, candidates, alike_spheres, count);
+  candidates.insert(candidates.end(), planes.begin(), planes.end());
+  return candidates;
+}
 
 constexpr std::size_t finalists = 8;         // are fitted to the full cloud
 constexpr std::size_t polished_spheres = 3;  // and of these, to ever more of it
