@@ -71,6 +71,41 @@ def test_anova_is_that_of_dummy_variables(replicates, d, rng):
         assert np.isnan(row["p"]) == np.isnan(ratio)
 
 
+# SS and F of R's geomorph 4.0.8 and RRPP 2.1.2: ``bilat.symmetry(A, ind, replicate, object.sym = TRUE,
+# land.pairs)`` of the landmarks below, and ``object.sym = FALSE`` with ``side``, of them and the other side.
+GEOMORPH = {
+    "object": [
+        (0.07527185643143261, 1.7025989943432223),
+        (0.024794480468388585, 1.6825036412857395),
+        (0.04420997350610367, 48.127418792856304),
+        (0.0024496070148778137, np.nan),
+    ],
+    "matching": [
+        (0.12741634399048293, 303.0875017103518),
+        (0.00020154913077066738, 1.4382854021083198),
+        (0.00042039458331821766, 0.31894629049661816),
+        (0.0035148620804975328, np.nan),
+    ],
+}
+
+
+@pytest.mark.parametrize("kind", GEOMORPH)
+def test_anova_is_that_of_geomorph(kind):
+    def drawn(r: int, start: int) -> np.ndarray:
+        shape = (4, r, 7, 3)
+        return np.sin((start + np.arange(np.prod(shape))) ** 2.0).reshape(shape)
+
+    body = np.array(
+        [(3, 1, 0), (-3, 1, 0), (2, -2, 1), (-2, -2, 1), (0, 3, 1), (0, -1, 2), (0, 0, -2)]
+    )
+    landmarks = body + 0.3 * drawn(1, 0) + 0.05 * drawn(2, 1000)
+    other = {"other_side": landmarks + 0.05 * drawn(2, 2000)}
+    given = {"pairs": [[0, 1], [2, 3]]} if kind == "object" else other
+    table = symsurf.cohort(landmarks, **given, permutations=0).table
+    found = [(row["ss"], row["F"]) for row in table.values()]
+    np.testing.assert_allclose(found, GEOMORPH[kind], rtol=4e-12)
+
+
 def test_one_replicate_needs_no_axis(rng):
     landmarks = sample(rng, r=1, fa=0.05)
     one, other = (symsurf.cohort(each, PAIRS) for each in (landmarks, landmarks[:, 0]))
