@@ -231,8 +231,12 @@ def test_a_table_of_another_run_is_left_as_it_is(words, says, clouds, tmp_path):
 
 def test_the_number_of_jobs_and_threads_may_differ(clouds, tmp_path):
     run_here("detect clouds --method plane --table t.csv", tmp_path)
+    before = content(tmp_path / "t.csv")
     line = "detect clouds --method plane --table t.csv --resume --threads 1 --jobs 2"
-    assert run_here(line, tmp_path).stdout == ""
+    done = run_here(line, tmp_path)
+    assert done.returncode == 1 and done.stdout == ""
+    assert "shape0007.xyz" in done.stderr and done.stderr.count("\n") == 1
+    assert content(tmp_path / "t.csv") == before
 
 
 @pytest.mark.parametrize(
