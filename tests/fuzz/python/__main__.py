@@ -1,8 +1,8 @@
-"""Fuzzes symsurf from Python. Usage: python tests/fuzz/python [--first SEED] [--count N] [--log FILE]
+"""Fuzzes symsurf from Python. Usage: python tests/fuzz/python [--first SEED] [--count N] [--points N] [--log FILE]
 
 Each call is made in a process with 2 GB and 20 s of a processor. A finding, a line of the log, is a
-process that dies, an exception but the documented ones, a number that is none, and a call that takes
-longer. ``--show SEED`` makes one call here, and writes its points and faces to ``--output``."""
+process that dies, an exception but the documented ones, a number that is none, a call that takes
+longer, and a kind of call that is always refused. ``--show SEED`` makes one call here, and writes its points and faces to ``--output``."""
 
 from __future__ import annotations
 
@@ -24,30 +24,33 @@ sys.path.insert(0, str(Path(__file__).parent))
 MEMORY = 2 << 30
 SECONDS = 20
 PATIENCE = 300  # s of waiting, for a processor that others use too
+# A kind of call that is refused as often has no results: of those that have, most calls give one.
+REFUSALS = 10
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=9000)
+    parser.add_argument("--points", type=int, default=2000, help="at most, of each cloud")
     parser.add_argument("--log", type=Path)
     parser.add_argument("--show", type=int)
     parser.add_argument("--output", type=Path, metavar="NPZ")
     parser.add_argument("--work", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.work:
-        return work(range(given.first, given.first + given.count))
+        return work(range(given.first, given.first + given.count), given.points)
     if given.show is not None:
-        return show(given.show, given.output)
-    return watch(given.first, given.first + given.count, given.log)
+        return show(given.show, given.points, given.output)
+    return watch(given.first, given.first + given.count, given.points, given.log)
 
 
-def watch(first: int, end: int, log: Path | None) -> int:
+def watch(first: int, end: int, points: int, log: Path | None) -> int:
     """Has all seeds worked on: after one that ends the process by another."""
-    findings, done = 0, Counter[str]()
+    findings, done, refused = 0, Counter[str](), Counter[str]()
     while first < end:
         seed = kind = words = ""
-        with started(range(first, end)) as child:
+        with started(range(first, end), points) as child:
             for line in lines_of(child):
                 what, rest = line.split(" ", 1)
                 if what == "begin":
@@ -59,6 +62,8 @@ def watch(first: int, end: int, log: Path | None) -> int:
                     tell(f"seed {seed} {kind}: {words}: {rest}", log)
                 elif what == "slow":
                     tell(f"# seed {seed} {kind}: {words}: {rest}", log)
+                elif what == "refused":
+                    refused[kind] += 1
                 else:
                     first, seed = int(rest) + 1, ""
                     done[kind] += 1
@@ -66,12 +71,16 @@ def watch(first: int, end: int, log: Path | None) -> int:
             findings, first = findings + 1, int(seed) + 1
             done[kind] += 1
             tell(f"seed {seed} {kind}: {words}: {end_of(child)}", log)
-        tell(f"# {dict(done)}, {findings} findings", log)
+    for kind, many in refused.items():
+        if many == done[kind] >= REFUSALS:
+            findings += 1
+            tell(f"{kind}: all of {many} calls are refused", log)
+    tell(f"# {dict(done)}, of which {dict(refused)} are refused, {findings} findings", log)
     return 1 if findings else 0
 
 
-def started(seeds: range) -> subprocess.Popen[bytes]:
-    words = ["--work", "--first", str(seeds.start), "--count", str(len(seeds))]
+def started(seeds: range, points: int) -> subprocess.Popen[bytes]:
+    words = ["--work", f"--first={seeds.start}", f"--count={len(seeds)}", f"--points={points}"]
     return subprocess.Popen([sys.executable, __file__, *words], stdout=subprocess.PIPE)
 
 
@@ -101,18 +110,19 @@ def tell(line: str, log: Path | None) -> None:
             print(line, file=file)
 
 
-def work(seeds: range) -> int:
+def work(seeds: range, points: int) -> int:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     from cases import Case
 
     signal.signal(signal.SIGPROF, signal.SIG_DFL)  # which ends the process
     for seed in seeds:
-        case = Case(seed, lambda words: say("call", words))
+        case = Case(seed, points, lambda words: say("call", words))
         say("begin", f"{seed} {case.kind}")
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
         began = time.process_time()
         try:
-            case.run()
+            if not case.run():
+                say("refused", str(seed))
         except BaseException as error:  # noqa: BLE001 - that is what is sought
             say("finding", f"{type(error).__name__}: {error}")
         signal.setitimer(signal.ITIMER_PROF, 0)
@@ -126,10 +136,10 @@ def say(what: str, words: str) -> None:
     print(what, " ".join(words.split()), flush=True)
 
 
-def show(seed: int, output: Path | None) -> int:
+def show(seed: int, points: int, output: Path | None) -> int:
     from cases import Case
 
-    case = Case(seed, print)
+    case = Case(seed, points, print)
     if output is not None:
         import numpy
 

@@ -17,8 +17,9 @@ ALLOWED = (symsurf.InvalidInput, symsurf.InvalidParameter, symsurf.Cancelled)
 KINDS = ("detect",) * 5 + ("operate",) * 3 + ("analyse",)
 # It tries each pair of many centres and radii, as the thesis does, and is drawn seldom.
 SLOW_METHOD = "sphere_thesis"
-# What is not known of points without a counterpart.
-MAY_BE_NAN = {"vector", "distance", "signed", "tangential", "lateral", "weights"}
+# What is not known of points without a counterpart or a reflection, and is infinite in a focus.
+MAY_BE_NAN = {"vector", "distance", "signed", "tangential", "lateral", "weights", "reflection"}
+MAY_BE_NAN |= {"irradiance"}
 
 
 class NotFinite(Exception):
@@ -28,24 +29,26 @@ class NotFinite(Exception):
 class Case:
     """One call: ``run`` makes it and judges what it gives; ``tell`` is told before what it is."""
 
-    def __init__(self, seed: int, tell: Callable[[str], None]) -> None:
+    def __init__(self, seed: int, most: int, tell: Callable[[str], None]) -> None:
         self.tell = tell
         random = np.random.default_rng(seed)
-        self.kind = KINDS[seed % len(KINDS)]
-        self.points = cloud(random)
+        self.call = KINDS[seed % len(KINDS)]
+        self.points = cloud(random, most)
         self.faces = faces(random, len(self.points))
+        self.kind = f"{self.call}-{'cloud' if self.faces is None else 'mesh'}"
         self.random = random
         self.words = f"{len(self.points)} points"
 
-    def run(self) -> None:
-        """Raises whatever is a finding."""
+    def run(self) -> bool:
+        """Whether there is a result, not a refusal. Raises whatever is a finding."""
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             try:
-                result = getattr(self, f"_{self.kind}")()
+                result = getattr(self, f"_{self.call}")()
             except ALLOWED:
-                return
+                return False
             require_finite(result, np.isfinite(self.points).all(axis=1))
+            return True
 
     def _detect(self) -> Any:
         random = self.random
@@ -65,8 +68,7 @@ class Case:
         found = None
         if random.integers(4):
             found = drawn_mirror(random) if random.integers(3) == 0 else self._detect()
-        shape = (self.points, self.faces) if self.faces is not None else self.points
-        return operate(name, shape, found, threads=1, **given)
+        return operate(name, self.points, found, faces=self.faces, threads=1, **given)
 
     def _say(self, name: str, given: dict[str, Any]) -> None:
         self.words += f", {name} {given}"

@@ -12,7 +12,7 @@ Random: TypeAlias = np.random.Generator
 Points: TypeAlias = NDArray[np.float64]
 
 
-def cloud(random: Random, most: int = 2000) -> Points:
+def cloud(random: Random, most: int) -> Points:
     """(n, 3) with n from 4 to about ``most``; up to three times made harder."""
     count = int(np.exp(random.uniform(np.log(4), np.log(most))))
     points = one_of(SIMPLE, random)(random, count)
