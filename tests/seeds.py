@@ -19,6 +19,6 @@ full_run = pytest.mark.skipif(SEEDS < FULL, reason="only in the full run: make t
 """Of what takes long for what it shows, and of faults that a few draws do not show."""
 
 
-def share(of_the_full_run: int) -> int:
+def draws(of_the_full_run: int) -> int:
     """How many draws there are where the full run makes so many."""
     return math.ceil(of_the_full_run * SEEDS / FULL)

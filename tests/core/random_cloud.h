@@ -6,12 +6,9 @@
 #include <cstdint>
 #include <random>
 
-namespace symsurf {
+#include "seeds.h"
 
-/// Seeds of repeated tests: whatever fails for one of them fails.
-constexpr std::uint64_t seeds = 8;
-/// Of tests that take seconds for each.
-constexpr std::uint64_t slow_seeds = 4;
+namespace symsurf {
 
 /// Draws stand in statements of their own: compilers differ in which argument they evaluate first,
 /// and the clouds are to be the same with all of them.

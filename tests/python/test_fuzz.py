@@ -6,11 +6,11 @@ import subprocess
 import sys
 
 from conftest import ROOT
-from seeds import share
+from seeds import draws
 
 
 def test_drawn_calls_have_no_findings():
-    words = ["--count", str(share(288)), "--points", "60"]
+    words = ["--count", str(draws(288)), "--points", "60"]
     done = subprocess.run(
         [sys.executable, str(ROOT / "tests" / "fuzz" / "python"), *words],
         capture_output=True,

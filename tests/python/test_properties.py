@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, reject, settings
 from hypothesis import strategies as st
-from seeds import share
+from seeds import draws
 from symmetric_shapes import diagonal, random_rotation
 
 import symsurf
@@ -162,7 +162,7 @@ def test_every_result_is_sound(method):
             rows = {tuple(row) for row in two.surface_points}
             assert all(tuple(row) in rows for row in one.surface_points)
 
-    holds(of_any_cloud, share(EXAMPLES.get(method, 80)))
+    holds(of_any_cloud, draws(EXAMPLES.get(method, 80)))
 
 
 @st.composite
@@ -266,7 +266,7 @@ def test_every_operation_keeps_its_promises(name):
         expect_as_described(made, OPERATIONS[name], points, faces)
         expect_consistent(made, points, mirror)
 
-    holds(on_any_shape, share(160))
+    holds(on_any_shape, draws(160))
 
 
 def expect_sound_analysis(found, analysis, points):
@@ -304,4 +304,4 @@ def test_every_analysis_is_sound(name):
         for array, values in found.arrays.items():
             np.testing.assert_array_equal(values, again.arrays[array])
 
-    holds(of_any_shape, share(40))
+    holds(of_any_shape, draws(40))
