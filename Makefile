@@ -113,8 +113,8 @@ meshlab:
 
 # Sees the plugin in MeshLab's own window, which it builds; leaves build/meshlab-gui/pictures.
 meshlab-gui:
-	@.ci/setup meshlab_gui python_tests
-	@build/venv/bin/python -m pytest tests/meshlab
+	@.ci/setup meshlab_gui pytest
+	@SYMSURF_SEEDS=8 build/venv/bin/python -m pytest tests/meshlab
 
 # What MeshLab costs, how long it takes to cancel, and its own plane detector beside ours.
 bench-meshlab:

@@ -1,6 +1,6 @@
 """MeshLab's own window on a virtual screen: the menu, the dialog and the result.
 
-Needs the MeshLab that `make test` and `make meshlab-gui` build. The pictures are left beside it, in
+Needs the MeshLab that `make test-full` and `make meshlab-gui` build. The pictures are left beside it, in
 `pictures`, to be looked at.
 """
 
@@ -20,15 +20,19 @@ import pytest
 from airplane import bent_airplane, write_obj
 from conftest import BUILD, plugin_file
 from PIL import Image
+from seeds import full_run
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
 
 PROGRAM = BUILD.parent / "meshlab-gui" / "src" / "distrib" / "meshlab"
 PATIENCE = 60
 
-pytestmark = pytest.mark.skipif(
-    not PROGRAM.exists(), reason="MeshLab's window is not built: make meshlab-gui"
-)
+pytestmark = [
+    full_run,
+    pytest.mark.skipif(
+        not PROGRAM.exists(), reason="MeshLab's window is not built: make meshlab-gui"
+    ),
+]
 
 
 class Window:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from desktop import Desktop, screen
+from seeds import full_run
 
 import symsurf
 
@@ -56,6 +57,7 @@ def paraview(environment: dict[str, str], plugin: Path, file: Path) -> Iterator[
         yield desktop
 
 
+@full_run
 def test_menu_apply_and_the_mirror_is_drawn(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:
@@ -71,6 +73,7 @@ def test_menu_apply_and_the_mirror_is_drawn(
         desktop.wait_until(lambda now: colourful(now[VIEW]).mean() > 0.01)
 
 
+@full_run
 def test_menu_apply_and_the_asymmetry_is_drawn_about_0(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:
@@ -91,6 +94,7 @@ def test_menu_apply_and_the_asymmetry_is_drawn_about_0(
             assert (found // (redder.shape[1] // 2) == half).mean() > 0.9
 
 
+@full_run
 def test_the_button_for_help_shows_the_filters_page(
     environment: dict[str, str], plugin: Path, tmp_path: Path
 ) -> None:

@@ -127,14 +127,14 @@ def test_examples_of_the_other_pages(page, folder):
 
 def command_lines() -> list[str]:
     lines = "".join(examples("console", README) + examples("console", START)).splitlines()
-    return [line[2:] for line in lines if line.startswith("$ symsurf ")]
+    commands = (line[2:].split("#")[0].strip() for line in lines if line.startswith("$ symsurf "))
+    return list(dict.fromkeys(commands))
 
 
 @pytest.mark.parametrize("line", command_lines())
 def test_command_line_examples(line, folder):
     pytest.importorskip("pyvista")
-    words = line.split("#")[0].split()[1:]
-    command = [sys.executable, "-m", "symsurf", *words]
+    command = [sys.executable, "-m", "symsurf", *line.split()[1:]]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
