@@ -14,6 +14,8 @@ SEEDS = int(os.environ.get("SYMSURF_SEEDS", "2"))
 if SEEDS < 1:
     raise ValueError(f"SYMSURF_SEEDS is {SEEDS}; allowed is 1 or more")
 
+each_seed = pytest.mark.parametrize("seed", range(SEEDS))
+
 FULL = 8
 full_run = pytest.mark.skipif(SEEDS < FULL, reason="only in the full run: make test-full")
 """Of what takes long for what it shows, and of faults that a few draws do not show."""

@@ -25,7 +25,7 @@ Points surfaces(Index count) {
 TEST(AnyUnit, EveryMethodFindsTheSame) {
   for (const Method& method : methods()) {
     const Points points =
-        surfaces(method.name == "plane" ? 25000 : 1500);  // it asks a grid of fewer
+        surfaces(method.name == "plane" ? 25000 : 600);  // it asks a grid of fewer
     Options options{.method = method.name};
     if (method.name == "sphere_thesis") options.parameters = {{"sample_size", Index{40}}};
     const Result one = detect(points, options);

@@ -30,7 +30,7 @@ Points repeated(const Points& points, Index times) { return points.replicate(tim
 
 // As in the corners of triangles that nobody merged.
 TEST(Duplicates, HaveTheSamePartner) {
-  const Points points = surfaces(1, 500);
+  const Points points = surfaces(1, 300);
   const Index n = points.rows(), times = 3;
   for (const Method& method : methods()) {
     if (!implementation(method.name).preprocessing.merge_duplicates) continue;
@@ -148,7 +148,7 @@ TEST(Duplicates, HardlyChangeThePlane) {
 
 // Where there are few duplicates, the method gets them.
 TEST(Duplicates, OfSomePointsHardlyChangeWhatIsExplained) {
-  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(2); ++seed) {
     const Points points = surfaces(seed, 1000);
     Points some(1040, 3);
     some << points, points.topRows(40);

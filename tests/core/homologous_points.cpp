@@ -117,7 +117,7 @@ double median_error(const OperationResult& result, const Deformed& truth) {
 }
 
 TEST(HomologousPoints, FollowASmoothDeformationWithoutTwins) {
-  for (std::uint64_t seed = 0; seed < 4; ++seed)
+  for (std::uint64_t seed = 0; seed < draws(4); ++seed)
     for (const bool bent : {false, true}) {
       const Ball body = resampled_body(seed);
       const double diagonal = diagonal_of(body.points);
@@ -242,13 +242,15 @@ TEST(HomologousPoints, OfASymmetricTriangulationAreItsVerticesToTheLast) {
       {"two that mirror themselves", [](const Vector3& u) { return std::abs(u.z()) > 0.15; }},
       {"three", [](const Vector3& u) { return std::abs(std::abs(u.x()) - 0.4) > 0.1; }}};
   const Ball lattice = subdivided(subdivided(subdivided(subdivided(subdivided(octahedron())))));
-  for (std::uint64_t seed = 60; seed < 62; ++seed)
+  for (std::uint64_t seed = 60; seed < 60 + draws(2); ++seed) {
+    bool bent = seed % 2 == 1;
     for (const auto& [name, keeps] : parts) {
-      const bool bent = seed % 2 == 1;
       const Ball irregular = body_of(subdivided(two_halves(seed)), keeps);
       EXPECT_EQ(wrong_partners(irregular, seed, bent, everywhere), 0) << seed << name;
       EXPECT_EQ(wrong_partners(body_of(lattice, keeps), seed, bent, everywhere), 0) << seed << name;
+      bent = !bent;
     }
+  }
 }
 
 // All but for what mirrors a hole.
@@ -259,7 +261,7 @@ TEST(HomologousPoints, OfATriangulationWithAHoleOnOneSideAreItsVertices) {
   const auto counts = [&](const Vector3& u) {
     return Vector3(std::abs(u.x()), u.y(), u.z()).dot(hole) < 0.8;
   };
-  for (std::uint64_t seed = 70; seed < 73; ++seed) {
+  for (std::uint64_t seed = 70; seed < 70 + draws(3); ++seed) {
     EXPECT_EQ(wrong_partners(body_of(subdivided(two_halves(seed)), has_face), seed, false, counts),
               0);
     EXPECT_EQ(wrong_partners(body_of(lattice, has_face), seed, false, counts), 0);
@@ -268,7 +270,7 @@ TEST(HomologousPoints, OfATriangulationWithAHoleOnOneSideAreItsVertices) {
 
 // But for the diagonals of its quadrangles, which are drawn on both sides apart.
 TEST(HomologousPoints, OfOneTriangulationAreItsVertices) {
-  for (std::uint64_t seed = 0; seed < 2; ++seed)
+  for (std::uint64_t seed = 0; seed < draws(2); ++seed)
     for (const bool bent : {false, true}) {
       const Ball body = mirrored_body(seed);
       const double diagonal = diagonal_of(body.points);
@@ -290,7 +292,7 @@ TEST(HomologousPoints, OfOneTriangulationAreItsVertices) {
 }
 
 TEST(HomologousPoints, LeaveABumpABump) {
-  for (std::uint64_t seed = 0; seed < 2; ++seed)
+  for (std::uint64_t seed = 0; seed < draws(2); ++seed)
     for (const bool has_twins : {false, true})
       for (const bool bent : {false, true}) {
         const Ball body = has_twins ? mirrored_body(seed) : resampled_body(seed);
@@ -319,7 +321,7 @@ TEST(HomologousPoints, OfAMirroredBodyAreItsMirrorPoints) {
 }
 
 TEST(HomologousPoints, OfACloudAreThoseOfItsSurface) {
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(3); ++seed) {
     const Ball body = resampled_body(seed);
     Deformed d = deformed(body, SideMap(seed, share_of_diagonal * diagonal_of(body.points)), false);
     const OperationResult result = operate("asymmetry", {d.points}, middle, homologous);

@@ -50,7 +50,7 @@ AnalysisResult of_mesh(const LimbedBody& body) {
 }
 
 TEST(IntrinsicSymmetry, MapsLeftToRightWhateverThePose) {
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(3); ++seed) {
     const LimbedBody body = posed_animal(seed);
     const AnalysisResult result = of_mesh(body);
     EXPECT_EQ(verdict(result), "found") << seed;
@@ -61,7 +61,7 @@ TEST(IntrinsicSymmetry, MapsLeftToRightWhateverThePose) {
 }
 
 TEST(IntrinsicSymmetry, NeedsNoFaces) {
-  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(2); ++seed) {
     const LimbedBody body = posed_animal(seed);
     const AnalysisResult result = analyse("intrinsic_symmetry", body.points);
     EXPECT_EQ(verdict(result), "found") << seed;
@@ -270,7 +270,7 @@ TEST(IntrinsicSymmetry, AnswersForFewPoints) {
 
 // Most of the points lie nearer to each other than the numbers of the others resolve.
 TEST(IntrinsicSymmetry, TakesPointsThatCrowd) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < draws(60); ++seed) {
     RandomCloud random(seed);
     Points points(20 + static_cast<Index>(seed), 3);
     for (double& x : points.reshaped()) x = std::pow(10.0, random.uniform(-30, 0));

@@ -77,10 +77,10 @@ bool is_near(const Eigen::Affine3d& found, const Eigen::Affine3d& map, double di
          (found * centre - map * centre).norm() < 0.01 * diagonal;
 }
 
-// In four of five draws: of a hundred some five are missed.
+// In four of five draws or more: of a hundred some five are missed.
 void expect_found(const std::string& kind) {
-  int missed = 0;
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+  std::uint64_t missed = 0;
+  for (std::uint64_t seed = 0; seed < draws(5); ++seed) {
     const Scene scene = scene_of(kind, seed);
     const AnalysisResult result = analyse("partial_symmetries", scene.points);
     ASSERT_FALSE(result.transformations.empty()) << kind << seed;
@@ -103,7 +103,7 @@ void expect_found(const std::string& kind) {
     EXPECT_EQ(side(best.from.front(), 0), 0);
     EXPECT_EQ(result.arrays.at("transformation")(best.from.front(), 0), 0);
   }
-  EXPECT_LE(missed, 1) << kind;
+  EXPECT_LE(5 * missed, draws(5)) << kind;
 }
 
 TEST(PartialSymmetries, FindTheTwinAcrossAPlane) { expect_found("reflection"); }

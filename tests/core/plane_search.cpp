@@ -161,9 +161,9 @@ TEST(PlaneSearch, FindsThePlaneOfHalfAnObject) {
 // Few pairs there tell of the mirror, and all of them at short range: another plane may map more of
 // what is left nearly, and is the result then; but the true one is among the candidates.
 TEST(PlaneSearch, MostlyMeetsThePlaneOfHalfAnObjectWithAStripOfTheOtherHalf) {
-  constexpr int trials = 10, least_found = 7;
+  SYMSURF_FULL_RUN_ONLY();
   int found = 0;
-  for (std::uint64_t seed = 0; seed < trials; ++seed) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     RandomCloud random(seed);
     const Points whole = lumpy_ball(random, 4096, false);
     std::vector<double> depths;
@@ -178,7 +178,7 @@ TEST(PlaneSearch, MostlyMeetsThePlaneOfHalfAnObjectWithAStripOfTheOtherHalf) {
       return angle(r, truth) < 2 && offset(r, truth, half) < 0.01;
     });
   }
-  EXPECT_GE(found, least_found);
+  EXPECT_GE(found, 7);
 }
 
 TEST(PlaneSearch, DoesNotDependOnPose) {

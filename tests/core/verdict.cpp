@@ -69,7 +69,7 @@ TEST(Verdict, OfWhatNeedsAMirror) {
 // cap of the shape is cut off.
 TEST(Verdict, OfAMirrorBelowAHighMinimum) {
   RandomCloud random(1);
-  Points points = random.sphere(3000);
+  Points points = random.sphere(1000);
   std::vector<Index> kept;
   for (Index i = 0; i < points.rows(); ++i)
     if (points.row(i).dot(Eigen::RowVector3d(1, 1, 1)) < 1.2) kept.push_back(i);

@@ -9,7 +9,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from symmetric_shapes import quick
 
 import symsurf
 
@@ -96,13 +95,6 @@ def test_result_arrays_outlive_the_result(blob):
     [np.empty(array.shape) for array in arrays * 20]  # would take freed memory
     for array, expected in zip(arrays, copies):
         np.testing.assert_array_equal(array, expected)
-
-
-def test_the_input_is_not_changed(blob):
-    before = blob.copy()
-    for method in symsurf.methods():
-        symsurf.detect(blob, method, **quick(method))
-    np.testing.assert_array_equal(blob, before)
 
 
 def test_results_can_be_pickled_and_copied(blob):

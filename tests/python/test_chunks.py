@@ -13,13 +13,14 @@ import sys
 import numpy as np
 import pytest
 from command_line import run
+from seeds import SEEDS
 
 import symsurf
 from symsurf import InvalidInput, InvalidParameter
 from symsurf.batching import file_task
 from symsurf.reading.in_chunks import chunks_of
 
-COUNT = 400_000
+COUNT = 50_000 * SEEDS
 
 
 def body(count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray, float]:
@@ -302,7 +303,7 @@ def test_large_files_are_read_in_chunks_by_themselves(points, found, tmp_path, m
 def test_dask_whichever_worker_dies(points, found):
     array = pytest.importorskip("dask.array", reason="needs Dask: pip install distributed")
     distributed = pytest.importorskip("distributed", reason="needs Dask: pip install distributed")
-    blocks = array.from_array(points, chunks=(9000, 2))
+    blocks = array.from_array(points, chunks=(COUNT // 44, 2))
     assert same(symsurf.detect_chunks(blocks, "plane"), found)
     assert same(symsurf.detect(blocks, "plane"), found)
     matches = np.concatenate([each.residuals for each in symsurf.match_chunks(blocks, found)])
@@ -318,7 +319,7 @@ def test_dask_whichever_worker_dies(points, found):
                 os.kill(os.getpid(), signal.SIGKILL)
             return block
 
-        slowed = blocks.rechunk((9000, 3)).map_blocks(killing, dtype=float)
+        slowed = blocks.rechunk((COUNT // 44, 3)).map_blocks(killing, dtype=float)
         assert same(symsurf.detect_chunks(slowed, "plane"), found)
         os.kill(min(workers.values()), signal.SIGKILL)
         assert same(symsurf.detect_chunks(blocks, "plane"), found)

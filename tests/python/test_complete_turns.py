@@ -15,14 +15,13 @@ from accuracy.pots import (
     posed,
 )
 from command_line import run_here
+from seeds import each_seed
 
 import symsurf
 
-SEEDS = range(3)
-
 
 @pytest.mark.parametrize("kind", ["sheet", "walls", "sheet cloud", "walls cloud"])
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 def test_a_pot_is_completed_from_the_rest_of_its_turn(kind, seed):
     rng = np.random.default_rng([seed, 21])
     given, whole, axis = broken_pot(kind, rng.uniform(0.1, 0.65), rng)
@@ -40,7 +39,7 @@ def test_a_pot_is_completed_from_the_rest_of_its_turn(kind, seed):
         assert made.face_sources.max() < len(given.faces)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 def test_a_fifth_of_the_turn_tells_the_axis(seed):
     rng = np.random.default_rng([seed, 22])
     for kind in ("sheet", "walls"):

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import pytest
+from seeds import FULL, SEEDS
 
 pytest.importorskip("pyvista", reason="its examples are the meshes")
 
 from symsurf.demonstration import cases, deeds, find
 
+# What something is done with, once its mirror is found.
+USED = {"bent", "one side cut off", "one tip raised"}
+
 
 def test_mirrors_are_found_and_used():
     done = {}
     for case in cases():
+        if SEEDS < FULL and case.change not in USED:
+            continue
         finding = find(case)
         assert finding.result.verdict == "found", case
         assert finding.result.mirror.kind == case.truth.kind

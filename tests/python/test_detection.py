@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import each_seed
 from symmetric_shapes import diagonal, difference, mirrored_surface, quick, random_rotation
 
 import symsurf
 
-SEEDS = range(5)
 
-
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 @pytest.mark.parametrize("count", [400, 4000])
 def test_exact_plane_is_found(count, seed):
     points, truth = mirrored_surface(count, seed)
@@ -33,7 +32,7 @@ def test_pairs_are_mirror_images():
     assert len(result.pairs) == len(points)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 def test_rigid_motion_and_scale(seed):
     points, _ = mirrored_surface(1500, seed)
     rng = np.random.default_rng(seed + 100)
@@ -49,7 +48,7 @@ def test_rigid_motion_and_scale(seed):
     assert other.score == pytest.approx(plain.score, abs=1e-6)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 def test_permutation(seed):
     points, _ = mirrored_surface(1500, seed)
     order = np.random.default_rng(seed).permutation(len(points))
@@ -59,9 +58,11 @@ def test_permutation(seed):
 
 
 @pytest.mark.parametrize("method", symsurf.methods())
-def test_threads_give_the_same_bits(method, blob):
-    one = symsurf.detect(blob, method, threads=1, **quick(method))
-    for threads in (2, 3, 0):
+def test_threads_give_the_same_bits_and_leave_the_input(method, blob):
+    given = blob.copy()
+    one = symsurf.detect(given, method, threads=1, **quick(method))
+    np.testing.assert_array_equal(given, blob)
+    for threads in (2, 3):
         other = symsurf.detect(blob, method, threads=threads, **quick(method))
         assert repr(other.mirror) == repr(one.mirror)
         assert other.score == one.score
@@ -91,7 +92,7 @@ def test_the_methods_that_use_normals_are_those_that_say_so(method):
     assert (f"``{method}``" not in text) == is_same
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_seed
 def test_candidates_are_ranked_and_can_be_matched(seed):
     rng = np.random.default_rng(seed)
     eighth = np.abs(rng.normal(size=(250, 3)))
@@ -121,7 +122,7 @@ def test_sample_shapes(shapes):
 
 # All around the axis any plane through it explains much, which leaves the cylinder no room among
 # the candidates unless small ones have their own.
-@pytest.mark.parametrize("seed", range(8))
+@each_seed
 def test_cylinder_of_a_closed_tube(seed):
     rng = np.random.default_rng(seed)
     angle, z = rng.uniform(0, 2 * np.pi, 1000), rng.uniform(-2.5, 2.5, 1000)

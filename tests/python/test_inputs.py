@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from command_line import run
+from seeds import each_seed
 from symmetric_shapes import is_near, mirrored_surface, random_rotation
 
 import symsurf
@@ -173,7 +174,7 @@ def shapes_of(points, faces):
     yield {"points": mesh.cast_to_unstructured_grid()}
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_seed
 def test_faces_find_the_mirror_of_a_chair(seed):
     points, faces, normal, on = chair(seed)
     results = [symsurf.detect(method="plane", **given) for given in shapes_of(points, faces)]

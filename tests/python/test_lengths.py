@@ -37,7 +37,7 @@ def test_every_length_may_be_in_input_units(function, parameter, points):
     call = partial(operate, function) if is_operation else getattr(symsurf, function)
     shape = 25.4 * points
     if is_operation and symsurf.operations()[function].needs_faces:
-        shape = symsurf.Shape(shape, [[i, i + 1, i + 2] for i in range(0, len(shape) - 2, 3)])
+        shape = symsurf.Shape(shape, [[i, i + 1, i + 2] for i in range(0, 9, 3)])
     length = 0.0625 * diagonal(25.4 * points)
     made = call(shape, absolute=True, **{parameter: length})
     if made.parameters.keys() >= {parameter}:  # "auto" names those of the method it chose

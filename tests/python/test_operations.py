@@ -257,7 +257,7 @@ def test_tables_have_a_row_a_point(name, is_mesh, ball, tmp_path):
 
 
 def test_a_mirror_that_is_none_warns_unless_refused():
-    points = lopsided_blob(2000)
+    points = lopsided_blob(800)
     found = symsurf.detect(points)
     assert found.verdict == "none"
     with pytest.warns(symsurf.InputWarning, match="require_found") as warnings:
@@ -273,13 +273,13 @@ def test_a_mirror_that_is_none_warns_unless_refused():
 
 
 def test_what_is_said_of_a_mirror_that_is_none(tmp_path):
-    np.savetxt(tmp_path / "none.xyz", lopsided_blob(2000))
+    np.savetxt(tmp_path / "none.xyz", lopsided_blob(800))
     done = run_here("align none.xyz --json --output made", tmp_path)
     record = json.loads(done.stdout)
     assert done.returncode == 0 and record["verdict"] == "none"
     (notice,) = record["notices"]
     assert record["reason"] in notice and done.stderr == f"symsurf: none.xyz: {notice}\n"
-    assert len(symsurf.read(tmp_path / "made" / "none.xyz").points) == 2000
+    assert len(symsurf.read(tmp_path / "made" / "none.xyz").points) == 800
     done = run_here("align none.xyz --json --require-found --output refused", tmp_path)
     assert done.returncode == 1 and done.stdout == "" and record["reason"] in done.stderr
     assert not (tmp_path / "refused" / "none.xyz").exists()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from accuracy.repeated import facade, gear
 from accuracy.solids import sampled
+from seeds import each_seed
 from symmetric_shapes import random_rotation
 
 import symsurf
@@ -18,7 +19,7 @@ def posed(points, seed):
     return 3 * points @ random_rotation(rng).T + rng.normal(size=3)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@each_seed
 @pytest.mark.parametrize("bars", [False, True])
 def test_a_facade_has_its_windows_with_or_without_bars(seed, bars):
     points, faces, window = facade(4, 6, np.random.default_rng(seed), bars=bars)
@@ -34,7 +35,7 @@ def test_a_facade_has_its_windows_with_or_without_bars(seed, bars):
     assert (instance[window < 0] == -1).all() and (found.arrays["part"][window >= 0] == 0).all()
 
 
-@pytest.mark.parametrize("seed", range(5))
+@each_seed
 def test_two_gears_have_the_teeth_of_both(seed):
     rng = np.random.default_rng(seed)
     (small, small_faces, _), (large, large_faces, _) = gear(7, rng), gear(24, rng)
@@ -59,7 +60,7 @@ def test_what_is_found_is_told():
         np.testing.assert_allclose(high, points[each.onto_points].max(axis=0), atol=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_seed
 def test_a_cloud_has_its_windows(seed):
     rng = np.random.default_rng(seed)
     points, faces, _ = facade(2, 3, rng)
@@ -70,7 +71,7 @@ def test_a_cloud_has_its_windows(seed):
     assert "instances of each part: 6" in repr(found)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_seed
 def test_noise_of_a_mesh_is_told_and_hides_no_window(seed):
     rng = np.random.default_rng(seed)
     points, faces, window = facade(2, 3, rng)

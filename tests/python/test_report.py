@@ -212,7 +212,7 @@ def test_what_is_wrong_is_named(ball, line, says, tmp_path):
 
 
 def test_a_mirror_that_is_none_has_a_page_unless_refused(tmp_path):
-    np.savetxt(tmp_path / "none.xyz", lopsided_blob(2000))
+    np.savetxt(tmp_path / "none.xyz", lopsided_blob(800))
     done = run_here("report none.xyz --output report.html --require-found", tmp_path)
     assert done.returncode == 1 and "has no mirror" in done.stderr
     assert not (tmp_path / "report.html").exists()

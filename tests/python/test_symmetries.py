@@ -10,6 +10,7 @@ import pytest
 from accuracy.symmetric_parts import PARTS, Part, cut, noisy
 from command_line import run
 from numpy.typing import NDArray
+from seeds import each_seed, full_run
 from symmetric_shapes import random_rotation
 
 import symsurf
@@ -74,7 +75,7 @@ def test_elements_are_a_group_that_keeps_the_centre():
     assert np.allclose([axis.point for axis in found.axes], found.centre)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_seed
 def test_of_equal_axes_the_one_with_the_largest_group_counts(seed):
     # Of the three axes of order 2 of D2d one is that of a rotary reflection.
     rng = np.random.default_rng(seed)
@@ -92,6 +93,7 @@ def test_of_equal_axes_the_one_with_the_largest_group_counts(seed):
 
 
 # Floors, of 15, below what draws of every part gave: 27 of 30 with noise, 25 of 30 when cut.
+@full_run
 @pytest.mark.parametrize(("damage", "least"), [("noisy", 12), ("cut", 12)])
 def test_damaged_parts_keep_their_group_mostly(damage, least):
     right = []

@@ -20,7 +20,7 @@ BOTTLE = COLOURED_PARTS["bottle with a label"]
 
 def posed_mesh(part: ColouredPart, seed: int = 0) -> tuple[Array, Array, Array, Array]:
     """Points, faces, colours, and the pose's rotation."""
-    points, faces, colours = part.mesh(edge=0.05)
+    points, faces, colours = part.mesh(edge=0.08)
     rotation = random_rotation(np.random.default_rng(seed))
     return 3 * points @ rotation.T + (5, -2, 1), faces, colours, rotation
 

@@ -3,6 +3,8 @@
 // target is left in the working folder.
 //
 //   TARGET SECONDS [FOLDER_OF_SEEDS]
+//
+// The seconds are those of the full run; there are fewer by default.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -20,6 +22,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "core/seeds.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -103,7 +107,9 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 int main(int argc, char** argv) {
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(argc > 1 ? std::atof(argv[1]) : 1);
+  const double share = static_cast<double>(symsurf::seeds) / symsurf::seeds_of_the_full_run;
+  const double seconds = share * (argc > 1 ? std::atof(argv[1]) : 1);
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   finding = "finding-" + std::filesystem::path(argv[0]).filename().string();
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM})
     std::signal(signal, leave_finding);
