@@ -150,13 +150,14 @@ class Invariance : public testing::TestWithParam<TestCloud> {
 
 TEST_P(Invariance, OfMirrorAndScoreUnderOrderPoseScaleAndCopies) {
   const Points& points = cloud.points;
+  const Points twice = shuffled.replicate(2, 1);
+  const Similarity moved{rotation, 1e-6, Vector3(1, -1, 1)};
   for (const std::string& method : cloud.methods) {
     const Result result = detect(points, {.method = method});
     const auto check = [&](const std::string& change, const Similarity& by) {
       expect_same(cloud, method, result, change, by.of(points), by);
     };
-    const Similarity moved{rotation, 1e-6, Vector3(1, -1, 1)};
-    expect_same(cloud, method, result, "all of it", moved.of(shuffled.replicate(2, 1)), moved);
+    expect_same(cloud, method, result, "all of it", moved.of(twice), moved);
     if (seeds < seeds_of_the_full_run) continue;  // which tells the changes apart
     expect_same(cloud, method, result, "shuffled", shuffled, {});
     expect_same(cloud, method, result, "twice", points.replicate(2, 1), {});
@@ -167,6 +168,7 @@ TEST_P(Invariance, OfMirrorAndScoreUnderOrderPoseScaleAndCopies) {
 }
 
 TEST_P(Invariance, OfTheVerdictOfOtherMethods) {
+  const Points twice = shuffled.replicate(2, 1);
   const Similarity turned{.rotation = rotation}, smaller{.scale = 1e-6}, both{rotation, 1e-6};
   for (const Method& method : methods()) {
     const auto& same = cloud.methods;
@@ -175,7 +177,7 @@ TEST_P(Invariance, OfTheVerdictOfOtherMethods) {
       continue;
     const Options options{.method = method.name};
     const std::string verdict = detect(cloud.points, options).verdict();
-    std::vector<Points> changes{both.of(shuffled.replicate(2, 1))};
+    std::vector<Points> changes{both.of(twice)};
     if (seeds >= seeds_of_the_full_run)
       changes.insert(changes.end(), {shuffled, turned.of(cloud.points), smaller.of(cloud.points),
                                      Points(cloud.points.replicate(2, 1))});

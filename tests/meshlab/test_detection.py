@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pymeshlab
 import pytest
+from seeds import FULL, SEEDS
 from shapes import SHAPES, Shape, cloud, mesh
 
 symsurf = pytest.importorskip("symsurf", reason="the Python module is not installed")
@@ -88,7 +89,7 @@ def test_defaults(method, kind):
     assert mesh_set.current_mesh().label() == "shape"
 
 
-@pytest.mark.parametrize("kind", SHAPES)
+@pytest.mark.parametrize("kind", SHAPES if SEEDS >= FULL else ["cloud"])
 @pytest.mark.parametrize("method", symsurf.methods())
 def test_changed_parameters(method, kind):
     shape = SHAPES[kind](2)

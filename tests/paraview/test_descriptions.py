@@ -188,7 +188,8 @@ def check(element: ElementTree.Element, name: str, parameter: symsurf.Parameter)
 
 def test_setters_and_getters_are_the_description(run_host: Callable[..., Any]) -> None:
     values = {name: another(parameter) for name, _, parameter in described()}
-    seen = run_host("pvpython", "properties.py", "MirrorDetection", json.dumps(values))
+    seen = run_host("pvpython", "properties.py", json.dumps({"MirrorDetection": values}))
+    seen = seen["MirrorDetection"]
     assert seen["before"] == {name: default(parameter) for name, _, parameter in described()}
     assert seen["after"] == values
 
@@ -221,16 +222,17 @@ def proxy_of(operation: symsurf.Operation) -> str:
 OPERATIONS = [proxy_of(operation) for operation in symsurf.operations().values()]
 
 
-@pytest.mark.parametrize(
-    "name", ["MirrorDetection", "MirrorSampleSource", "PointDamage", *OPERATIONS]
-)
-def test_xml_and_vtk_agree(
-    name: str, server_manager_xml: Path, run_host: Callable[..., Any]
-) -> None:
-    properties = xml_properties(server_manager_xml / f"{name}.xml")
-    for without_getter in ("Input", "Mirror", "ImageScalars"):
-        properties.pop(without_getter, None)
-    values = {key: another_in_xml(element) for key, element in properties.items()}
-    seen = run_host("pvpython", "properties.py", name, json.dumps(values))
-    assert seen["before"] == {key: default_in_xml(e) for key, e in properties.items()}
-    assert seen["after"] == values
+def test_xml_and_vtk_agree(server_manager_xml: Path, run_host: Callable[..., Any]) -> None:
+    names = ["MirrorDetection", "MirrorSampleSource", "PointDamage", *OPERATIONS]
+    proxies = {name: xml_properties(server_manager_xml / f"{name}.xml") for name in names}
+    for properties in proxies.values():
+        for without_getter in ("Input", "Mirror", "ImageScalars"):
+            properties.pop(without_getter, None)
+    values = {
+        name: {key: another_in_xml(element) for key, element in properties.items()}
+        for name, properties in proxies.items()
+    }
+    seen = run_host("pvpython", "properties.py", json.dumps(values))
+    for name, properties in proxies.items():
+        defaults = {key: default_in_xml(element) for key, element in properties.items()}
+        assert seen[name] == {"before": defaults, "after": values[name]}, name

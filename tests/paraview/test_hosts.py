@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 from bad_input import tables
+from seeds import full_run
 
 import symsurf
 
-HOSTS = ["pvpython", "pvbatch"]
+HOSTS = ["pvpython", pytest.param("pvbatch", marks=full_run)]
 
 
 def check(answer: dict[str, Any]) -> None:

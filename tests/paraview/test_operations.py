@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from bad_input import tables
 from desktop import screen
+from seeds import full_run
 
 import symsurf
 from symsurf import _core
@@ -26,7 +27,7 @@ def camel_case(name: str) -> str:
 PROXIES = {camel_case(operation.title): operation for operation in OPERATIONS.values()}
 
 
-@pytest.mark.parametrize("host", ["pvpython", "pvbatch"])
+@pytest.mark.parametrize("host", ["pvpython", pytest.param("pvbatch", marks=full_run)])
 def test_every_operation_gives_what_the_core_gives(
     host: str, run_host: Callable[..., Any], tmp_path: Path
 ) -> None:
