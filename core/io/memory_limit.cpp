@@ -1,4 +1,4 @@
-#include "memory_limit.h"
+#include <symsurf/io.h>
 
 #ifdef _WIN32
 #include <windows.h>

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "formats.h"
-#include "memory_limit.h"
 
 namespace symsurf {
 

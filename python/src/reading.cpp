@@ -40,6 +40,7 @@ py::dict read_fields(const std::filesystem::path& path) {
 
 void bind_reading(py::module_& module) {
   module.def("read", &read_fields, py::arg("path"), "The fields of symsurf.Shape.");
+  module.def("memory_limit", &memory_limit, "The bytes of memory that the process may have.");
 }
 
 }  // namespace symsurf::python

@@ -4,9 +4,13 @@
 
 #include <symsurf/points.h>
 
+#include <cstdint>
 #include <filesystem>
 
 namespace symsurf {
+
+/// The bytes of memory that the process may have: the machine's, or less where it is limited.
+std::uintmax_t memory_limit();
 
 /// What a file holds, in its own units and order.
 struct Shape {

@@ -1,4 +1,5 @@
-"""Calling functions in a process of its own, which may die or eat memory without harm to this one."""
+"""Calling functions in processes of their own, which may die, hang or eat memory without harm to this
+one."""
 
 from __future__ import annotations
 
@@ -6,148 +7,358 @@ import atexit
 import os
 import pickle
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
+from io import BufferedReader
+from math import ceil
 from pathlib import Path
-from select import select
-from threading import Lock
+from queue import SimpleQueue
+from threading import Thread, Timer
+from time import process_time
+from types import TracebackType
 from typing import Any
+from weakref import WeakSet
+
+from .._core import memory_limit
 
 try:
     import resource
 except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
+_PATIENCE = 4  # s of waiting for one of a processor, which others use too
+
 
 class ProcessDied(Exception):
     """The process ended without an answer."""
 
 
-def call(
-    module: str,
-    function: str,
-    *arguments: Any,
-    memory: int | None = None,
-    seconds: float | None = None,
-) -> Any:
-    """What the function, of these names, gives or raises there.
+class Processes:
+    """Processes that each work on one call at a time, and stay for the next.
 
-    The process imports this package, and nothing of the caller's script. It stays for the next call,
-    and ends with this one. In a host that has no Python to run, such as one it is built into, and on
-    Windows, where memory has no limit to set, the function runs in this process.
-
-    Args:
-        memory: the most bytes that the process may have; without it those of the machine.
-        seconds: until it is ended; without it, it has any time.
-
-    Raises ProcessDied.
+    They import this package, nothing of the caller's script, and no module of the folder that they
+    are in. They end with this process, or when the context is left. In a host that has no Python to
+    run, such as one it is built into, the functions run in this process.
     """
-    global _process
-    python = _python()
-    if python is None:
-        return getattr(import_module(module), function)(*arguments)
-    with _lock:
+
+    def __init__(self) -> None:
+        self._idle: list[_Process] = []
+        self._living: set[_Process] = set()
+        self._has_ended = False
+        _groups.add(self)
+
+    def call(
+        self,
+        module: str,
+        function: str,
+        *arguments: Any,
+        memory: int | None = None,
+        seconds: float | None = None,
+    ) -> Any:
+        """What the function, of these names, returns or raises there.
+
+        Args:
+            memory: the most bytes that the process may have; without it those of the machine. Windows
+                has no such limit.
+            seconds: of a processor until it is ended; without it, it has any time.
+
+        Raises ProcessDied.
+        """
+        *_, (_, value) = self._answers(module, function, arguments, memory, seconds)
+        return value
+
+    def stream(
+        self,
+        module: str,
+        function: str,
+        *arguments: Any,
+        memory: int | None = None,
+        seconds: float | None = None,
+    ) -> Iterator[Any]:
+        """What the generator function, of these names, yields or raises there. The arguments are those
+        of ``call``; each item has the time anew. Raises ProcessDied."""
+        for is_item, value in self._answers(module, function, arguments, memory, seconds):
+            if is_item:
+                yield value
+
+    def _answers(
+        self,
+        module: str,
+        function: str,
+        arguments: tuple[Any, ...],
+        memory: int | None,
+        seconds: float | None,
+    ) -> Iterator[tuple[bool, Any]]:
+        """Items, and then what is returned, with whether each is an item."""
+        python = _python()
+        if python is None:
+            value = getattr(import_module(module), function)(*arguments)
+            if isinstance(value, Iterator):
+                yield from ((True, item) for item in value)
+                value = None
+            yield False, value
+            return
+        request = pickle.dumps((module, function, arguments, memory, seconds))
+        patience = None if seconds is None else _PATIENCE * seconds
+        process, kind, value = self._begun(python, request, patience)
+        try:
+            while kind == _ITEM:
+                yield True, value
+                kind, value = process.answer(patience)
+        except BaseException:  # such as the caller's, who has seen enough
+            self._end(process)
+            raise
+        self._idle.append(process)
+        if kind == _ERROR:
+            raise value
+        yield False, value
+
+    def _begun(
+        self, python: str, request: bytes, patience: float | None
+    ) -> tuple[_Process, int, Any]:
+        """A process that works on the request, and its first answer."""
         while True:
-            process = _process
-            if process is None or process.parent != os.getpid():
-                process = _Process(python)
-            _process = None
+            if self._has_ended:
+                raise ProcessDied
             try:
-                is_error, value = process.answer(module, function, arguments, memory, seconds)
-                break
-            except ProcessDied:
-                if not process.answers:  # else perhaps of an earlier call
+                process = self._idle.pop()
+            except IndexError:
+                process = _Process(python)
+                self._living.add(process)
+            has_answered = process.answers > 0
+            try:
+                process.ask(request)
+                return process, *process.answer(patience)
+            except BaseException as error:
+                self._end(process)
+                # It may have died of an earlier call.
+                if not isinstance(error, ProcessDied) or not has_answered:
                     raise
-        _process = process
-    if is_error:
-        raise value
-    return value
+
+    def _end(self, process: _Process) -> None:
+        process.end()
+        self._living.discard(process)
+
+    def end(self) -> None:
+        """Ends all, whatever they work on: those who wait for them raise ProcessDied."""
+        self._has_ended = True
+        for process in list(self._living):
+            process.kill()
+
+    def forget(self) -> None:
+        """Of a fork, whose parent has the processes."""
+        for process in list(self._living):
+            process.forget()
+        self._idle.clear()
+        self._living.clear()
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.end()
 
 
 class _Process:
     def __init__(self, python: str) -> None:
         import subprocess  # `import symsurf` does not wait for it
 
-        self.parent, self.answers = os.getpid(), 0
-        answers, to_parent = os.pipe()
-        paths = [str(Path(__file__).parents[2]), *filter(None, sys.path)]
-        self._child = subprocess.Popen(
-            [python, "-c", f"from {__name__} import serve; serve({to_parent})"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            pass_fds=[to_parent],
-            env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
+        # Isolated, so that no module comes from the current folder, which may be one of data; the
+        # terminal's interrupt is for who waits.
+        start = (
+            "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
+            f"sys.path[:] = {_import_paths()!a}; from {__name__} import serve; serve()"
         )
-        os.close(to_parent)
-        self._answers = os.fdopen(answers, "rb")
+        utf8 = ["-X", "utf8"] if sys.flags.utf8_mode else []
+        self.answers = 0
+        self._child = subprocess.Popen(
+            [python, "-I", *utf8, "-c", start],
+            bufsize=0,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+        self._answers = BufferedReader(self._child.stdout)  # type: ignore[type-var]
 
-    def answer(self, *request: Any) -> tuple[bool, Any]:
+    def ask(self, request: bytes) -> None:
         assert self._child.stdin is not None
-        *asked, seconds = request
         try:
-            self._child.stdin.write(pickle.dumps(asked))
-            self._child.stdin.flush()
-            if not select([self._answers], [], [], seconds)[0]:
-                raise EOFError
-            value = pickle.load(self._answers)
-        except (EOFError, pickle.UnpicklingError, BrokenPipeError) as error:
-            self.end()
+            left = memoryview(request)
+            while left:
+                left = left[self._child.stdin.write(left) :]
+        except OSError as error:  # it ended while it was idle
             raise ProcessDied from error
+
+    def answer(self, patience: float | None) -> tuple[int, Any]:
+        """Its kind, and what it is."""
+        watch = None if patience is None else Timer(patience, self._child.kill)
+        if watch is not None:
+            watch.daemon = True
+            watch.start()
+        try:
+            kind, value = pickle.load(self._answers)
+        except (EOFError, pickle.UnpicklingError, OSError, ValueError) as error:
+            raise ProcessDied from error
+        finally:
+            if watch is not None:
+                watch.cancel()
         self.answers += 1
-        return value
+        return kind, value
+
+    def kill(self) -> None:
+        self._child.kill()
+        self._child.wait()
 
     def end(self) -> None:
-        self._answers.close()
-        self._child.kill()
-        self._child.communicate()
+        self.kill()
+        self.forget()
+
+    def forget(self) -> None:
+        """Closes what leads to it, without the locks that a thread may have held before a fork."""
+        for pipe in (self._child.stdin, self._child.stdout):
+            assert pipe is not None
+            pipe.close()
+        self._child.returncode = self._child.returncode or 0
 
 
-_process: _Process | None = None
-_lock = Lock()
+@contextmanager
+def one_more_file(is_limited: bool = True) -> Iterator[None]:
+    """Code within can open a single file at a time, so that what is in it leads to no other. Windows
+    has no such limit."""
+    if resource is None or not is_limited:
+        yield
+        return
+    free = os.open(os.devnull, os.O_RDONLY)
+    os.close(free)
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (min(free + 1, before[0]), before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+
+
+_groups: WeakSet[Processes] = WeakSet()
+COMMON = Processes()
+call, stream = COMMON.call, COMMON.stream
 
 
 @atexit.register
-def _end() -> None:
-    if _process is not None and _process.parent == os.getpid():
-        _process.end()
+def _end_all() -> None:
+    for group in list(_groups):
+        group.end()
+
+
+def _forget_all() -> None:
+    for group in list(_groups):
+        group.forget()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget_all)
 
 
 def _python() -> str | None:
-    if resource is None:
-        return None
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    for path in (Path(sys.executable or "/"), Path(sys.exec_prefix, "bin", version)):
+    for path in (
+        Path(sys.executable or "/"),
+        Path(sys.exec_prefix, "bin", version),
+        Path(sys.exec_prefix, "python.exe"),
+    ):
         if path.name.startswith("python") and path.is_file():
             return str(path)
     return None
 
 
-def _limit_memory(limit: int, hard: int) -> None:
+def _import_paths() -> list[str]:
+    """Where this process imports from, without the current folder."""
+    here = os.path.realpath(os.curdir)
+    own = str(Path(__file__).parents[2])
+    paths = [path for path in sys.path if os.path.isabs(path) and os.path.realpath(path) != here]
+    return paths if own in paths else [own, *paths]
+
+
+_ITEM, _VALUE, _ERROR = range(3)
+
+
+def serve() -> None:
+    """The other end of ``call`` and ``stream``: answers until its parent is gone."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what libraries print is no answer
+    requests: SimpleQueue[Any] = SimpleQueue()
+    Thread(target=_receive, args=(requests,), daemon=True).start()
+    limits = _Limits()
+    while True:
+        module, function, arguments, memory, seconds = requests.get()
+        try:
+            limits.set(memory, seconds)
+            value = getattr(import_module(module), function)(*arguments)
+            if isinstance(value, Iterator):
+                for item in value:
+                    _send(answers, _ITEM, item)
+                    limits.set(memory, seconds)
+                value = None
+            _send(answers, _VALUE, value)
+        except Exception as error:  # noqa: BLE001 - it is the caller's to judge
+            _send(answers, _ERROR, _sendable(error))
+        except BaseException as error:  # noqa: BLE001 - and so are panics of libraries in Rust
+            _send(answers, _ERROR, RuntimeError(str(error)))
+
+
+def _receive(requests: SimpleQueue[Any]) -> None:
+    while True:
+        try:
+            requests.put(pickle.load(sys.stdin.buffer))
+        except BaseException:  # noqa: BLE001 - such as the end: nobody waits for what is worked on
+            os._exit(0)
+
+
+def _send(answers: Any, kind: int, value: Any) -> None:
     try:
-        resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-    except ValueError:
-        if sys.platform != "darwin":  # which refuses most limits, and keeps none
-            raise
+        pickle.dump((kind, value), answers, pickle.HIGHEST_PROTOCOL)
+        answers.flush()
+    except BrokenPipeError:
+        os._exit(1)
 
 
-def serve(descriptor: int) -> None:
-    """The other end of ``call``: answers until its parent is gone."""
-    inherited, hard = resource.getrlimit(resource.RLIMIT_AS)
-    machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    most = machine if inherited == resource.RLIM_INFINITY else min(machine, inherited)
-    with open(descriptor, "wb") as answers:
-        while True:
-            try:
-                module, function, arguments, memory = pickle.load(sys.stdin.buffer)
-            except EOFError:
-                return
-            limit = most if memory is None else min(most, memory)
-            _limit_memory(limit, hard)
-            try:
-                value = (False, getattr(import_module(module), function)(*arguments))
-            except Exception as error:  # noqa: BLE001 - it is the caller's to judge
-                value = (True, error)
-            except BaseException as error:  # noqa: BLE001 - and so are panics of libraries in Rust
-                value = (True, RuntimeError(str(error)))
-            answers.write(pickle.dumps(value))
-            answers.flush()
+def _sendable(error: Exception) -> Exception:
+    """What another process can make again."""
+    try:
+        return pickle.loads(pickle.dumps(error))
+    except Exception:  # noqa: BLE001 - such as of exceptions with arguments of their own
+        return RuntimeError(f"{type(error).__name__}: {error}")
+
+
+class _Limits:
+    """Of this process: what it may take for a call, within those that it was started with."""
+
+    def __init__(self) -> None:
+        self._machine = memory_limit()
+        if resource is not None:
+            resource.setrlimit(
+                resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1])
+            )
+            self._memory = resource.getrlimit(resource.RLIMIT_AS)
+            self._seconds = resource.getrlimit(resource.RLIMIT_CPU)
+
+    def set(self, memory: int | None, seconds: float | None) -> None:
+        if resource is None:
+            return
+        most = self._machine if memory is None else min(self._machine, memory)
+        try:
+            resource.setrlimit(resource.RLIMIT_AS, (most, self._memory[1]))
+        except ValueError:
+            if sys.platform != "darwin":  # which refuses most limits, and keeps none
+                raise
+        given, hard = self._seconds
+        if seconds is not None:
+            end = ceil(process_time() + seconds)
+            given = end if given == resource.RLIM_INFINITY else min(end, given)
+        resource.setrlimit(resource.RLIMIT_CPU, (given, hard))

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import os
-import signal
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
     Future,
-    ProcessPoolExecutor,
+    ThreadPoolExecutor,
     as_completed,
 )
-from multiprocessing import get_context, parent_process
-from multiprocessing.connection import wait
-from threading import Thread
+from contextlib import closing
+from functools import partial
 from typing import TypeAlias
 
 from .._core import InvalidParameter
-from ..base.own_process import ProcessDied, call
+from ..base.own_process import COMMON, ProcessDied, Processes
 from .file_task import FileTask, Record, failed, perform
 
 Ended: TypeAlias = tuple[int, Record]
@@ -66,14 +63,14 @@ def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Ende
                 del left[index]
                 yield index, record
     except BrokenExecutor:
-        yield from ((index, _by_itself(task)) for index, task in left.items())
+        yield from ((index, _by_itself(COMMON, task)) for index, task in left.items())
 
 
 def _submitted(
     tasks: Mapping[int, FileTask],
     executor: Executor,
     work: Callable[[FileTask], Record] = perform,
-) -> Iterator[tuple[int, Record, bool]]:
+) -> Generator[tuple[int, Record, bool]]:
     """Index, record, and whether the executor did not finish it, whatever it says of a worker that
     died. Raises BrokenExecutor, of an executor that can do no more, and what is wrong with all
     files."""
@@ -117,38 +114,19 @@ def _record_of(task: FileTask, future: Future[Record]) -> tuple[Record, bool]:
 
 
 def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Ended]:
-    """A process that dies takes its pool with it: the first file that is left is then done again by a
-    process of its own, and is at fault if that dies too; the rest go to a new pool."""
-    left = dict(enumerate(tasks))
-    while left:
-        try:
-            # Spawned: a fork would copy the locks of the core's threads, not the threads.
-            workers = min(jobs, len(left)), get_context("spawn"), _begin_worker
-            with ProcessPoolExecutor(*workers) as pool:
-                for index, record, _ in _submitted(left, pool):
-                    del left[index]
-                    yield index, record
-        except BrokenExecutor:
-            index = min(left)
-            yield index, _by_itself(left.pop(index))
+    """Each file by one of so many processes, whose death is an error of that file."""
+    with (
+        ThreadPoolExecutor(jobs) as threads,
+        Processes() as processes,
+        closing(
+            _submitted(dict(enumerate(tasks)), threads, partial(_by_itself, processes))
+        ) as found,
+    ):
+        yield from ((index, record) for index, record, _ in found)
 
 
-def _by_itself(task: FileTask) -> Record:
+def _by_itself(processes: Processes, task: FileTask) -> Record:
     try:
-        return call(perform.__module__, perform.__name__, task)
+        return processes.call(perform.__module__, perform.__name__, task)
     except ProcessDied:
         return failed(task, "the process that worked on it died, perhaps for want of memory")
-
-
-def _begin_worker() -> None:
-    """Without a traceback when the terminal interrupts all processes."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    """One that is killed tells nobody, and the pool's workers would wait for work for ever."""
-    parent = parent_process()
-    if parent is not None:
-        wait([parent.sentinel])
-        os._exit(1)
