@@ -338,7 +338,7 @@ _DOUBLED = "".join(
     for i in range(1, 40)
 )
 REFUSED_THREE_MF = {
-    simple(mesh() + _DOUBLED, '<item objectid="40"/>'): "more than 100000 objects",
+    simple(mesh() + _DOUBLED, '<item objectid="40"/>'): "more than 100000 parts",
     simple(mesh(), attributes=' requiredextensions="s" xmlns:s="http://a.b/slice"'): "a.b/slice",
     simple(_PART.format("").replace('"1"', '"2"'), '<item objectid="2"/>'): "part of itself",
     simple(mesh(), '<item objectid="7"/>'): "no object 7",

@@ -261,7 +261,7 @@ def test_files_that_cannot_be_read_in_chunks(tmp_path, points):
         "text.ply": "the format is ascii",
         "cut.ply": "truncated",
         "a.obj": "can be read whole",
-        "a.pvtp": "VTK cannot read",
+        "a.pvtp": "broken PVTP",
         "gone.las": "gone.las",
     }.items():
         with pytest.raises(InvalidInput, match=text) as error:

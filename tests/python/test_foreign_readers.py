@@ -42,8 +42,8 @@ def test_a_packed_scan_that_promises_more_than_it_holds(count, at, tmp_path):
 
 
 def test_what_may_die_has_a_process_of_its_own():
-    assert {suffix for suffix, each in FORMATS.items() if each.may_die} == {
-        ".vtp", ".vtu", ".vti", ".vtk", ".laz",
+    assert {suffix for suffix, each in FORMATS.items() if each.has_own_process} == {
+        ".vtp", ".vtu", ".vti", ".vtk", ".laz", ".nrrd", ".nii", ".3mf",
     }  # fmt: skip
 
 

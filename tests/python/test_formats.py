@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import gzip
 import json
-import os
 import subprocess
 import sys
 
@@ -321,18 +320,3 @@ def test_nrrd_in_each_encoding(encoding, name, tmp_path):
         head, _, packed = content.partition(b"\n\n")
         (tmp_path / "lines.nrrd").write_bytes(head + b"\nline skip: 2\n\na\nb\n" + packed)
         np.testing.assert_array_equal(symsurf.read(tmp_path / "lines.nrrd").points, points)
-
-
-@pytest.mark.parametrize("encoding", ["gzip", "bzip2"])
-@pytest.mark.parametrize("name", ["mask.nrrd", "mask.nhdr"])
-def test_an_nrrd_that_unpacks_to_more_than_half_of_the_memory(
-    encoding, name, tmp_path, monkeypatch
-):
-    voxels = np.zeros((40, 40, 40), np.uint8)
-    voxels[5:9, 6, 7] = 1
-    nrrd.write(str(tmp_path / name), voxels, {"encoding": encoding})
-    (tmp_path / name).rename(tmp_path / "mask.nrrd")
-    assert len(symsurf.read(tmp_path / "mask.nrrd").points) == 4
-    monkeypatch.setattr(os, "sysconf", lambda name: 256)  # pages of 256 bytes, as many
-    with pytest.raises(symsurf.InvalidInput, match="mask.nrrd: it holds more than 32768 bytes"):
-        symsurf.read(tmp_path / "mask.nrrd")

@@ -73,8 +73,8 @@ def test_cells_are_their_centres():
 def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
     """They are made of their indices: those of all voxels would take 24 bytes each."""
     pyvista = pytest.importorskip("pyvista")
+    from symsurf.base.options import Reading
     from symsurf.shapes.grids import chosen_points
-    from symsurf.shapes.thresholds import Choice
 
     rng = np.random.default_rng(4)
     shape = (5, 1, 7) if "flat" in kind else (5, 6, 7)
@@ -92,15 +92,15 @@ def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
     data["value"] = rng.normal(size=count)
     expected = grid.cell_centers().points if of_cells else grid.points
     chosen = np.asarray(data["value"]) > 0.2
-    points = chosen_points(grid, Choice(0.2, scalars="value"))
+    points = chosen_points(grid, Reading(0.2, scalars="value"))
     assert points.flags.c_contiguous and points.dtype == float
     np.testing.assert_allclose(points, expected[chosen], rtol=1e-12, atol=1e-12)
 
 
 def test_few_points_of_a_large_image_take_little_memory():
     pyvista = pytest.importorskip("pyvista")
+    from symsurf.base.options import Reading
     from symsurf.shapes.grids import chosen_points
-    from symsurf.shapes.thresholds import Choice
 
     image = pyvista.ImageData(dimensions=(200, 200, 200))
     values = np.zeros(image.n_points, np.uint8)
@@ -108,7 +108,7 @@ def test_few_points_of_a_large_image_take_little_memory():
     image["value"] = values
     tracemalloc.start()
     try:
-        assert len(chosen_points(image, Choice(scalars="value"))) == 3
+        assert len(chosen_points(image, Reading(scalars="value"))) == 3
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

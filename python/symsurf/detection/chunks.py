@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, PointSummary, SurfaceMatcher
+from ..base.options import Reading
 from ..results import Result
 from . import Progress, detect
 from .sources import source_of
@@ -23,6 +24,7 @@ def detect_chunks(
     *,
     cells: int = CELLS,
     communicator: Any = None,
+    external_files: bool = False,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -43,7 +45,7 @@ def detect_chunks(
         cells: the most cells that points are thinned to, in [64, 2^28]; 120 bytes each.
         communicator: of mpi4py, or anything else with ``allgather``: each process passes its own
             chunks, and gets the result of all.
-        seed, threads, progress: as for ``detect``.
+        external_files, seed, threads, progress: as for ``detect``.
         **parameters: the method's own, as for ``detect``.
 
     Returns:
@@ -63,7 +65,13 @@ def detect_chunks(
     def finding(fraction: float) -> bool | None:
         return None if progress is None else progress(_READING + (1 - _READING) * fraction)
 
-    summary = summarize(chunks, cells=cells, communicator=communicator, progress=reading)
+    summary = summarize(
+        chunks,
+        cells=cells,
+        communicator=communicator,
+        external_files=external_files,
+        progress=reading,
+    )
     return detect(summary, method, seed=seed, threads=threads, progress=finding, **parameters)
 
 
@@ -77,7 +85,12 @@ class ChunkMatches(NamedTuple):
 
 
 def match_chunks(
-    chunks: Any, result: Result, pair_distance: float = 0.05, *, threads: int = 0
+    chunks: Any,
+    result: Result,
+    pair_distance: float = 0.05,
+    *,
+    external_files: bool = False,
+    threads: int = 0,
 ) -> Iterator[ChunkMatches]:
     """How the mirror of ``detect_chunks`` fits each point, in a second pass over the same points.
 
@@ -87,7 +100,7 @@ def match_chunks(
         result: of ``detect_chunks``.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal of the
             thinned points.
-        threads: as for ``detect``.
+        external_files, threads: as for ``detect``.
 
     Yields:
         The partners and the residuals of a chunk.
@@ -96,7 +109,7 @@ def match_chunks(
         InvalidInput: a result without a mirror or without its points; other points than in the first
             pass, which is known, and raised, when all have been seen.
     """
-    source = source_of(chunks)
+    source = source_of(chunks, Reading(external_files=external_files))
     if not source.restarts:
         raise InvalidInput("the chunks can be had once alone; give a function that makes them")
     if result.mirror is None or result.points is None:

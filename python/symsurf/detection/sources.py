@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
+from ..base.options import Reading
 from ..reading.in_chunks import ROWS, chunks_of
 from ..shapes.objects import points_of
 
@@ -43,14 +44,14 @@ class Source:
             yield points
 
 
-def source_of(chunks: Any) -> Source:
+def source_of(chunks: Any, reading: Reading) -> Source:
     """Of the name of a file or several, an array, a function without arguments, or an iterable."""
     if isinstance(chunks, Source):
         return chunks
     if _is_path(chunks):
-        return _files([Path(chunks)])
+        return _files([Path(chunks)], reading)
     if isinstance(chunks, (list, tuple)) and chunks and all(map(_is_path, chunks)):
-        return _files([Path(name) for name in chunks])
+        return _files([Path(name) for name in chunks], reading)
     if isinstance(chunks, np.ndarray):
         return Source(lambda: _slices(chunks), len(chunks) if chunks.ndim else None)
     if is_dask_array(chunks):
@@ -77,8 +78,8 @@ def _slices(array: NDArray[Any]) -> Iterator[NDArray[Any]]:
     return (array[begin : begin + ROWS] for begin in range(0, len(array), ROWS))
 
 
-def _files(paths: list[Path]) -> Source:
-    files = [chunks_of(path) for path in paths]
+def _files(paths: list[Path], reading: Reading) -> Source:
+    files = [chunks_of(path, reading) for path in paths]
     for path, file in zip(paths, files):
         if file.system != files[0].system:
             raise InvalidInput(

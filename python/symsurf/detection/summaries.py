@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .._core import Cancelled, PointSummary
+from ..base.options import Reading
 from .sources import is_dask_array, source_of
 
 if TYPE_CHECKING:
@@ -21,22 +22,24 @@ def summarize(
     *,
     cells: int = CELLS,
     communicator: Any = None,
+    external_files: bool = False,
     progress: Progress | None = None,
 ) -> PointSummary:
     """Thins points of any number, of which only some are in memory at any time.
 
     Args:
-        chunks, cells, communicator: as for ``detect_chunks``.
+        chunks, cells, communicator, external_files: as for ``detect_chunks``.
         progress: called with the fraction done, where the number of points is known beforehand, else
             with 0, after each chunk; returning False cancels.
 
     Raises what ``detect_chunks`` does.
     """
+    reading = Reading(external_files=external_files)
     if communicator is None:
-        return _thinned(chunks, cells, progress)
+        return _thinned(chunks, cells, reading, progress)
     part: PointSummary | Exception
     try:
-        part = _thinned(chunks, cells, progress)
+        part = _thinned(chunks, cells, reading, progress)
     except Exception as error:  # noqa: BLE001 - the other processes would wait for ever
         part = error
     whole = PointSummary(cells)
@@ -47,14 +50,14 @@ def summarize(
     return whole
 
 
-def _thinned(chunks: Any, cells: int, progress: Progress | None) -> PointSummary:
+def _thinned(chunks: Any, cells: int, reading: Reading, progress: Progress | None) -> PointSummary:
     """The next chunk is read while one is added."""
     from concurrent.futures import ThreadPoolExecutor
 
     summary = summary_in(chunks, cells)
     if summary is not None:
         return summary
-    source, summary = source_of(chunks), PointSummary(cells)
+    source, summary = source_of(chunks, reading), PointSummary(cells)
     added: Future[None] | None = None
     with ThreadPoolExecutor(1) as worker:
         for points in source:

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import BinaryIO, cast
 
 from .._core import InvalidInput, InvalidParameter
-from ..base.own_process import ProcessDied
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
+from .errors import broken, naming
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
 from .location import located
 
@@ -23,6 +24,7 @@ def read(
     threshold: float | None = None,
     label: int | str | None = None,
     scalars: str | None = None,
+    external_files: bool = False,
 ) -> Shape:
     """Reads a mesh, a cloud, or the points of a mask.
 
@@ -40,24 +42,26 @@ def read(
         label: of a map of labels, the value of the voxels to take, in place of a threshold; of a
             segmentation of 3D Slicer (seg.nrrd) also the name of a segment.
         scalars: of VTK's images, the name of the values; without it the active ones.
+        external_files: True: files that a glTF or an NRRD names may lie anywhere; else only beside and
+            below it, links followed.
 
     Raises:
         InvalidInput: names the file and the reason: unknown suffix, an optional package that is not
             installed, not readable, larger than half of the memory, broken, truncated, no points.
         InvalidParameter: an unknown format; a threshold or a label for what is no image.
     """
-    choice = Choice(threshold, label, scalars)
+    reading = Reading(threshold, label, scalars, external_files)
     suffix = None if format is None else require_format(format)
     if hasattr(path, "read"):
         if suffix is None:
             raise InvalidParameter("format is None; an open file needs one, such as 'ply'")
         stream = cast(BinaryIO, path)
-        return _read(str(getattr(stream, "name", "the open file")), suffix, stream, choice)
+        return _read(str(getattr(stream, "name", "the open file")), suffix, stream, reading)
     if not isinstance(path, (str, bytes, os.PathLike)) or "\0" in os.fsdecode(path):
         raise InvalidInput(f"path is {path!r}; allowed is the name of a file")
     name = os.fsdecode(path)
-    _require_file(name)
-    return _read(name, suffix or suffix_of(Path(name)), None, choice)
+    _require_no_folder(name)
+    return _read(name, suffix or suffix_of(Path(name)), None, reading)
 
 
 def require_format(name: object) -> str:
@@ -87,7 +91,7 @@ def _is_readable(file: Path) -> bool:
     return format_of(suffix_of(file)) is not None and file.is_file()
 
 
-def _require_file(name: str) -> None:
+def _require_no_folder(name: str) -> None:
     if os.path.isdir(name):
         count = len(_readable_in(Path(name)))
         raise InvalidInput(
@@ -95,44 +99,25 @@ def _require_file(name: str) -> None:
         )
 
 
-def _read(name: str, suffix: str, stream: BinaryIO | None, choice: Choice) -> Shape:
+def _read(name: str, suffix: str, stream: BinaryIO | None, reading: Reading) -> Shape:
     described = format_of(suffix)
     if described is None:
         raise InvalidInput(f"{name}: suffix '{suffix}' is none of {known_suffixes()}")
-    for option, value in choice.given().items():
+    for option, value in reading.of_image().items():
         if not described.is_image:
             raise InvalidParameter(
                 f"{option} is {value!r}; allowed is None, as {name} is {described.name}, no image"
             )
-    try:
-        reader = described.load()
-    except ImportError as error:
-        raise InvalidInput(f"{name}: {error}") from error
-    try:
-        with located(name, suffix, stream) as file:
-            try:
-                shape = reader(file.absolute(), choice)
-            except InvalidInput as error:  # the core names the file
-                raise InvalidInput(str(error).removeprefix(f"{file.absolute()}: ")) from error
-            except ProcessDied as error:
-                raise InvalidInput(
-                    f"broken {described.name} (its reader died, or took too much memory or time)"
-                ) from error
-        _require_sound(shape)
-    except InvalidInput as error:
-        raise InvalidInput(f"{name}: {error}") from error
-    except InvalidParameter:
-        raise
-    except OSError as error:
-        reason = error.strerror or f"broken {described.name} ({_one_line(error)})"
-        raise InvalidInput(f"{name}: {reason}") from error
-    except Exception as error:  # what a package says of a broken file may be anything
-        raise InvalidInput(f"{name}: broken {described.name} ({_one_line(error)})") from error
+    with naming(name):
+        try:
+            reader = described.load()
+        except ImportError as error:
+            raise InvalidInput(str(error)) from error
+        with broken(described.name):
+            with located(name, suffix, stream) as file:
+                shape = reader(file.absolute(), reading)
+            _require_sound(shape)
     return shape
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join((str(error) or type(error).__name__).split())
 
 
 def _require_sound(shape: Shape) -> None:

@@ -2,36 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
-from ..base.own_process import call
-from ..shapes import Choice, Shape
+from ..base import own_process
+from ..base.options import Reading
+from ..shapes import Shape
+from .errors import broken
 
 PACKED = ".gz"
 
-Reader = Callable[[Path, Choice], Shape]
-
+Reader = Callable[[Path, Reading], Shape]
 
 # What a reader's own process may take: a packed mask unpacks to a thousand times its bytes, by zlib.
 _MEMORY, _MEMORY_A_BYTE = 2 << 30, 1000
-_SECONDS, _SECONDS_A_BYTE = 60, 1e-5
+_SECONDS, _SECONDS_A_BYTE = 15, 1e-5
 
 
-def _elsewhere(module: str, path: Path, choice: Choice) -> Shape:
+def limits_of(path: Path) -> dict[str, Any]:
+    """For the process of a reader of others: the memory and the time that the file may take."""
     size = path.stat().st_size
-    return call(
-        module,
-        "read",
-        path,
-        choice,
-        memory=_MEMORY + _MEMORY_A_BYTE * size,
-        seconds=_SECONDS + _SECONDS_A_BYTE * size,
-    )
+    return {
+        "memory": _MEMORY + _MEMORY_A_BYTE * size,
+        "seconds": _SECONDS + _SECONDS_A_BYTE * size,
+    }
+
+
+def read_by(module: str, what: str, path: Path, reading: Reading) -> Shape:
+    """What a reader's module reads. Raises InvalidInput, InvalidParameter."""
+    with broken(what):
+        return import_module(module).read(path, reading)
+
+
+def require_packages(what: str, packages: Iterable[str], extra: str) -> None:
+    """Raises ImportError, naming what brings a package that is missing."""
+    for package in packages:
+        if find_spec(package) is None:
+            raise ImportError(
+                f"{what} needs the package {package}, which is not installed: pip install {extra}"
+            )
 
 
 @dataclass(frozen=True)
@@ -47,8 +61,13 @@ class Format:
     """Of symsurf, which brings them."""
     is_image: bool = False
     """Whether it may hold a mask or an image, of which a threshold or a label chooses the points."""
-    may_die: bool = False
-    """Whether a damaged file may end the process of its reader, which then has one of its own."""
+    unpacks: bool = False
+    """Whether few bytes may stand for very many."""
+
+    @property
+    def has_own_process(self) -> bool:
+        """Of its reader: a damaged file may end those of others, or take any memory and time."""
+        return self.unpacks or bool(self.packages)
 
     @property
     def name(self) -> str:
@@ -56,14 +75,15 @@ class Format:
 
     def load(self) -> Reader:
         """The function that reads it. Raises ImportError, naming the extra, without a package."""
-        for package in self.packages:
-            if find_spec(package) is None:
-                raise ImportError(
-                    f"{self.name} needs the package {package}, which is not installed: "
-                    f"pip install 'symsurf[{self.extra}]'"
-                )
-        module = f"{__package__}.{self.reader}"
-        return partial(_elsewhere, module) if self.may_die else import_module(module).read
+        require_packages(self.name, self.packages, f"'symsurf[{self.extra}]'")
+        read = partial(read_by, f"{__package__}.{self.reader}", self.name)
+        return partial(_in_own_process, read) if self.has_own_process else read
+
+
+def _in_own_process(read: partial[Shape], path: Path, reading: Reading) -> Shape:
+    return own_process.call(
+        __name__, read_by.__name__, *read.args, path, reading, **limits_of(path)
+    )
 
 
 _CORE = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt", ".fcsv")
@@ -74,14 +94,14 @@ FORMATS: dict[str, Format] = {
         *(Format(suffix, "own") for suffix in _CORE),
         Format(".glb", "gltf"),
         Format(".gltf", "gltf"),
-        Format(".3mf", "threemf"),
+        Format(".3mf", "threemf", unpacks=True),
         Format(".las", "las"),
         Format(".pcd", "pcd"),
-        Format(".vtp", "vtk_data", ("pyvista",), "formats", may_die=True),
-        Format(".vtu", "vtk_data", ("pyvista",), "formats", may_die=True),
-        Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True, may_die=True),
-        Format(".vti", "vtk_data", ("pyvista",), "formats", is_image=True, may_die=True),
-        Format(".laz", "laz", ("laspy", "lazrs"), "formats", may_die=True),
+        Format(".vtp", "vtk_data", ("pyvista",), "formats"),
+        Format(".vtu", "vtk_data", ("pyvista",), "formats"),
+        Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True),
+        Format(".vti", "vtk_data", ("pyvista",), "formats", is_image=True),
+        Format(".laz", "laz", ("laspy", "lazrs"), "formats"),
         Format(".nrrd", "nrrd_image", ("nrrd",), "formats", is_image=True),
         Format(".nii", "nifti_image", ("nibabel",), "formats", is_image=True),
     )

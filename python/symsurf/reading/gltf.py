@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import json
 import struct
+from collections import deque
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -14,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape
-from .parts import joined, strips, transformed
+from ..base.options import Reading
+from ..shapes import Shape
+from .location import content_of, referenced
+from .parts import Part, joined, strips
 
 # Extensions that change no point, and that of coordinates in small integers.
 _KNOWN = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_mesh_quantization")
@@ -24,7 +28,7 @@ _COMPONENTS = {"SCALAR": 1, "VEC3": 3}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6  # the modes that make faces
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """All meshes and clouds of the scene, each where the scene has it, as one shape.
 
     The axes are those of the file: y is up.
@@ -36,11 +40,11 @@ def read(path: Path, choice: Choice) -> Shape:
     for name in tree.get("extensionsRequired", []):
         if not name.startswith(_KNOWN):
             raise InvalidInput(f"it requires the extension {name}, which cannot be read")
-    return joined(_Scene(tree, path.parent, binary).parts())
+    return joined(_Scene(tree, path, reading, binary).parts(), path.stat().st_size)
 
 
 def _content(path: Path) -> tuple[dict[str, Any], bytes | None]:
-    content = path.read_bytes()
+    content = content_of(path)
     if not content.startswith(b"glTF"):
         return json.loads(content.decode("utf-8-sig")), None
     if len(content) < 20 or struct.unpack_from("<I", content, 4)[0] != 2:
@@ -58,21 +62,23 @@ def _content(path: Path) -> tuple[dict[str, Any], bytes | None]:
 
 
 class _Scene:
-    def __init__(self, tree: dict[str, Any], folder: Path, binary: bytes | None) -> None:
-        self._tree, self._folder, self._binary = tree, folder, binary
+    def __init__(
+        self, tree: dict[str, Any], path: Path, reading: Reading, binary: bytes | None
+    ) -> None:
+        self._tree, self._path, self._reading, self._binary = tree, path, reading, binary
         self._buffers: dict[int, bytes] = {}
 
-    def parts(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.int64]]]:
+    def parts(self) -> Iterator[Part]:
         nodes = self._tree.get("nodes", [])
         scenes = self._tree.get("scenes", [])
         if not scenes:
             for mesh in self._tree.get("meshes", []):
                 yield from self._mesh(mesh, np.eye(4))
             return
-        left = [(i, np.eye(4)) for i in scenes[self._tree.get("scene", 0)].get("nodes", [])]
+        left = deque((i, np.eye(4)) for i in scenes[self._tree.get("scene", 0)].get("nodes", []))
         seen: set[int] = set()
         while left:
-            number, above = left.pop(0)
+            number, above = left.popleft()
             if number in seen:
                 raise InvalidInput(f"node {number} stands in the scene twice")
             seen.add(number)
@@ -84,47 +90,65 @@ class _Scene:
                 yield from self._mesh(self._tree["meshes"][node["mesh"]], matrix)
             left += [(child, matrix) for child in node.get("children", [])]
 
-    def _mesh(
-        self, mesh: dict[str, Any], matrix: NDArray[np.float64]
-    ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.int64]]]:
-        shared: dict[int, list[NDArray[np.int64]]] = {}  # faces by the accessor of their points
+    def _mesh(self, mesh: dict[str, Any], matrix: NDArray[np.float64]) -> Iterator[Part]:
+        shared: dict[int, list[dict[str, Any]]] = {}  # primitives by the accessor of their points
         for primitive in mesh["primitives"]:
             place = primitive.get("attributes", {}).get("POSITION")
             if place is None:
                 raise InvalidInput("a primitive has no positions")
-            count = self._tree["accessors"][place]["count"]
-            shared.setdefault(place, []).append(self._faces(primitive, count))
-        for place, faces in shared.items():
-            points = self._accessor(place, "VEC3")
-            yield transformed(points.astype(np.float64), np.concatenate(faces), matrix)
+            shared.setdefault(place, []).append(primitive)
+        for place, primitives in shared.items():
+            count = len(self._stored(place, "VEC3"))
+            faces = sum(self._most_faces(primitive, count) for primitive in primitives)
+            yield Part(count, faces, partial(self._made, place, primitives), matrix)
+
+    def _made(
+        self, place: int, primitives: list[dict[str, Any]]
+    ) -> tuple[NDArray[Any], NDArray[np.int64]]:
+        points = self._accessor(place, "VEC3")
+        return points, np.concatenate([self._faces(each, len(points)) for each in primitives])
+
+    def _most_faces(self, primitive: dict[str, Any], count: int) -> int:
+        mode = primitive.get("mode", _TRIANGLES)
+        if mode not in (_TRIANGLES, _STRIP, _FAN):  # points and lines
+            return 0
+        if "indices" in primitive:
+            count = len(self._stored(primitive["indices"], "SCALAR"))
+        return count // 3 if mode == _TRIANGLES else max(count - 2, 0)
 
     def _faces(self, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
         mode = primitive.get("mode", _TRIANGLES)
-        if mode not in (_TRIANGLES, _STRIP, _FAN):  # points and lines
+        if self._most_faces(primitive, count) == 0:
             return np.empty((0, 3), np.int64)
         corners = (
             self._accessor(primitive["indices"], "SCALAR").astype(np.int64)
             if "indices" in primitive
             else np.arange(count)
         )
-        if len(corners) and corners.max() >= count:
+        if corners.max() >= count:
             raise InvalidInput(f"a face names point {corners.max()}; there are {count} points")
         if mode == _STRIP:
             return strips(corners)
         if mode == _FAN:
-            first = np.full(max(len(corners) - 2, 0), corners[:1].sum())
+            first = np.full(len(corners) - 2, corners[0])
             return np.column_stack([first, corners[1:-1], corners[2:]])
         return corners[: len(corners) // 3 * 3].reshape(-1, 3)
 
-    def _accessor(self, number: int, kind: str) -> NDArray[Any]:
+    def _stored(self, number: int, kind: str) -> NDArray[Any]:
+        """The values (n, k) of an accessor as they lie in their buffer."""
         accessor = self._tree["accessors"][number]
         if accessor["type"] != kind:
             raise InvalidInput(f"an accessor has the type {accessor['type']}; allowed is {kind}")
-        type_ = np.dtype(_TYPES[accessor["componentType"]])
-        shape = (accessor["count"], _COMPONENTS[kind])
         if "bufferView" not in accessor:
             raise InvalidInput("an accessor has no data")
-        values = self._view(accessor["bufferView"], accessor.get("byteOffset", 0), type_, shape)
+        shape = (accessor["count"], _COMPONENTS[kind])
+        type_ = np.dtype(_TYPES[accessor["componentType"]])
+        return self._view(accessor["bufferView"], accessor.get("byteOffset", 0), type_, shape)
+
+    def _accessor(self, number: int, kind: str) -> NDArray[Any]:
+        accessor = self._tree["accessors"][number]
+        values = self._stored(number, kind)
+        type_ = values.dtype
         if (sparse := accessor.get("sparse")) is not None:
             values = np.array(values)
             at, new = sparse["indices"], sparse["values"]
@@ -135,7 +159,10 @@ class _Scene:
                 (sparse["count"], 1),
             )
             values[rows[:, 0].astype(np.int64)] = self._view(
-                new["bufferView"], new.get("byteOffset", 0), type_, (sparse["count"], shape[1])
+                new["bufferView"],
+                new.get("byteOffset", 0),
+                type_,
+                (sparse["count"], values.shape[1]),
             )
         if accessor.get("normalized") and type_.kind != "f":
             values = np.maximum(values / np.iinfo(type_).max, -1)
@@ -170,12 +197,7 @@ class _Scene:
             elif ":" in uri:
                 raise InvalidInput(f"buffer {number} is at {uri!r:.60}, which is no file beside it")
             else:
-                file = self._folder / unquote(uri)
-                if not file.is_file():
-                    raise InvalidInput(
-                        f"it needs the file {unquote(uri)} beside it, which is not there"
-                    )
-                content = file.read_bytes()
+                content = content_of(referenced(unquote(uri), self._path, self._reading))
             if len(content) < buffer["byteLength"]:
                 raise InvalidInput(
                     f"the file is truncated: buffer {number} has {len(content)} bytes of "

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter
-from ..shapes import Choice, Shape, objects
+from ..base.options import Reading
+from ..shapes import Shape, objects
 from . import read
 
 
@@ -58,7 +59,7 @@ def as_input(
 
         if faces is not None:
             raise InvalidInput("faces are given with a grid, which has none; leave them out")
-        return Input(grids.chosen_points(grid, Choice(threshold, scalars=scalars)), None)
+        return Input(grids.chosen_points(grid, Reading(threshold, scalars=scalars)), None)
     for name, value in (("threshold", threshold), ("scalars", scalars)):
         if value is not None:
             raise InvalidParameter(

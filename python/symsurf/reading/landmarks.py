@@ -8,6 +8,7 @@ from pathlib import Path
 
 from .._core import InvalidInput
 from ..shapes import Landmarks
+from .errors import broken, naming
 from .formats import PACKED, suffix_of
 from .landmark_formats import markups, pts, table, tps
 from .location import located
@@ -56,17 +57,11 @@ def read_landmark_sets(path: str | os.PathLike[str]) -> list[Landmarks]:
     reader = LANDMARK_FORMATS.get(suffix.removesuffix(PACKED))
     if reader is None:
         raise InvalidInput(f"{name}: suffix '{suffix}' is {_KNOWN}")
-    try:
+    with naming(name), broken(suffix.removesuffix(PACKED)[1:].upper()):
         with located(name, suffix, None) as file:
             sets = reader(file)
         if not sets or not all(len(each.points) for each in sets):
             raise InvalidInput("there are no landmarks")
-    except InvalidInput as error:
-        raise InvalidInput(f"{name}: {error}") from error
-    except OSError as error:
-        raise InvalidInput(f"{name}: {error.strerror or error}") from error
-    except ValueError as error:  # what is no UTF-8, or no JSON
-        raise InvalidInput(f"{name}: broken ({error})") from error
     return sets
 
 

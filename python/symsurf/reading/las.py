@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
 
 _HEADER = 227  # bytes of the shortest one
 _COUNT = 247  # where version 1.4 has the number of points, behind that of extended records
@@ -19,7 +20,7 @@ _SYSTEMS = (2112, 34735, 34736, 34737)  # WKT, and GeoTIFF's keys, numbers and t
 _RECORD = 54  # bytes of the header of a variable length record
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """All points, with the file's scale and offset applied."""
     content = np.memmap(path, np.uint8, "r")
     start, length, count, is_packed = layout(path)

@@ -7,14 +7,15 @@ from pathlib import Path
 import laspy
 import numpy as np
 
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
 from . import las
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """All points, with the file's scale and offset applied."""
     *_, is_packed = las.layout(path)
     if not is_packed:
-        return las.read(path, choice)
+        return las.read(path, reading)
     scan = laspy.read(path)
     return Shape(np.array(scan.xyz, dtype=np.float64))

@@ -1,16 +1,16 @@
-"""A file with the suffix of its format, which the readers tell it by."""
+"""Files: where they lie, which may be opened, and how much of them fits into memory."""
 
 from __future__ import annotations
 
 import gzip
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
-from io import BufferedIOBase
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO, BinaryIO, cast
 
-from .._core import InvalidInput
+from .._core import InvalidInput, memory_limit
+from ..base.options import Reading
 from .formats import PACKED
 
 _BLOCK = 1 << 20  # bytes that are unpacked at once
@@ -23,7 +23,7 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
     Raises InvalidInput for what is no file, is empty, or is larger than half of the memory.
     """
     if stream is None:
-        _require_file(name)
+        require_file(name)
     plain = suffix.removesuffix(PACKED)
     if stream is None and suffix == plain == Path(name).suffix.lower():
         _require_own(Path(name))
@@ -33,15 +33,31 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
 
     with TemporaryDirectory(prefix="symsurf-") as folder:
         file = Path(folder) / f"input{plain}"
-        if suffix != plain:
-            with gzip.open(stream or name) as content:
-                copy_bounded(content, file)
-        elif stream is None:
+        if stream is None and suffix == plain:
             file.symlink_to(os.path.abspath(name))
         else:
-            copy_bounded(stream, file)
+            packed = stream or name
+            with (
+                file.open("wb") as copy,
+                nullcontext(stream) if suffix == plain else gzip.open(packed) as content,
+            ):
+                copy_bounded(cast(BinaryIO, content), copy)
         _require_own(file)
         yield file
+
+
+def referenced(name: str, path: Path, reading: Reading) -> Path:
+    """The file that another names. Raises InvalidInput unless it is a regular one, and lies beside or
+    below the other, links followed, or may lie anywhere."""
+    file = (path.parent / name).resolve()
+    if not reading.external_files and path.parent.resolve() not in file.parents:
+        raise InvalidInput(
+            f"it names the file {name!r:.80}, which is neither beside nor below it; "
+            "external_files=True allows that"
+        )
+    if not file.is_file():
+        raise InvalidInput(f"it needs the file {name!r:.80}, which is not there, or no file")
+    return file
 
 
 # How files begin that stand where another should, in small letters.
@@ -64,7 +80,7 @@ def _require_own(file: Path) -> None:
             raise InvalidInput(f"this is {what}")
 
 
-def _require_file(name: str) -> None:
+def require_file(name: str) -> None:
     if not os.path.exists(name):
         raise InvalidInput("there is no such file")
     if not os.path.isfile(name):
@@ -73,20 +89,37 @@ def _require_file(name: str) -> None:
         raise InvalidInput("the file is empty")
 
 
-def require_memory(size: int) -> None:
-    """Raises InvalidInput where a file unpacks to more bytes than half of the memory."""
-    allowed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
+# What a file may honestly stand for: of a small one this, of others zlib's most for each byte.
+_HONEST, _HONEST_A_BYTE = 1 << 29, 1000
+
+
+def require_memory(size: int, file_size: int | None = None) -> None:
+    """Raises InvalidInput where a file takes more bytes than half of the memory, or far more than it
+    has, where that is given."""
+    allowed, why = memory_limit() // 2, "half of the memory"
+    if file_size is not None and (honest := max(_HONEST, _HONEST_A_BYTE * file_size)) < allowed:
+        allowed, why = honest, f"of a file of {file_size} bytes"
     if size > allowed:
-        raise InvalidInput(
-            f"it holds more than {allowed} bytes, half of the memory, which is the most allowed"
-        )
+        raise InvalidInput(f"it holds more than {allowed} bytes, {why}, which is the most allowed")
 
 
-def copy_bounded(content: BinaryIO | BufferedIOBase, file: Path) -> None:
+def content_of(path: Path) -> bytes:
+    """Raises InvalidInput where it is larger than half of the memory."""
+    require_memory(path.stat().st_size)
+    return path.read_bytes()
+
+
+def text_of(path: Path) -> str:
+    """The same as text."""
+    return content_of(path).decode("utf-8-sig")
+
+
+def copy_bounded(content: BinaryIO, copy: IO[bytes]) -> None:
     """As the core does, takes no more than half of the memory: few bytes may unpack to very many."""
-    with file.open("wb") as copy:
-        while block := content.read(_BLOCK):
-            copy.write(block)
-            require_memory(copy.tell())
-    if file.stat().st_size == 0:
+    size = 0
+    while block := content.read(_BLOCK):
+        size += copy.write(block)
+        require_memory(size)
+    copy.flush()
+    if size == 0:
         raise InvalidInput("the file is empty")

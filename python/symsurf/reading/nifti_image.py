@@ -14,13 +14,14 @@ import numpy as np
 from nibabel.imageglobals import ErrorLevel, logger
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
 from .voxels import world_points
 
 _SECOND = (540, int.from_bytes((540).to_bytes(4, "little"), "big"))
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """The centres of the voxels that are chosen, in NIfTI's world coordinates: RAS."""
     # A header that nibabel would repair, and print so, is an error where its voxel sizes are wrong.
     with _quiet(), ErrorLevel(35):
@@ -35,7 +36,7 @@ def read(path: Path, choice: Choice) -> Shape:
     while values.ndim > 3 and values.shape[-1] == 1:
         values = values[..., 0]
     has_world = int(image.header["sform_code"]) > 0 or int(image.header["qform_code"]) > 0
-    return world_points(values, image.affine, choice, "RAS" if has_world else None)
+    return world_points(values, image.affine, reading, "RAS" if has_world else None)
 
 
 @contextmanager

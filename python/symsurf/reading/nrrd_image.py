@@ -6,7 +6,7 @@ import bz2
 import gzip
 import re
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryFile
 from typing import Any, BinaryIO
 
 import nrrd
@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape, chosen_by
-from .location import copy_bounded
+from ..base.options import Reading
+from ..shapes import Shape, chosen_by
+from .location import copy_bounded, referenced
 from .voxels import world_points
 
 _SPACES = {
@@ -23,23 +24,24 @@ _SPACES = {
     **dict.fromkeys(("right-anterior-superior", "ras"), "RAS"),
 }
 _SEGMENT = re.compile(r"Segment(\d+)_(\w+)")
+_ELSEWHERE = ("data file", "datafile")  # what names the file with the values
 _PACKED: dict[str, Any] = {
     **dict.fromkeys(("gzip", "gz"), gzip.open),
     **dict.fromkeys(("bzip2", "bz2"), bz2.open),
 }
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """The centres of the voxels that are chosen, in the space that the header names: LPS where 3D
     Slicer wrote it. Of a segmentation in layers, those of any segment or of the one chosen."""
-    values, header = _values_and_header(path)
+    values, header = _values_and_header(path, reading)
     affine = np.eye(4)
     directions = np.array(header.get("space directions", []), dtype=float)
     if values.ndim == 4 and header.get("kinds", [""])[0] == "list":
-        values, choice = _segments(values, header, choice), Choice()
+        values, reading = _segments(values, header, reading), Reading()
         directions = directions[1:]
-    elif isinstance(choice.label, str):
-        choice = Choice(label=int(_segment(header, choice.label)["LabelValue"]))
+    elif isinstance(reading.label, str):
+        reading = Reading(label=int(_segment(header, reading.label)["LabelValue"]))
     spacings = header.get("spacings")
     if directions.shape == (3, 3):
         affine[:3, :3] = directions.T
@@ -48,17 +50,17 @@ def read(path: Path, choice: Choice) -> Shape:
     origin = header.get("space origin")
     if origin is not None and np.shape(origin) == (3,):
         affine[:3, 3] = origin
-    return world_points(values, affine, choice, _SPACES.get(header.get("space", "").lower()))
+    return world_points(values, affine, reading, _SPACES.get(header.get("space", "").lower()))
 
 
-def _segments(layers: NDArray[Any], header: dict[str, Any], choice: Choice) -> NDArray[np.bool_]:
+def _segments(layers: NDArray[Any], header: dict[str, Any], reading: Reading) -> NDArray[np.bool_]:
     """Whether each voxel (i, j, k) of layers (layer, i, j, k) is chosen."""
-    if isinstance(choice.label, str):
-        segment = _segment(header, choice.label)
+    if isinstance(reading.label, str):
+        segment = _segment(header, reading.label)
         return layers[int(segment.get("Layer", 0))] == int(segment["LabelValue"])
-    if not choice.given():
+    if not reading.of_image():
         return np.logical_or.reduce(layers != 0)
-    return np.logical_or.reduce(chosen_by(layers, choice, "image"))
+    return np.logical_or.reduce(chosen_by(layers, reading, "image"))
 
 
 def _segment(header: dict[str, Any], name: str) -> dict[str, str]:
@@ -74,27 +76,26 @@ def _segment(header: dict[str, Any], name: str) -> dict[str, str]:
     raise InvalidInput(f"no segment is called {name!r}; there are {there_are}")
 
 
-def _values_and_header(path: Path) -> tuple[NDArray[Any], dict[str, Any]]:
+def _values_and_header(path: Path, reading: Reading) -> tuple[NDArray[Any], dict[str, Any]]:
     with path.open("rb") as file:
         header = nrrd.read_header(file)
-        if header.get("encoding") not in _PACKED:
-            return nrrd.read_data(header, file, str(path)), header
-        plain = dict(header)
-        other = plain.pop("data file", plain.pop("datafile", None))
-        lines = plain.pop("line skip", plain.pop("lineskip", 0))
-        if other is None:
-            return _unpacked(file, plain, lines), header
-        with (path.parent / other).open("rb") as data:
-            return _unpacked(data, plain, lines), header
+        own = {name: value for name, value in header.items() if name not in _ELSEWHERE}
+        others = [header[name] for name in _ELSEWHERE if name in header]
+        if not others:
+            return _values(file, own), header
+        with referenced(others[0], path, reading).open("rb") as data:
+            return _values(data, own), header
 
 
-def _unpacked(file: BinaryIO, header: dict[str, Any], lines: int) -> NDArray[Any]:
-    """The values behind so many lines. pynrrd would unpack them whole, however many there are."""
-    for _ in range(lines):
+def _values(file: BinaryIO, header: dict[str, Any]) -> NDArray[Any]:
+    """Those that follow. What is packed pynrrd would unpack whole, however much that is."""
+    if header.get("encoding") not in _PACKED:
+        return nrrd.read_data(header, file)
+    header = dict(header)
+    for _ in range(header.pop("line skip", header.pop("lineskip", 0))):
         file.readline()
-    with TemporaryDirectory(prefix="symsurf-") as folder:
-        raw = Path(folder) / "values"
-        with _PACKED[header["encoding"]](file) as content:
-            copy_bounded(content, raw)
-        with raw.open("rb") as values:
-            return nrrd.read_data(header | {"encoding": "raw"}, values)
+    # Without a name, so that it is gone whatever becomes of this process.
+    with TemporaryFile(prefix="symsurf-") as raw, _PACKED[header["encoding"]](file) as content:
+        copy_bounded(content, raw)
+        raw.seek(0)
+        return nrrd.read_data(header | {"encoding": "raw"}, raw)

@@ -2,40 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .._core import InvalidInput
 from ..shapes import Shape
 from .location import require_memory
 
-_POINT = 24  # bytes
-Part = tuple[NDArray[np.float64], NDArray[np.int64]]
-"""Points (n, 3) and faces (m, 3)."""
+_ROW = 24  # bytes of a point, and of a triangle
+_MOST_PARTS = 100_000  # each may be made of two that are made of two, and so on
 
 
-def joined(parts: Iterable[Part]) -> Shape:
-    """One behind the other."""
-    points = [np.empty((0, 3))]
-    faces = [np.empty((0, 3), np.int64)]
-    count = 0
-    for own_points, own_faces in parts:
-        points.append(own_points)
-        faces.append(own_faces + count)
-        count += len(own_points)
-        require_memory(_POINT * count)
-    triangles = np.concatenate(faces)
-    return Shape(np.concatenate(points), triangles if len(triangles) else None)
+class Part(NamedTuple):
+    """A mesh where its matrix puts it, which is made when it is needed: few bytes may name it often."""
+
+    points: int
+    faces: int
+    """As many as it has, or fewer."""
+    make: Callable[[], tuple[NDArray[Any], NDArray[np.int64]]]
+    """Its points (n, 3) and faces (m, 3)."""
+    matrix: NDArray[np.float64]
+    """(4, 4)"""
 
 
-def transformed(
-    points: NDArray[np.float64], faces: NDArray[np.int64], matrix: NDArray[np.float64]
-) -> Part:
-    """The image over a matrix (4, 4); where that mirrors, the faces are turned round."""
-    image = points @ matrix[:3, :3].T + matrix[:3, 3]
-    is_mirrored = np.linalg.det(matrix[:3, :3]) < 0
-    return image, faces[:, ::-1] if is_mirrored else faces
+def joined(parts: Iterable[Part], file_size: int) -> Shape:
+    """One behind the other. Raises InvalidInput, before any is made, where they are too many, or take
+    far more memory than a file of that many bytes stands for."""
+    counted: list[Part] = []
+    points = faces = 0
+    for part in parts:
+        counted.append(part)
+        points, faces = points + part.points, faces + part.faces
+        require_memory(_ROW * (points + faces), file_size)
+        require_parts(len(counted))
+    whole, triangles = np.empty((points, 3)), np.empty((faces, 3), np.int64)
+    points = faces = 0
+    for part in counted:
+        own, corners = part.make()
+        whole[points : points + len(own)] = own @ part.matrix[:3, :3].T + part.matrix[:3, 3]
+        is_mirrored = np.linalg.det(part.matrix[:3, :3]) < 0
+        triangles[faces : faces + len(corners)] = corners[:, ::-1] if is_mirrored else corners
+        triangles[faces : faces + len(corners)] += points
+        points, faces = points + len(own), faces + len(corners)
+    return Shape(whole, triangles[:faces] if faces else None)
+
+
+def require_parts(count: int) -> None:
+    if count > _MOST_PARTS:
+        raise InvalidInput(f"it has more than {_MOST_PARTS} parts, which are the most allowed")
 
 
 def strips(corners: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -10,15 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
+from .location import content_of
 
 _NORMALS = ("normal_x", "normal_y", "normal_z")
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """x, y and z, and the normals where the file has them; organised clouds row by row, with their
     missing points as NaN."""
-    header, body = _header(path.read_bytes())
+    header, body = _header(content_of(path))
     fields = _fields(header)
     count = _count(header)
     missing = [name for name in "xyz" if name not in fields.names]
@@ -81,10 +84,18 @@ def _count(header: dict[str, list[str]]) -> int:
 
 def _text(body: bytes, fields: np.dtype[Any], count: int) -> dict[str, NDArray[Any]]:
     sizes = [fields[name].shape[0] for name in fields.names or ()]
-    words = body.split()
-    if len(words) < count * sum(sizes):
-        raise _truncated(count, count * sum(sizes), "numbers", len(words))
-    table = np.array(words[: count * sum(sizes)], "S").astype(np.float64).reshape(count, -1)
+    needed = count * sum(sizes)
+    if 2 * needed > len(body) + 1:  # with what stands between them
+        raise _truncated(count, 2 * needed - 1, "bytes or more", len(body))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)  # of what is no number
+            numbers = np.fromstring(body, np.float64, needed, sep=" ")
+    except (ValueError, DeprecationWarning) as error:
+        raise InvalidInput(
+            f"the file is truncated, or holds what is no number: {count} points take {needed}"
+        ) from error
+    table = numbers.reshape(count, -1)
     ends = np.cumsum(sizes)
     return {f"{i}": table[:, end - size : end] for i, (size, end) in enumerate(zip(sizes, ends))}
 

@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import posixpath
+from array import array
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
-from xml.etree.ElementTree import iterparse
+from xml.etree.ElementTree import XMLParser, iterparse
 from zipfile import ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
 from .location import require_memory
-from .parts import Part, joined, transformed
+from .parts import Part, joined, require_parts
 
 _MODEL = (
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"  # the type of a relationship
 )
+_BLOCK = 1 << 20  # bytes that are unpacked at once
 _PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
 # Extensions that change no point, and those that are read.
 _KNOWN = (
@@ -30,58 +33,71 @@ _KNOWN = (
 )
 
 
-_MOST_USES = 100_000  # of objects: each may be made of two that are made of two, and so on
-
-
 class _Object:
     def __init__(self) -> None:
-        self.points: list[tuple[float, float, float]] = []
-        self.faces: list[tuple[int, int, int]] = []
+        self.numbers = array("d")  # three of each point
+        self.corners = array("q")  # three of each face
         self.components: list[tuple[str, str, NDArray[np.float64]]] = []
+
+    def made(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        points = np.frombuffer(self.numbers).reshape(-1, 3)
+        faces = np.frombuffer(self.corners, np.int64).reshape(-1, 3)
+        if len(faces) and not 0 <= faces.min() <= faces.max() < len(points):
+            raise InvalidInput(f"a face names point {faces.max()}; there are {len(points)} points")
+        return points, faces
 
 
 class _Model:
-    """A file of the archive with objects by their numbers, and what is built of which."""
+    """A file of the archive with objects by their numbers, and what is built of which. It is what an
+    XMLParser calls: a tree of the elements would take ten times the memory of the text."""
 
     def __init__(self, file: IO[bytes], name: str) -> None:
         self.objects: dict[str, _Object] = {}
         self.items: list[tuple[str, str, NDArray[np.float64]]] = []
-        spaces: dict[str, str] = {}
-        current = _Object()
-        for event, what in iterparse(file, ("start-ns", "start", "end")):
-            if event == "start-ns":
-                spaces[what[0]] = what[1]
-                continue
-            tag, given = what.tag.rpartition("}")[2], what.attrib
-            if event == "end":
-                if tag in ("vertex", "triangle", "object"):
-                    what.clear()
-                continue
-            if tag == "model":
-                _require_known(given.get("requiredextensions", ""), spaces)
-            elif tag == "object":
-                current = self.objects[given["id"]] = _Object()
-            elif tag == "vertex":
-                current.points.append((float(given["x"]), float(given["y"]), float(given["z"])))
-            elif tag == "triangle":
-                current.faces.append((int(given["v1"]), int(given["v2"]), int(given["v3"])))
-            elif tag in ("component", "item"):
-                path = given.get(f"{{{_PRODUCTION}}}path", name).lstrip("/")
-                entry = (path, given["objectid"], _matrix(given.get("transform")))
-                (current.components if tag == "component" else self.items).append(entry)
+        self._name = name
+        self._entries = 0
+        self._spaces: dict[str, str] = {}
+        self._current = _Object()
+        parser = XMLParser(target=self)
+        while block := file.read(_BLOCK):
+            parser.feed(block)
+        parser.close()
+
+    def start_ns(self, prefix: str, space: str) -> None:
+        self._spaces[prefix] = space
+
+    def start(self, tag: str, given: dict[str, str]) -> None:
+        tag = tag.rpartition("}")[2]
+        if tag == "vertex":
+            self._current.numbers.extend((float(given["x"]), float(given["y"]), float(given["z"])))
+        elif tag == "triangle":
+            self._current.corners.extend((int(given["v1"]), int(given["v2"]), int(given["v3"])))
+        elif tag == "model":
+            _require_known(given.get("requiredextensions", ""), self._spaces)
+        elif tag in ("object", "component", "item"):
+            self._entries += 1
+            require_parts(self._entries)
+            self._add(tag, given)
+
+    def _add(self, tag: str, given: dict[str, str]) -> None:
+        if tag == "object":
+            self._current = self.objects[given["id"]] = _Object()
+        else:
+            path = given.get(f"{{{_PRODUCTION}}}path", self._name).lstrip("/")
+            entry = (path, given["objectid"], _matrix(given.get("transform")))
+            (self._current.components if tag == "component" else self.items).append(entry)
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """All that is built, each object where it is built, as one shape."""
     with ZipFile(path) as archive:
         require_memory(sum(each.file_size for each in archive.infolist()))
-        return joined(_built(archive))
+        return joined(_built(archive), path.stat().st_size)
 
 
 def _built(archive: ZipFile) -> Iterator[Part]:
     names = {name.lower(): name for name in archive.namelist()}
     models: dict[str, _Model] = {}
-    uses = 0
 
     def model(name: str) -> _Model:
         if name not in models:
@@ -91,26 +107,15 @@ def _built(archive: ZipFile) -> Iterator[Part]:
                 models[name] = _Model(file, name)
         return models[name]
 
-    def parts(name: str, number: str, matrix: NDArray[np.float64], above: tuple[Any, ...]) -> Any:
+    def parts(
+        name: str, number: str, matrix: NDArray[np.float64], above: tuple[Any, ...]
+    ) -> Iterator[Part]:
         if (name, number) in above:
             raise InvalidInput(f"object {number} is a part of itself")
-        nonlocal uses
-        uses += 1
-        if uses > _MOST_USES:
-            raise InvalidInput(
-                f"more than {_MOST_USES} objects are built, which are the most allowed"
-            )
         if number not in model(name).objects:
             raise InvalidInput(f"there is no object {number}")
         own = model(name).objects[number]
-        if own.points:
-            points = np.array(own.points)
-            faces = np.array(own.faces, np.int64).reshape(-1, 3)
-            if len(faces) and not 0 <= faces.min() <= faces.max() < len(points):
-                raise InvalidInput(
-                    f"a face names point {faces.max()}; there are {len(points)} points"
-                )
-            yield transformed(points, faces, matrix)
+        yield Part(len(own.numbers) // 3, len(own.corners) // 3, own.made, matrix)
         for other, part, inner in own.components:
             yield from parts(other, part, matrix @ inner, (*above, (name, number)))
 

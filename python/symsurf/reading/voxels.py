@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter
-from ..shapes import Choice, Shape, chosen_by
+from ..base.options import Reading
+from ..shapes import Shape, chosen_by
 
 
 def world_points(
     values: NDArray[Any],
     affine: NDArray[np.float64],
-    choice: Choice,
+    reading: Reading,
     space: str | None = None,
 ) -> Shape:
     """The centres of the voxels whose values are chosen.
@@ -22,12 +23,12 @@ def world_points(
     Args:
         values: (i, j, k).
         affine: (4, 4), from the indices of a voxel to the world.
-        choice: without scalars, as there is one value a voxel.
+        reading: without scalars, as there is one value a voxel.
         space: of the world.
     """
-    if choice.scalars is not None:
+    if reading.scalars is not None:
         raise InvalidParameter(
-            f"scalars is {choice.scalars!r}; allowed is None: the image has one value a voxel"
+            f"scalars is {reading.scalars!r}; allowed is None: the image has one value a voxel"
         )
     if values.ndim != 3 or values.dtype.kind not in "biuf":
         raise InvalidInput(
@@ -35,14 +36,14 @@ def world_points(
             "and real numbers"
         )
     if (
-        choice.threshold is None
-        and choice.label is None
+        reading.threshold is None
+        and reading.label is None
         and values.dtype.kind == "f"
         and values.size
     ):
         low, high = values.min(), values.max()
         if low != high and ((values == low) | (values == high)).all():
             values = values == high  # a mask that was saved as an image
-    rows = np.argwhere(chosen_by(values, choice, "image"))
+    rows = np.argwhere(chosen_by(values, reading, "image"))
     points = np.ascontiguousarray(rows @ affine[:3, :3].T + affine[:3, 3])
     return Shape(points, space=space)

@@ -19,7 +19,8 @@ from vtkmodules.vtkIOXML import (
 )
 
 from .._core import InvalidInput, InvalidParameter
-from ..shapes import Choice, Shape
+from ..base.options import Reading
+from ..shapes import Shape
 from ..shapes.grids import chosen_points, is_grid
 from ..shapes.space import space_in
 
@@ -35,7 +36,7 @@ _COMPLAINT = re.compile(
 )
 
 
-def read(path: Path, choice: Choice) -> Shape:
+def read(path: Path, reading: Reading) -> Shape:
     """Points, flat cells as triangles and point normals; of a regular grid what is chosen of it."""
     reader = _READERS[path.suffix.lower()]()
     reader.SetFileName(str(path))
@@ -49,8 +50,8 @@ def read(path: Path, choice: Choice) -> Shape:
         raise InvalidInput("VTK finds no data set in it")
     data = pyvista.wrap(output)
     if is_grid(data):
-        return Shape(chosen_points(data, choice))
-    for name, value in choice.given().items():
+        return Shape(chosen_points(data, reading))
+    for name, value in reading.of_image().items():
         raise InvalidParameter(f"{name} is {value!r}; allowed is None, as this is no image")
     return replace(Shape.from_pyvista(data), space=_space(data, reader))
 

@@ -23,6 +23,7 @@ def save_matches(
     result: Result,
     pair_distance: float = 0.05,
     *,
+    external_files: bool = False,
     threads: int = 0,
 ) -> None:
     """Writes what ``match_chunks`` gives to a file of NumPy, a row a point: "partner" and "residual".
@@ -32,7 +33,7 @@ def save_matches(
 
     Args:
         path: of the file, usually ".npy".
-        chunks, result, pair_distance, threads: as for ``match_chunks``.
+        chunks, result, pair_distance, external_files, threads: as for ``match_chunks``.
 
     Raises what ``match_chunks`` does, and OSError.
     """
@@ -42,7 +43,9 @@ def save_matches(
         description = {"descr": ROW.descr, "fortran_order": False, "shape": (result.point_count,)}
         np.lib.format.write_array_header_1_0(header, description)
         yield header.getvalue()
-        for matches in match_chunks(chunks, result, pair_distance, threads=threads):
+        for matches in match_chunks(
+            chunks, result, pair_distance, external_files=external_files, threads=threads
+        ):
             rows = np.empty(len(matches.partners), ROW)
             rows["partner"], rows["residual"] = matches
             yield rows.tobytes()

@@ -2,6 +2,6 @@
 
 from .landmarks import Landmarks
 from .shape import Shape
-from .thresholds import Choice, chosen_by
+from .thresholds import chosen_by
 
-__all__ = ["Choice", "Landmarks", "Shape", "chosen_by"]
+__all__ = ["Landmarks", "Shape", "chosen_by"]

@@ -11,7 +11,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
 from .._core import InvalidInput
-from .thresholds import Choice, chosen_by
+from ..base.options import Reading
+from .thresholds import chosen_by
 
 _FLAT_CELLS = {
     int(kind)
@@ -167,14 +168,14 @@ def is_grid(data: pyvista.DataSet) -> bool:
     return isinstance(data, pyvista.StructuredGrid) and _is_regular(data)
 
 
-def chosen_points(grid: pyvista.DataSet, choice: Choice) -> NDArray[np.float64]:
+def chosen_points(grid: pyvista.DataSet, reading: Reading) -> NDArray[np.float64]:
     """The grid's points, or centres of cells, that ``chosen_by`` says.
 
     Raises InvalidInput for a grid without scalars, and what ``chosen_by`` raises.
     """
     kind = type(grid).__name__
-    values, of_cells = _scalars(grid, choice.scalars, kind)
-    chosen = chosen_by(values, choice, kind)
+    values, of_cells = _scalars(grid, reading.scalars, kind)
+    chosen = chosen_by(values, reading, kind)
     numbers = np.flatnonzero(chosen)
     if isinstance(grid, pyvista.StructuredGrid):
         all_ = grid.cell_centers().points if of_cells else grid.points

@@ -2,32 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter
+from ..base.options import Reading
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Which values of a mask or an image choose a point."""
-
-    threshold: float | None = None
-    """Those above it."""
-    label: int | str | None = None
-    """Those that are equal to it; a text is the name of a segment."""
-    scalars: str | None = None
-    """The name of the values."""
-
-    def given(self) -> dict[str, Any]:
-        """Those that are not None, by their names."""
-        return {name: value for name, value in vars(self).items() if value is not None}
-
-
-def chosen_by(values: NDArray[Any], choice: Choice, kind: str) -> NDArray[np.bool_]:
+def chosen_by(values: NDArray[Any], reading: Reading, kind: str) -> NDArray[np.bool_]:
     """Whether each value has the label or is above the threshold; of a mask, which holds two values,
     whether it is the greater one.
 
@@ -37,9 +21,9 @@ def chosen_by(values: NDArray[Any], choice: Choice, kind: str) -> NDArray[np.boo
     Raises InvalidInput for an image without a threshold and a label, or where there is none such;
     InvalidParameter for a threshold or a label that is no number, and for both.
     """
-    threshold = choice.threshold
-    if choice.label is not None:
-        return _labelled(values, choice, kind)
+    threshold = reading.threshold
+    if reading.label is not None:
+        return _labelled(values, reading, kind)
     if threshold is None:
         chosen = _mask(values, kind)
     else:
@@ -55,9 +39,9 @@ def chosen_by(values: NDArray[Any], choice: Choice, kind: str) -> NDArray[np.boo
     return chosen
 
 
-def _labelled(values: NDArray[Any], choice: Choice, kind: str) -> NDArray[np.bool_]:
-    label = choice.label
-    if choice.threshold is not None:
+def _labelled(values: NDArray[Any], reading: Reading, kind: str) -> NDArray[np.bool_]:
+    label = reading.label
+    if reading.threshold is not None:
         raise InvalidParameter(f"label is {label!r} beside a threshold; allowed is one of them")
     if isinstance(label, str) or not _is_number(label):
         raise InvalidParameter(

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
-from ..formats import FORMATS, suffix_of
+from ...base import own_process
+from ...base.options import Reading
+from ..errors import broken, naming
+from ..formats import FORMATS, limits_of, require_packages, suffix_of
+from ..location import require_file
 
 ROWS = 1 << 20
 """Points at a time: 24 MB of coordinates."""
@@ -32,7 +34,8 @@ class FileChunks:
     """The coordinate reference system that the header names, as it stands there; none: empty."""
 
 
-# By suffix the module that has ``chunks_of(path)``, and the packages that it imports.
+# By suffix the module that has ``chunks_of(path, reading)``, and the packages that it imports, whose
+# readers have a process of their own.
 _READERS = {
     ".las": ("las_chunks", ()),
     ".laz": ("laz_chunks", ("laspy", "lazrs")),
@@ -49,8 +52,8 @@ def is_chunked(path: Path) -> bool:
     return suffix_of(path) in _READERS
 
 
-def chunks_of(path: Path) -> FileChunks:
-    """Raises InvalidInput, naming the file, for what cannot be read so."""
+def chunks_of(path: Path, reading: Reading | None = None) -> FileChunks:
+    """Raises InvalidInput, naming the file, for what cannot be read so; whoever reads the chunks, too."""
     suffix = suffix_of(path)
     if suffix not in _READERS:
         whole = " (it can be read whole, with symsurf.read)" if suffix in FORMATS else ""
@@ -58,15 +61,45 @@ def chunks_of(path: Path) -> FileChunks:
             f"{path}: suffix '{suffix}' is none of {' '.join(_READERS)}, which are read in chunks{whole}"
         )
     module, packages = _READERS[suffix]
-    for package in packages:
-        if find_spec(package) is None:
-            raise InvalidInput(
-                f"{path}: the package {package} is not installed: pip install {package}"
-            )
-    try:
-        return import_module(f"{__name__}.{module}").chunks_of(path)
-    except (InvalidInput, OSError, ValueError, LookupError, struct.error) as error:
-        raise InvalidInput(f"{path}: {error}") from error
+    given = module, path.absolute(), reading or Reading()
+
+    def start() -> Iterator[NDArray[np.float64]]:
+        with naming(path), broken(suffix[1:].upper()):
+            if packages:
+                limits = limits_of(path)
+                yield from own_process.stream(__name__, rows.__name__, *given, **limits)
+            else:
+                yield from rows(*given)
+
+    with naming(path), broken(suffix[1:].upper()):
+        require_file(str(path))
+        try:
+            require_packages(suffix[1:].upper(), packages, " ".join(packages))
+        except ImportError as error:
+            raise InvalidInput(str(error)) from error
+        count, system = (
+            own_process.call(__name__, head.__name__, *given, **limits_of(path))
+            if packages
+            else head(*given)
+        )
+    return FileChunks(count, start, system)
+
+
+def head(module: str, path: Path, reading: Reading) -> tuple[int | None, bytes]:
+    """How many points a file has, and in which system, by the module of its format."""
+    found = _chunks(module, path, reading)
+    return found.count, found.system
+
+
+def rows(module: str, path: Path, reading: Reading) -> Iterator[NDArray[np.float64]]:
+    """Its points."""
+    with broken(suffix_of(path)[1:].upper()):
+        yield from _chunks(module, path, reading).start()
+
+
+def _chunks(module: str, path: Path, reading: Reading) -> FileChunks:
+    with broken(suffix_of(path)[1:].upper()):
+        return import_module(f"{__name__}.{module}").chunks_of(path, reading)
 
 
 def mapped_rows(path: Path, row: np.dtype, start: int, count: int) -> Iterator[NDArray[Any]]:

@@ -9,15 +9,18 @@ import numpy as np
 import pye57
 from numpy.typing import NDArray
 
+from ...base.options import Reading
+from ...base.own_process import one_more_file
 from . import FileChunks
 
 
-def chunks_of(path: Path) -> FileChunks:
-    with pye57.E57(str(path)) as file:
+def chunks_of(path: Path, reading: Reading) -> FileChunks:
+    # The XML in it may name other files and hosts.
+    with one_more_file(), pye57.E57(str(path)) as file:
         count = sum(file.get_header(scan).point_count for scan in range(file.scan_count))
 
     def scans() -> Iterator[NDArray[np.float64]]:
-        with pye57.E57(str(path)) as file:
+        with one_more_file(), pye57.E57(str(path)) as file:
             for scan in range(file.scan_count):
                 read = file.read_scan(scan, ignore_missing_fields=True, transform=True)
                 yield np.stack([read[f"cartesian{axis}"] for axis in "XYZ"], axis=1)

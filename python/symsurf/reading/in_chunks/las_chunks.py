@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
+from ...base.options import Reading
 from .. import las
 from . import FileChunks, mapped_rows
 
 
-def chunks_of(path: Path) -> FileChunks:
+def chunks_of(path: Path, reading: Reading) -> FileChunks:
     start, length, count, is_packed = las.layout(path)
     if is_packed:
         raise InvalidInput("its points are packed; as .laz they can be read")

@@ -9,14 +9,15 @@ import laspy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.options import Reading
 from .. import las
 from . import ROWS, FileChunks, las_chunks
 
 
-def chunks_of(path: Path) -> FileChunks:
+def chunks_of(path: Path, reading: Reading) -> FileChunks:
     *_, count, is_packed = las.layout(path)
     if not is_packed:
-        return las_chunks.chunks_of(path)
+        return las_chunks.chunks_of(path, reading)
 
     def rows() -> Iterator[NDArray[np.float64]]:
         with laspy.open(path) as scan:

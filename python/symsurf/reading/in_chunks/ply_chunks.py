@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._core import InvalidInput
+from ...base.options import Reading
 from ..ply_header import END, TYPES, Element, elements_of
 from . import FileChunks, mapped_rows
 
 _LONGEST_HEADER = 1 << 16  # bytes
 
 
-def chunks_of(path: Path) -> FileChunks:
+def chunks_of(path: Path, reading: Reading) -> FileChunks:
     with path.open("rb") as file:
         head = file.read(_LONGEST_HEADER)
     end = END.search(head)

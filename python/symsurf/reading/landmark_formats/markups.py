@@ -9,6 +9,7 @@ import numpy as np
 
 from ..._core import InvalidInput
 from ...shapes import Landmarks
+from ..location import text_of
 
 _SPACES = {"RAS": "RAS", "LPS": "LPS", "0": "RAS", "1": "LPS"}
 
@@ -18,7 +19,7 @@ def read(path: Path) -> list[Landmarks]:
     import json  # `import symsurf` does not wait for it
 
     try:
-        content = json.loads(path.read_text("utf-8-sig"))
+        content = json.loads(text_of(path))
         return [_landmarks(each) for each in content["markups"]]
     except (KeyError, TypeError, AttributeError) as error:
         raise InvalidInput("this is no list of points of 3D Slicer") from error

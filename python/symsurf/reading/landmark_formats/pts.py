@@ -8,6 +8,7 @@ import numpy as np
 
 from ..._core import InvalidInput
 from ...shapes import Landmarks
+from ..location import text_of
 from .rows import Row, landmarks_of
 
 _MISSING = 9999.0  # each coordinate of what was not placed in Landmark
@@ -18,7 +19,7 @@ def read(path: Path) -> list[Landmarks]:
     many there are; around them braces."""
     lines = [
         (n, line.split())
-        for n, line in enumerate(path.read_text("utf-8-sig").splitlines(), 1)
+        for n, line in enumerate(text_of(path).splitlines(), 1)
         if line.strip() and line.strip() not in "{}" and not line.lstrip().startswith("#")
     ]
     versioned = bool(lines) and lines[0][1][0].lower().startswith("version")

@@ -10,6 +10,7 @@ from pathlib import Path
 from ..._core import InvalidInput
 from ...shapes import Landmarks
 from ...shapes.space import space_in
+from ..location import text_of
 from .rows import Row, coordinates, landmarks_of
 
 _NAMES = ("name", "label", "landmark", "id")
@@ -19,7 +20,7 @@ _FCSV_COLUMNS = ("label", "x", "y", "z")  # of files older than their line of na
 def read_csv(path: Path) -> list[Landmarks]:
     """Columns named x, y and z with one of names, or rows of coordinates, with a name before them or
     without; commas, semicolons (then with decimal commas) or tabs between."""
-    rows = _cells(path.read_text("utf-8-sig"))
+    rows = _cells(text_of(path))
     if not rows:
         return []
     titles = [re.sub(r"[\[(].*", "", cell).strip().lower() for cell in rows[0][1]]
@@ -30,7 +31,7 @@ def read_csv(path: Path) -> list[Landmarks]:
 
 def read_fcsv(path: Path) -> list[Landmarks]:
     """In the axes that the file names; the columns by its line of names."""
-    text = path.read_text("utf-8-sig")
+    text = text_of(path)
     named = re.search(r"^#\s*columns\s*=(.*)$", text, re.MULTILINE)
     columns = _FCSV_COLUMNS if named is None else [c.strip() for c in named[1].split(",")]
     found = _by_columns(columns, _cells(text))

@@ -7,6 +7,7 @@ from pathlib import Path, PureWindowsPath
 
 from ..._core import InvalidInput
 from ...shapes import Landmarks
+from ..location import text_of
 from .rows import Row, coordinates, number
 
 _KEY = re.compile(r"\s*([A-Za-z]\w*)\s*=\s*(.*?)\s*$")
@@ -14,11 +15,7 @@ _KEY = re.compile(r"\s*([A-Za-z]\w*)\s*=\s*(.*?)\s*$")
 
 def read(path: Path) -> list[Landmarks]:
     """Those of each specimen, times its scale. Points along curves and outlines are left out."""
-    lines = [
-        (n, line)
-        for n, line in enumerate(path.read_text("utf-8-sig").splitlines(), 1)
-        if line.strip()
-    ]
+    lines = [(n, line) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip()]
     keys = [(index, found) for index, (_, line) in enumerate(lines) if (found := _KEY.match(line))]
     starts = [index for index, found in keys if found[1].upper() in ("LM", "LM3")]
     if not starts and lines:
