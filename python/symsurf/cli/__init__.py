@@ -4,18 +4,16 @@ run(arguments), which returns the exit status."""
 from __future__ import annotations
 
 import argparse
-import codecs
-import os
 import signal
 import sys
 from collections.abc import Sequence
-from io import TextIOWrapper
 from typing import Any
 
 from .._core import InvalidInput, InvalidParameter, __version__, analyses, operations
 from . import cohort, damage, demo, detect, evaluate, generate, methods, report, table
 from .analyse import AnalysisCommand
 from .operate import OperationCommand
+from .terminal import Parser, complain, drop_output, open_streams
 from .values import attach_negative_numbers
 
 COMMANDS: dict[str, Any] = {
@@ -35,50 +33,32 @@ COMMANDS: dict[str, Any] = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
-    if isinstance(sys.stdout, TextIOWrapper):
-        codecs.register_error("symsurf", _encoded)
-        sys.stdout.reconfigure(errors="symsurf")
+    open_streams()
     try:
         chosen = parser().parse_args(attach_negative_numbers(words))
         status = chosen.run(chosen)
         sys.stdout.flush()
         return status
     except BrokenPipeError:  # the reader, such as head, has seen enough
-        _drop_output()
+        drop_output()
         return 128 + getattr(signal, "SIGPIPE", 13)  # which Windows has not
     except (InvalidInput, InvalidParameter, ImportError) as error:  # an optional package
-        print(f"symsurf: {error}", file=sys.stderr)
+        complain(str(error))
         return 2
     except OSError as error:
         if error.filename is None:  # such as a full disk
             error.filename = "standard output"
-            _drop_output()
-        print(f"symsurf: {error}", file=sys.stderr)
+            drop_output()
+        complain(str(error))
         return 2
     except KeyboardInterrupt:
+        if arguments is None:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough
         return 130
 
 
-def _encoded(error: UnicodeError) -> tuple[str | bytes, int]:
-    """A character that the terminal has not: the byte of a file's name as it is, others as \\x, \\u."""
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    first = UnicodeEncodeError(
-        error.encoding, error.object, error.start, error.start + 1, error.reason
-    )
-    try:
-        return codecs.lookup_error("surrogateescape")(first)
-    except UnicodeEncodeError:
-        return codecs.backslashreplace_errors(first)
-
-
-def _drop_output() -> None:
-    """What could not be written is not tried again at the end of the process."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def parser() -> argparse.ArgumentParser:
-    top = argparse.ArgumentParser(
+def parser() -> Parser:
+    top = Parser(
         prog="symsurf",
         description="Finds the mirror of 3D point sets: a plane, a sphere or a curved surface.",
         allow_abbrev=False,

@@ -25,6 +25,7 @@ from .batch_options import (
     worked_on,
 )
 from .described_options import add_parameters, given_values
+from .terminal import printable, say
 from .values import shown
 
 # What pose estimators read, by the record's name for it.
@@ -110,12 +111,12 @@ def _print_pose_table(name: str, tasks: Sequence[FileTask], arguments: argparse.
         status = max(status, tell(record))
         if name in record:
             entries[record["file"]] = record[name]
-    print(json.dumps(entries, indent=1))
+    say(json.dumps(entries, indent=1))
     return status
 
 
 def _text(record: Record) -> str:
-    lines = [record["file"]]
+    lines = [printable(record["file"])]
     if "group" in record:
         lines += [
             f"  group     {record['group']}, score {record['score']:.3f}",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -21,8 +21,10 @@ from ..batching.shards import positions, shard_from
 from ..plotting.drawing import import_pyvista
 from ..reading import files_in, known_names, require_format
 from ..saving.output_files import output_files
+from ..saving.sole_writer import sole_writer
 from .output_paths import require_apart, require_suffix
 from .progress_bar import ProgressBar
+from .terminal import complain, printable, say, standard_input
 from .values import number, whole
 
 STANDARD_INPUT = Path("-")
@@ -71,7 +73,7 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
         elif input_format is None:
             raise InvalidParameter("- is standard input, which needs --input-format, such as ply")
         else:
-            content = sys.stdin.buffer.read()
+            content = standard_input()
             tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
     return tasks
 
@@ -167,23 +169,21 @@ def run_tasks(
     if arguments.table is not None:
         _require_table(arguments.table, tasks)
     tasks, places = _share_of(tasks, arguments)
-    table = _begun_table(tasks, places, arguments)
-    rows = {} if table is None else table.rows
-    left = [index for index in range(len(tasks)) if index not in rows]
+    with _begun_table(tasks, places, arguments) as table:
+        rows = {} if table is None else table.rows
+        left = [index for index in range(len(tasks)) if index not in rows]
 
-    def keep(number: int, record: Record) -> None:
-        index = left[number]
-        rows[index] = row_of(record)
-        if table is not None:
-            table.add(index, rows[index])
+        def keep(number: int, record: Record) -> None:
+            index = left[number]
+            rows[index] = row_of(record)
+            if table is not None:
+                table.add(index, rows[index])
 
-    status = 0
-    for record in worked_on([tasks[index] for index in left], arguments, keep):
-        status = max(status, tell(record))
-        if "error" not in record:
-            print(json.dumps(record) if arguments.json else text_of(record), flush=True)
-    if table is not None:
-        table.finish()
+        status = 0
+        for record in worked_on([tasks[index] for index in left], arguments, keep):
+            status = max(status, tell(record))
+            if "error" not in record:
+                say(json.dumps(record) if arguments.json else text_of(record))
     return status, [rows[index] for index in range(len(tasks))]
 
 
@@ -199,26 +199,32 @@ def _share_of(
     return its, positions(shard, len(tasks))
 
 
+@contextmanager
 def _begun_table(
     tasks: Sequence[FileTask], places: Sequence[str], arguments: argparse.Namespace
-) -> GrowingTable | None:
-    table: Path | None = arguments.table
-    if table is not None:
-        table.parent.mkdir(parents=True, exist_ok=True)
-        return GrowingTable(table, tasks, places, arguments.resume)
-    if arguments.resume:
-        raise InvalidParameter(
-            "resume is given without table; allowed is with the table to go on with"
-        )
-    return None
+) -> Iterator[GrowingTable | None]:
+    """It is finished where all went well."""
+    path: Path | None = arguments.table
+    if path is None:
+        if arguments.resume:
+            raise InvalidParameter(
+                "resume is given without table; allowed is with the table to go on with"
+            )
+        yield None
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with sole_writer(path):
+        table = GrowingTable(path, tasks, places, arguments.resume)
+        yield table
+        table.finish()
 
 
 def tell(record: Record) -> int:
     """Says on standard error what is to be said beside the result; 1 where the file failed."""
     for notice in record.get("notices", []):
-        print(f"symsurf: {record['file']}: {notice}", file=sys.stderr)
+        complain(f"{record['file']}: {notice}")
     if "error" in record:
-        print("symsurf:", record["error"], file=sys.stderr)
+        complain(record["error"])
     return 1 if "error" in record else 0
 
 
@@ -257,7 +263,7 @@ def _within(bar: ProgressBar, done: int, files: int, fraction: float) -> None:
 
 
 def _title(tasks: Sequence[FileTask], done: int) -> str:
-    return tasks[0].file.name if len(tasks) == 1 else f"{done} of {len(tasks)} files"
+    return printable(tasks[0].file.name) if len(tasks) == 1 else f"{done} of {len(tasks)} files"
 
 
 def _require_table(table: Path, tasks: Sequence[FileTask]) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -27,6 +26,7 @@ from ..report import cohort_page, require_viewer
 from ..saving import write_whole
 from ..saving.cohort_format import anova_rows, individual_rows, table_bytes
 from .output_paths import require_apart, require_suffix
+from .terminal import complain, say
 from .values import whole
 
 SUMMARY = "Compares individuals and sides: directional and fluctuating asymmetry of a cohort."
@@ -117,7 +117,7 @@ def run(arguments: argparse.Namespace) -> int:
     made = {path: contents[name]() for name, path in outputs.items()}
     for path, content in made.items():
         write_whole(path, content)
-    print(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
+    say(json.dumps(_record(found, source)) if arguments.json else _text(found, source))
     return 0
 
 
@@ -125,11 +125,10 @@ def _warn_of_strangers(specimens: Specimens, replicates: int) -> None:
     others = closer_to_others(specimens, replicates)
     if others:
         one, other = others[0]
-        print(
-            f"symsurf: {len(others)} of {len(specimens.labels)} specimens are closer to one of another "
+        complain(
+            f"{len(others)} of {len(specimens.labels)} specimens are closer to one of another "
             f"individual than to their own replicates, as {one} to {other}: replicates are {replicates} "
-            "files one behind the other",
-            file=sys.stderr,
+            "files one behind the other"
         )
 
 
@@ -164,7 +163,7 @@ def _paired(arguments: argparse.Namespace) -> tuple[Specimens, LandmarkPairs, st
     rest, own = without_odd(specimens, pairs)
     if len(pairs.odd):
         odd = listed(pairs.odd_names or pairs.odd)
-        print(f"symsurf: left out, as they have no counterpart: {odd}", file=sys.stderr)
+        complain(f"left out, as they have no counterpart: {odd}")
     return rest, own, source
 
 

@@ -14,6 +14,7 @@ from ..saving.points_format import require_points_suffix
 from ..saving.truth import read_truth, truth_path, write_sample
 from ..synthetic import rotation_matrix
 from .described_options import add_kinds, given_values
+from .terminal import say
 from .values import whole
 
 SUMMARY = "Damages points; the truth beside them, where there is one, follows."
@@ -42,5 +43,5 @@ def run(arguments: argparse.Namespace) -> int:
             angles = (values.get(name, 0.0) for name in ("roll", "pitch", "yaw"))
             truth = truth.moved(rotation_matrix(*angles))
     write_sample(arguments.output, damaged, truth)
-    print(f"{arguments.output}: {len(damaged)} of {len(points)} points")
+    say(f"{arguments.output}: {len(damaged)} of {len(points)} points")
     return 0

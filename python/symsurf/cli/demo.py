@@ -17,6 +17,7 @@ from ..report import require_viewer
 from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
+from .terminal import say
 
 SUMMARY = "Finds the mirrors of two real meshes, straight, bent and damaged, and uses them; with a report."
 
@@ -60,18 +61,18 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.no_pictures:
         require_viewer()
         arguments.output.mkdir(parents=True, exist_ok=True)
-    print("Lengths are shares of the diagonal of the bounding box.\n")
-    print(ROW.format(*HEADINGS))
+    say("Lengths are shares of the diagonal of the bounding box.\n")
+    say(ROW.format(*HEADINGS))
     findings: list[Finding] = []
     done: list[Deed] = []
     for case in cases():
         finding = find(case)
         findings.append(finding)
         done += deeds(finding)
-        print(_row(finding), flush=True)
-    print(f"\n{DEED_ROW.format(*DEED_HEADINGS)}")
+        say(_row(finding))
+    say(f"\n{DEED_ROW.format(*DEED_HEADINGS)}")
     for deed in done:
-        print(_deed_row(deed))
+        say(_deed_row(deed))
     if arguments.no_pictures:
         return 0
     _show(findings, done, arguments.output)
@@ -80,9 +81,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
     """Pictures, the meshes, and the report on them."""
-    print("\npictures")
+    say("\npictures")
     for path in draw(findings, done, folder):
-        print(f"  {path}")
+        say(f"  {path}")
     meshes = []
     for finding in findings:
         meshes.append(folder / f"{file_name(finding.case)}.ply")
@@ -92,7 +93,7 @@ def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
     threads = threads_of_each(0, jobs)
     tasks = report_tasks([FileTask(mesh, threads=threads) for mesh in meshes], page)
     write_report(page, tasks, list(map(row_of, records(tasks, jobs=jobs))))
-    print(f"report\n  {page}")
+    say(f"report\n  {page}")
 
 
 def _row(finding: Finding) -> str:

@@ -8,6 +8,7 @@ from .._core import InvalidParameter
 from ..plotting.drawing import import_pyvista
 from ..thesis.pictures import draw
 from ..thesis.tables import Outcome, measure, rows
+from .terminal import say
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -25,8 +26,8 @@ def run(arguments: argparse.Namespace) -> int:
     for row in listed:
         outcome = measure(row)
         if heading != (heading := _heading(outcome)):
-            print(f"\n{heading}")
-        print(_line(outcome), flush=True)
+            say(f"\n{heading}")
+        say(_line(outcome))
         if not arguments.no_pictures:
             draw(outcome, arguments.output)
     return 0

@@ -21,6 +21,7 @@ from .batch_options import (
     run_tasks,
 )
 from .method_options import add_method_options, given_parameters
+from .terminal import printable
 from .values import shown, whole
 
 SUMMARY = "Finds the mirror of each file."
@@ -122,7 +123,7 @@ def _suffixes(formats: str) -> list[str]:
 
 
 def _text(record: Record) -> str:
-    lines = [record["file"]]
+    lines = [printable(record["file"])]
     if record["mirror"] is not None:
         lines.append(f"  mirror    {_mirror(record['mirror'])}")
     lines.append(f"  verdict   {record['verdict']}: {record['reason']}")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from .._core import InvalidInput
+from .terminal import complain
 
 
 def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
@@ -21,5 +21,5 @@ def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
             failed += 1
             reason = str(error) or type(error).__name__
             named = reason if str(path) in reason else f"{path}: {reason}"
-            print("symsurf:", " ".join(named.split()), file=sys.stderr)
+            complain(" ".join(named.split()))
     return 1 if failed else 0

@@ -14,6 +14,7 @@ from ..reading.saved_text import read_text
 from ..saving.truth import read_truth, truth_path
 from . import evaluate_benchmark
 from .each_file import for_each_file
+from .terminal import printable, say
 
 SUMMARY = "Compares results with the truth of the sample, or the benchmark, they were found in."
 
@@ -52,10 +53,10 @@ def run(arguments: argparse.Namespace) -> int:
     def do(path: Path) -> None:
         figures = evaluated(path, arguments.sample)
         if arguments.json:
-            print(json.dumps({"file": str(path)} | plain(figures)))
+            say(json.dumps({"file": str(path)} | plain(figures)))
         else:
-            print(path)
-            print("\n".join(f"  {name:16} {value:.6g}" for name, value in figures.items()))
+            say(printable(str(path)))
+            say("\n".join(f"  {name:16} {value:.6g}" for name, value in figures.items()))
 
     return for_each_file(arguments.results, do)
 

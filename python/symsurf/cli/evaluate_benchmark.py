@@ -14,6 +14,7 @@ from ..benchmark.answers import answer_in
 from ..benchmark.files import read_benchmark
 from ..benchmark.scores import Figures, figures_of, summary
 from ..saving import write_whole
+from .terminal import printable, say
 
 Scored = tuple[BenchmarkSample, Figures]
 GROUPS: tuple[tuple[str, Callable[[BenchmarkSample], str]], ...] = (
@@ -43,10 +44,10 @@ def run(results: Sequence[Path], folder: Path, as_json: bool, table: Path | None
         if as_json:
             for sample, figures in cases:
                 record = {"results": str(path), "case": sample.name} | figures._asdict()
-                print(json.dumps(plain(record)))
+                say(json.dumps(plain(record)))
         else:
-            print(path)
-            print("\n".join(_lines(cases)))
+            say(printable(str(path)))
+            say("\n".join(_lines(cases)))
     if table is not None:
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows(

@@ -13,6 +13,7 @@ from ..saving.truth import Truth, write_sample
 from ..synthetic import Sample
 from . import generate_benchmark
 from .described_options import add_kinds, given_values
+from .terminal import say
 
 SUMMARY = "Makes points with a known mirror, and a file with the truth beside them."
 
@@ -40,5 +41,5 @@ def run(arguments: argparse.Namespace) -> int:
     sample = Sample(*_core.generate(arguments.kind.name, given_values(arguments), points))
     write_sample(arguments.output, sample.points, Truth(sample.truth, sample.pairs))
     skipped = f", {sample.skipped} skipped" if sample.skipped else ""
-    print(f"{arguments.output}: {len(sample.points)} points{skipped}")
+    say(f"{arguments.output}: {len(sample.points)} points{skipped}")
     return 0

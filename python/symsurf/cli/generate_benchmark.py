@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..benchmark import SIZES, benchmark
 from ..benchmark.files import write_benchmark
+from .terminal import say
 from .values import whole
 
 SUMMARY = (
@@ -31,5 +32,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     samples = benchmark(arguments.size, arguments.seed, arguments.cases)
     names = write_benchmark(arguments.output, samples, arguments.size, arguments.seed)
-    print(f"{arguments.output}: {len(names)} cases of {SIZES[arguments.size]} points")
+    say(f"{arguments.output}: {len(names)} cases of {SIZES[arguments.size]} points")
     return 0

@@ -10,6 +10,7 @@ from typing import Any
 from .._core import Method, Parameter
 from .._core import methods as all_methods
 from ..base.plain import plain
+from .terminal import say
 from .values import shown
 
 SUMMARY = "Lists the methods and their parameters."
@@ -21,11 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
-        print(
-            json.dumps({name: _record(method) for name, method in all_methods().items()}, indent=1)
-        )
+        say(json.dumps({name: _record(method) for name, method in all_methods().items()}, indent=1))
     else:
-        print("\n\n".join(_text(method) for method in all_methods().values()))
+        say("\n\n".join(_text(method) for method in all_methods().values()))
     return 0
 
 

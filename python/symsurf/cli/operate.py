@@ -23,6 +23,7 @@ from .batch_options import (
     run_tasks,
 )
 from .described_options import add_parameters, given_values
+from .terminal import printable
 from .values import shown
 
 
@@ -90,7 +91,7 @@ class OperationCommand:
 
 
 def _text(record: Record) -> str:
-    lines = [record["file"]]
+    lines = [printable(record["file"])]
     if record["verdict"] is not None:
         lines += [
             f"  verdict             {record['verdict']}: {record['reason']}",

@@ -21,6 +21,7 @@ from .batch_options import (
     run_tasks,
 )
 from .described_options import add_parameters, given_values
+from .terminal import say
 
 SUMMARY = "Writes an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures."
 
@@ -58,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     status, rows = run_tasks(tasks, arguments, _text)
     write_report(arguments.output, tasks, rows)
     if len(tasks) > 1 or status == 0:
-        print(arguments.output)
+        say(str(arguments.output))
     return status
 
 

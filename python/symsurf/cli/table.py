@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from .._core import InvalidParameter
@@ -12,6 +11,7 @@ from ..batching.shards import merged
 from ..saving import write_whole
 from ..saving.csv_rows import rows_bytes
 from .output_paths import require_suffix
+from .terminal import complain
 
 SUMMARY = "Merges the tables of shards."
 
@@ -37,8 +37,5 @@ def run(arguments: argparse.Namespace) -> int:
     output.parent.mkdir(parents=True, exist_ok=True)
     write_whole(output, rows_bytes(rows, columns_of(rows)))
     if missing:
-        print(
-            f"symsurf: {output}: {missing} of {missing + len(rows)} files are missing",
-            file=sys.stderr,
-        )
+        complain(f"{output}: {missing} of {missing + len(rows)} files are missing")
     return 1 if missing else 0

@@ -73,8 +73,13 @@ def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
         raise OSError(errno.EINVAL, "This is not a file", str(path))
     # A name of its own: others may write the same file at the same time.
     unfinished = file.with_name(f".symsurf-{os.urandom(8).hex()}.partial")
+    mode = file.stat().st_mode & 0o7777 if file.exists() else None
     try:
-        with unfinished.open("xb") as new:
+        with open(
+            unfinished, "xb", opener=partial(os.open, mode=0o666 if mode is None else 0o600)
+        ) as new:
+            if mode is not None:  # who may read what stood there
+                unfinished.chmod(mode)
             new.writelines([content] if isinstance(content, bytes) else content)
         unfinished.replace(file)
     except BaseException as error:

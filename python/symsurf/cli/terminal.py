@@ -1,0 +1,87 @@
+"""What is written to the terminal: no name and no content of a file controls it."""
+
+from __future__ import annotations
+
+import argparse
+import codecs
+import errno
+import os
+import re
+import sys
+from io import TextIOWrapper
+from typing import Any
+
+# All of Unicode's control characters but tabs and ends of lines, the bytes of names that may stand
+# for such, what else ends lines, and what turns the direction of writing.
+_CONTROLS = re.compile(
+    "[\0-\x08\x0b-\x1f\x7f-\x9f\udc80-\udc9f\u200e\u200f\u2028-\u202e\u2066-\u2069]"
+)
+
+
+def _escaped(text: str) -> str:
+    return _CONTROLS.sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def printable(text: str) -> str:
+    """The text on one line, with control characters as "\\x1b"."""
+    return _escaped(text).replace("\t", "\\t").replace("\n", "\\n")
+
+
+def say(text: str) -> None:
+    """On standard output, at once."""
+    print(_escaped(text), flush=True)
+
+
+def complain(text: str) -> None:
+    """On standard error, on one line."""
+    print(f"symsurf: {printable(text)}", file=sys.stderr)
+
+
+class Parser(argparse.ArgumentParser):
+    """Of the command line, whose words may be names of files."""
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        super()._print_message(_escaped(message), file)
+
+
+def open_streams() -> None:
+    """Where the caller has closed some, what is written is dropped, and no file takes their numbers."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - to the end
+    if isinstance(sys.stdout, TextIOWrapper):
+        codecs.register_error("symsurf", _encoded)
+        sys.stdout.reconfigure(errors="symsurf")
+
+
+def _encoded(error: UnicodeError) -> tuple[str | bytes, int]:
+    """A character that the terminal has not: the byte of a file's name as it is, others as \\x, \\u."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    first = UnicodeEncodeError(
+        error.encoding, error.object, error.start, error.start + 1, error.reason
+    )
+    try:
+        return codecs.lookup_error("surrogateescape")(first)
+    except UnicodeEncodeError:
+        return codecs.backslashreplace_errors(first)
+
+
+def drop_output() -> None:
+    """What could not be written is not tried again at the end of the process."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def standard_input() -> bytes:
+    """Raises OSError, which names it, where it is closed or cannot be read."""
+    try:
+        if sys.stdin is None:
+            raise OSError(errno.EBADF, "It is closed")
+        return sys.stdin.buffer.read()
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, "standard input") from error

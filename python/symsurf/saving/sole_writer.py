@@ -1,0 +1,63 @@
+"""One process at a time that writes a file row by row."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from .._core import InvalidParameter
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+
+@contextmanager
+def sole_writer(path: Path) -> Iterator[None]:
+    """Raises InvalidParameter while another process has entered this for the same file. The system
+    releases what a process that dies holds; where it locks no files, all may enter."""
+    file = path.resolve()
+    lock = file.with_name(f".{file.name}.lock")
+    try:
+        descriptor = _held(lock)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+    if descriptor is None:
+        raise InvalidParameter(
+            f"{path} is being written by another run; allowed is another table, or to wait for its end"
+        )
+    try:
+        yield
+    finally:
+        with suppress(OSError):  # Windows removes no open file: it stays
+            lock.unlink()
+        os.close(descriptor)
+
+
+def _held(lock: Path) -> int | None:
+    """A descriptor that holds the lock; None where another does."""
+    while True:
+        descriptor = os.open(lock, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            if sys.platform == "win32":
+                msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+                return descriptor
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            os.close(descriptor)
+            return None
+        except OSError:  # of a file system without locks
+            return descriptor
+        if _is_file(descriptor, lock):
+            return descriptor
+        os.close(descriptor)  # who held it has removed it
+
+
+def _is_file(descriptor: int, path: Path) -> bool:
+    with suppress(FileNotFoundError):
+        return os.path.samestat(os.fstat(descriptor), path.stat())
+    return False
