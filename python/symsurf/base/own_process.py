@@ -272,7 +272,7 @@ def _python() -> str | None:
         Path(sys.exec_prefix, "bin", version),
         Path(sys.exec_prefix, "python.exe"),
     ):
-        if path.name.startswith("python") and path.is_file():
+        if path.name.lower().startswith("python") and path.is_file():
             return str(path)
     return None
 

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
+from shutil import copyfile
 from typing import IO, BinaryIO, cast
 
 from .._core import InvalidInput, memory_limit
@@ -34,7 +35,10 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
     with TemporaryDirectory(prefix="symsurf-") as folder:
         file = Path(folder) / f"input{plain}"
         if stream is None and suffix == plain:
-            file.symlink_to(os.path.abspath(name))
+            try:
+                file.symlink_to(os.path.abspath(name))
+            except OSError:  # Windows asks for a right
+                copyfile(name, file)
         else:
             packed = stream or name
             with (

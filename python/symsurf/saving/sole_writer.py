@@ -12,8 +12,11 @@ from .._core import InvalidParameter
 
 if sys.platform == "win32":
     import msvcrt
-else:
+
+try:
     import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 
 @contextmanager
@@ -45,14 +48,14 @@ def _held(lock: Path) -> int | None:
         try:
             if sys.platform == "win32":
                 msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
-                return descriptor
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            elif fcntl is not None:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except (BlockingIOError, PermissionError):
             os.close(descriptor)
             return None
         except OSError:  # of a file system without locks
             return descriptor
-        if _is_file(descriptor, lock):
+        if fcntl is None or _is_file(descriptor, lock):
             return descriptor
         os.close(descriptor)  # who held it has removed it
 
