@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,20 +62,31 @@ class ShapeBuilder {
 
   /// As a fan of triangles around the first corner; none for fewer than three corners.
   void add_polygon(std::span<const Index> corners) {
+    has_others_ = has_others_ || corners.size() > 3;
     for (std::size_t c = 2; c < corners.size(); ++c)
       faces_.insert(faces_.end(), {corners[0], corners[c - 1], corners[c]});
+    if (!has_others_) return;
+    if (polygons_.empty()) {  // the triangles so far
+      polygons_.resize(faces_.size() / 3 - (corners.size() - 2));
+      std::iota(polygons_.begin(), polygons_.end(), 0);
+    }
+    const Index number = polygons_.empty() ? 0 : polygons_.back() + 1;
+    polygons_.resize(faces_.size() / 3, number);
   }
 
   Shape build() const {
     return {Eigen::Map<const Points>(points_.data(), points(), 3),
             Eigen::Map<const Triangles>(faces_.data(), static_cast<Index>(faces_.size()) / 3, 3),
             Eigen::Map<const Points>(normals_.data(), normals(), 3),
-            Eigen::Map<const Points>(colours_.data(), static_cast<Index>(colours_.size()) / 3, 3)};
+            Eigen::Map<const Points>(colours_.data(), static_cast<Index>(colours_.size()) / 3, 3),
+            Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(
+                polygons_.data(), static_cast<Index>(polygons_.size()))};
   }
 
  private:
   std::vector<double> points_, normals_, colours_;
-  std::vector<Index> faces_;
+  std::vector<Index> faces_, polygons_;
+  bool has_others_ = false;  // than triangles
 };
 
 /// The reason why a face is broken, for an error.

@@ -152,6 +152,14 @@ bool keyword_has_normals(TextScanner& text) {
   text.fail("the file starts with " + in_quotes(keyword) + "; OFF, COFF, NOFF, CNOFF can be read");
 }
 
+// Whatever its capitals.
+bool is_next(TextScanner& text, std::string_view word) {
+  const std::string_view found = text.word();
+  text.go_back_to(found);
+  return std::equal(found.begin(), found.end(), word.begin(), word.end(),
+                    [](unsigned char a, char b) { return std::toupper(a) == b; });
+}
+
 Index count(TextScanner& text, const char* what) {
   const Index value = text.integer(what);
   if (value < 0) text.fail(std::string(what) + " is below 0");
@@ -175,7 +183,7 @@ Shape read_off(std::string_view content) {
   const bool has_normals = keyword_has_normals(text);
   if (text.line_ends() && !text.next_line())
     throw InvalidInput("the file is truncated: the numbers of vertices and faces are missing");
-  if (text.line() == "OFF BINARY") text.fail("binary OFF cannot be read; text can");
+  if (is_next(text, "BINARY")) text.fail("binary OFF cannot be read; text can");
   const Index vertices = count(text, "the number of vertices");
   const Index line = text.line_number(), faces = count(text, "the number of faces");
   if (!text.line_ends() || text.line_number() > line) count(text, "the number of edges");

@@ -33,6 +33,7 @@ py::dict read_fields(const std::filesystem::path& path) {
   fields["faces"] = array_or_none(std::move(shape.faces));
   fields["normals"] = array_or_none(std::move(shape.normals));
   fields["colours"] = array_or_none(std::move(shape.colours));
+  fields["polygons"] = array_or_none(std::move(shape.polygons));
   return fields;
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from dialects import FACES, POINTS, clouds, data_sets, images, scenes, texts
@@ -24,7 +26,26 @@ FORMATS = {
 }
 CASES = [(suffix, name) for suffix, dialects in FORMATS.items() for name in dialects]
 REFUSED = {  # by their names
-    ".off": {b"OFF BINARY\n\0\0\0": "binary OFF", b"4OFF\n1 0 0\n0 0 0 1\n": "4OFF"},
+    ".obj": {
+        "v 1 2 3\nv 0 0 1\n".encode(encoding): "UTF-16"
+        for encoding in ("utf-16", "utf-16-le", "utf-16-be")
+    }
+    | {
+        f"v 0 1 2\nv {number} 0 0\n".encode(): f"line 2: a coordinate is '{re.escape(number)}'"
+        for number in ("3.1+e2", "3.1+2", "3.1d2", "3,1", "0x10", "1e", "--1")
+    },
+    ".off": {
+        f"{keyword}\n".encode() + bytes(60): "binary OFF"
+        for keyword in (
+            "OFF BINARY",
+            "COFF BINARY",
+            "NOFF  BINARY",
+            "off binary",
+            "OFF\nBINARY",
+            "# a\nSTOFF BINARY",
+        )
+    }
+    | {b"4OFF\n1 0 0\n0 0 0 1\n": "4OFF"},
     ".csv": {
         b"1,5,5,5\n2,6,6,6\n3,7,7,9\n": "counts the rows",
         "x,y,z\n1,2,3\n".encode("utf-16"): "UTF-16",

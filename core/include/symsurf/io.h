@@ -18,6 +18,9 @@ struct Shape {
   Triangles faces;  ///< no rows for a bare cloud; polygons come as fans of triangles
   Points normals;   ///< no rows where a finite point has none, or one that is 0 or not finite
   Points colours;   ///< red, green, blue as they stand in the file; no rows where it has none
+  /// Of each triangle the number of the polygon that it is a part of; no rows where all polygons
+  /// are triangles.
+  Eigen::Matrix<Index, Eigen::Dynamic, 1> polygons;
 };
 
 /// Reads PLY, OBJ, OFF, STL, XYZ, CSV, TXT or FCSV, distinguished by suffix. Coordinates keep every

@@ -49,8 +49,8 @@ class OperationCommand:
             default="input",
             metavar="WORD",
             help=f"of --output: input, that of the file, which is kept but for what changes{other}; "
-            f"or {' or '.join(name[1:] for name in SHAPE_FORMATS)}, which hold points, triangles and "
-            "arrays alone; default %(default)s",
+            f"or one of {', '.join(name[1:] for name in SHAPE_FORMATS)}: points and faces, in the first two "
+            "with arrays; default %(default)s",
         )
         add_batch_options(parser)
         add_mirror_options(parser)

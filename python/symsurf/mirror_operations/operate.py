@@ -49,7 +49,13 @@ def operate(
         name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
     )
     return RESULTS[name].from_fields(
-        made | {"given_faces": given.faces, "space": given.space, "mirror": mirror}
+        made
+        | {
+            "given_faces": given.faces,
+            "given_polygons": given.polygons,
+            "space": given.space,
+            "mirror": mirror,
+        }
     )
 
 

@@ -35,6 +35,8 @@ class Input:
     """Of the axes; see ``Shape``."""
     colours: Any = None
     """(n, k) of the points, where the input brings some."""
+    polygons: NDArray[np.int64] | None = None
+    """Of the faces; see ``Shape``."""
 
 
 def as_input(
@@ -72,9 +74,13 @@ def as_input(
         return Input(parts.points, _faces(parts.faces), colours=parts.colours)
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
-    space = given.space if isinstance(given, Shape) else None
+    is_shape = isinstance(given, Shape)
     return Input(
-        _points(given), _faces(_first_of(given, "faces", "triangles")), space, _colours(given)
+        _points(given),
+        _faces(_first_of(given, "faces", "triangles")),
+        given.space if is_shape else None,
+        _colours(given),
+        given.polygons if is_shape else None,
     )
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gzip
 import os
+import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
@@ -71,17 +73,24 @@ _OTHERS = {
     b"<html": "an HTML page, such as a download that failed",
     b"%pdf-": "a PDF document",
     b"\x1f\x8b": "packed with gzip: its name should end with .gz",
-    b"\xff\xfe": "text in UTF-16; UTF-8 can be read",
-    b"\xfe\xff": "text in UTF-16; UTF-8 can be read",
+    BOM_UTF16_LE: "text in UTF-16; UTF-8 can be read",
+    BOM_UTF16_BE: "text in UTF-16; UTF-8 can be read",
 }
+
+
+# Letters with zeros between.
+_UTF_16 = re.compile(rb"(?:[\t\r\n -~]\0){4}|(?:\0[\t\r\n -~]){4}")
 
 
 def _require_own(file: Path) -> None:
     with file.open("rb") as content:
-        start = content.read(256).removeprefix(b"\xef\xbb\xbf").lstrip().lower()
+        whole = content.read(256)
+    start = whole.removeprefix(b"\xef\xbb\xbf").lstrip().lower()
     for beginning, what in _OTHERS.items():
         if start.startswith(beginning):
             raise InvalidInput(f"this is {what}")
+    if _UTF_16.match(whole) and file.suffix.lower() != ".stl":  # whose header may be so
+        raise InvalidInput(f"this is {_OTHERS[BOM_UTF16_LE]}")
 
 
 def require_file(name: str) -> None:

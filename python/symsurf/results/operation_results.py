@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, Mirror, Plane, operations
 from ..shapes import Shape
 from ..shapes.objects import Remade, remade_like
+from ..shapes.polygons import carried_polygons
 from .elements import Axis
 from .outputs import plot, save
 from .summary import Summarised, figures, value_text
@@ -58,14 +59,33 @@ class OperationResult(Summarised):
         sources = [made[rows] for rows in ("point_sources", "face_sources")]
         has_parents = len(made["point_parents"]) > 0
         frame = {"ras": "RAS", "lps": "LPS"}.get(made["parameters"].get("frame", ""))
+        point_sources, face_sources = (
+            found if len(found) else each for found, each in zip(sources, own, strict=True)
+        )
+        images = point_sources
+        if has_parents:  # others lie between several
+            images = np.where(made["point_shares"].max(axis=1) == 1, point_sources, -1)
+        given = Shape(
+            made["given"],
+            made["given_faces"],
+            space=made["space"],
+            polygons=made["given_polygons"],
+        )
         return cls(
-            given=Shape(made["given"], made["given_faces"], space=made["space"]),
-            shape=Shape(made["points"], faces, space=frame or made["space"]),
+            given=given,
+            shape=Shape(
+                made["points"],
+                faces,
+                space=frame or made["space"],
+                polygons=None
+                if faces is None
+                else carried_polygons(faces, face_sources, images, given),
+            ),
             mirror=made["mirror"],
             parameters=made["parameters"],
             statistics=made["statistics"],
-            sources=sources[0] if len(sources[0]) else own[0],
-            face_sources=sources[1] if len(sources[1]) else own[1],
+            sources=point_sources,
+            face_sources=face_sources,
             parents=made["point_parents"] if has_parents else None,
             shares=made["point_shares"] if has_parents else None,
             **made["arrays"],
@@ -156,7 +176,8 @@ class OperationResult(Summarised):
         """Writes the shape or its table, in the format of the suffix, whole or not at all.
 
         ``.ply``: binary, ``arrays`` as properties of the points. ``.vtp``: for VTK, ParaView and
-        PyVista, which read no such properties. ``.csv`` and ``.npy``: ``arrays`` alone, a row a
+        PyVista, which read no such properties. ``.stl``, ``.obj`` and ``.off``: the shape alone.
+        ``.csv`` and ``.npy``: ``arrays`` alone, a row a
         point, in the latter a structured array. ``.json``: mirror, parameters, statistics and
         ``arrays``. Raises InvalidParameter for another suffix, OSError where nothing can be written.
         """

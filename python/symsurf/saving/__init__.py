@@ -15,12 +15,29 @@ from ..results import AnalysisResult, Correspondences, OperationResult, Result
 from ..results.outputs import save
 from .json_format import analysis_bytes, json_bytes, operation_bytes
 from .ply_format import ply_bytes, shape_ply_bytes
+from .same_format import shape_bytes
 from .table_format import csv_bytes, mirror_bytes, npy_bytes
 from .text_format import text_bytes
 from .vtp_format import shape_vtp_bytes, vtp_bytes
 
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
-SHAPE_FORMATS = {".ply": shape_ply_bytes, ".vtp": shape_vtp_bytes}
+BARE_FORMATS = (".obj", ".off", ".stl")
+"""Of shapes without arrays."""
+SHAPE_FORMATS = (".ply", ".vtp", *BARE_FORMATS)
+
+
+def _face_arrays(result: OperationResult | AnalysisResult) -> dict[str, Any]:
+    return result.face_arrays if isinstance(result, OperationResult) else {}
+
+
+def _bare_bytes(suffix: str, result: OperationResult) -> bytes:
+    if suffix == ".stl" and result.shape.faces is None:
+        raise InvalidParameter(
+            "STL holds triangles, and the shape has none; allowed is another suffix"
+        )
+    return shape_bytes(result.shape, suffix)
+
+
 _WITH_ARRAYS: dict[str, Callable[[OperationResult | AnalysisResult], bytes]] = {
     ".ply": lambda result: shape_ply_bytes(result.shape, result.arrays, _face_arrays(result)),
     ".vtp": lambda result: shape_vtp_bytes(result.shape, result.arrays, _face_arrays(result)),
@@ -29,6 +46,7 @@ _WITH_ARRAYS: dict[str, Callable[[OperationResult | AnalysisResult], bytes]] = {
 }
 OPERATION_FORMATS: dict[str, Callable[[OperationResult], bytes]] = {
     **_WITH_ARRAYS,
+    **{suffix: partial(_bare_bytes, suffix) for suffix in BARE_FORMATS},
     ".json": operation_bytes,
 }
 CORRESPONDENCES_FORMATS = {**OPERATION_FORMATS, ".mirror": mirror_bytes}
@@ -36,10 +54,6 @@ ANALYSIS_FORMATS: dict[str, Callable[[AnalysisResult], bytes]] = {
     **_WITH_ARRAYS,
     ".json": analysis_bytes,
 }
-
-
-def _face_arrays(result: OperationResult | AnalysisResult) -> dict[str, Any]:
-    return result.face_arrays if isinstance(result, OperationResult) else {}
 
 
 def _save(

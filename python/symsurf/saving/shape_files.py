@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
@@ -11,11 +14,13 @@ import numpy as np
 from .. import _core
 from .._core import InvalidInput, InvalidParameter
 from ..reading import read
+from ..reading.formats import format_of
 from ..results import OperationResult
 from ..shapes import Shape
-from . import SHAPE_FORMATS, write_whole
-from .same_format import OTHER_REWRITERS, REWRITERS, NewShape, Rewritten, plain_content
+from . import BARE_FORMATS, SHAPE_FORMATS, write_whole
+from .same_format import OTHER_REWRITERS, REWRITERS, NewShape, Rewritten, lost_arrays, plain_content
 
+_BARE = (".stl", ".xyz", ".off")  # without normals and colours they hold nothing beside
 _SINGLE = 1e-6  # of the largest coordinate: what binary STL rounds to
 
 
@@ -67,7 +72,7 @@ def save_shape(
         )
     if not is_same:
         result.save(path)
-        return []
+        return _lost_polygons(result) + _left_out(shape, suffix, path) + _lost_arrays(result, path)
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
     faces = result.shape.faces
@@ -90,6 +95,8 @@ def save_shape(
         parents=result.parents,
         shares=result.shares,
         carried=None if result.parents is None else result.carried,
+        polygons=result.shape.polygons,
+        reached=partial(_reached, source if content is None else None, path),
     )
     given = source.read_bytes() if content is None else content
     rewritten = _kept(given, suffix, new)
@@ -97,7 +104,47 @@ def save_shape(
         raise InvalidInput(f"{source} is written in a way that values cannot be carried over in")
     rewritten = rewritten or _anew(shape, suffix, new)
     write_whole(path, rewritten.content)
-    return rewritten.lost
+    return _lost_polygons(result) + rewritten.lost
+
+
+def _lost_polygons(result: OperationResult) -> list[str]:
+    """What to say of polygons that are written as triangles."""
+    given, made = result.given.polygons, result.shape.polygons
+    if given is None:
+        return []
+    parts = np.bincount(given)[given][result.face_sources] > 1
+    kept = np.bincount(made)[made] > 1 if made is not None else np.zeros(len(parts), bool)
+    count = int(np.count_nonzero(parts & ~kept))
+    return [f"{count} triangles are written of what were larger polygons"] if count else []
+
+
+def _left_out(shape: Shape, suffix: str, output: Path) -> list[str]:
+    """What to say of a file of which points and faces alone are kept."""
+    described = format_of(suffix)
+    is_plain = shape.normals is None and shape.colours is None
+    if described is None or described.is_image or (is_plain and described.suffix in _BARE):
+        return []
+    made = output.suffix[1:].upper()
+    text = (
+        f"{made} is written anew: of the {described.name} file points and faces are kept, none of "
+    )
+    return [text + "its normals, colours, textures, materials and other attributes"]
+
+
+def _lost_arrays(result: OperationResult, output: Path) -> list[str]:
+    names = [*result.arrays, *result.face_arrays]
+    if not names or output.suffix.lower() not in BARE_FORMATS:
+        return []
+    return [lost_arrays(output.suffix[1:].upper(), names)]
+
+
+def _reached(source: Path | None, output: Path, name: str) -> str | None:
+    """The name of a file beside the source as it is seen from the output."""
+    if source is None or not (file := source.parent / name).is_file():
+        return None
+    with suppress(ValueError):  # they lie on two drives
+        file = Path(os.path.relpath(file.resolve(), output.parent.resolve()))
+    return file.as_posix()
 
 
 def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
@@ -125,7 +172,7 @@ def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
 def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
     """A file of points and faces alone."""
     if new.is_other:
-        shape = Shape(new.points, new.faces if len(new.faces) else None)
+        shape = Shape(new.points, new.faces if len(new.faces) else None, polygons=new.polygons)
         rows = np.arange(len(new.points))
         new = replace(
             new, old_faces=len(new.faces), sources=rows, moved=False, is_other=False, carried=None

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..results import Result
 from ..results.mirror_mesh import mirror_mesh
 from ..shapes import Shape
+from ..shapes.polygons import corners_of
 
 _TYPES = {"f": "Float64", "i": "Int64"}
 
@@ -46,15 +47,12 @@ def shape_vtp_bytes(
     none = np.empty((0, 3), np.int64)
     is_cloud = shape.faces is None or not len(shape.faces)
     vertices = np.arange(len(shape.points)).reshape(-1, 1) if is_cloud else none[:, :1]
-    faces = none if shape.faces is None else shape.faces
-    return poly_data(
-        shape.points,
-        vertices,
-        faces,
-        _numbers(arrays),
-        _space(shape),
-        {} if is_cloud else _numbers(face_arrays or {}),
-    )
+    faces: Any = none if shape.faces is None else shape.faces
+    of_faces = {} if is_cloud else _numbers(face_arrays or {})
+    if shape.polygons is not None:
+        rows, faces = zip(*corners_of(faces, shape.polygons))
+        of_faces = {name: values[list(rows)] for name, values in of_faces.items()}
+    return poly_data(shape.points, vertices, faces, _numbers(arrays), _space(shape), of_faces)
 
 
 def _numbers(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
@@ -67,7 +65,7 @@ def _numbers(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
 def poly_data(
     points: NDArray[np.float64],
     vertices: NDArray[np.int64],
-    triangles: NDArray[np.int64],
+    polygons: Sequence[Sequence[int]] | NDArray[np.int64],
     arrays: Mapping[str, NDArray[Any]],
     fields: Sequence[str] = (),
     cell_arrays: Mapping[str, NDArray[Any]] | None = None,
@@ -83,7 +81,7 @@ def poly_data(
         "</FieldData>",
         (
             f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(vertices)}"'
-            f' NumberOfPolys="{len(triangles)}">'
+            f' NumberOfPolys="{len(polygons)}">'
         ),
         f"<PointData{active}>",
         *(_array(name, values) for name, values in arrays.items()),
@@ -93,7 +91,7 @@ def poly_data(
         "</CellData>",
         f"<Points>{_array('Points', points)}</Points>",
         f"<Verts>{_cells(vertices)}</Verts>",
-        f"<Polys>{_cells(triangles)}</Polys>",
+        f"<Polys>{_cells(polygons)}</Polys>",
         "</Piece>",
         "</PolyData>",
         "</VTKFile>",
@@ -120,10 +118,13 @@ def _text(name: str, text: str) -> str:
     return f'<Array type="String" Name="{name}" NumberOfTuples="1" format="ascii">{codes}</Array>'
 
 
-def _cells(corners: NDArray[np.int64]) -> str:
-    count, size = corners.shape
-    ends = np.arange(1, count + 1) * size
-    return _array("connectivity", corners.ravel()) + _array("offsets", ends)
+def _cells(cells: Sequence[Sequence[int]] | NDArray[np.int64]) -> str:
+    if isinstance(cells, np.ndarray):
+        corners, ends = cells.ravel(), np.arange(1, len(cells) + 1) * cells.shape[1]
+    else:
+        corners = np.array([corner for cell in cells for corner in cell], np.int64)
+        ends = np.cumsum([len(cell) for cell in cells], dtype=np.int64)
+    return _array("connectivity", corners) + _array("offsets", ends)
 
 
 def _array(name: str, values: NDArray[np.generic], tuples: bool = False) -> str:

@@ -29,6 +29,10 @@ class Shape:
     colours: NDArray[np.float64] | None = None
     """(n, k), a channel a column, as the file gives them; None where it gives none."""
 
+    polygons: NDArray[np.int64] | None = None
+    """(m,) the number of the polygon that each triangle is a part of; None where all polygons of the
+    file are triangles, or none are known."""
+
     def __repr__(self) -> str:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"
         normals = "no normals" if self.normals is None else "normals"

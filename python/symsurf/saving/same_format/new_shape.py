@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...shapes.polygons import corners_of
 from ...shapes.space import SPACE, TABLE
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # of UTF-8, which the readers pass over
@@ -56,6 +58,21 @@ class NewShape:
     """(n, k) what each of these counts."""
     carried: Callable[[NDArray[Any]], NDArray[Any]] | None = None
     """What the points then have of values (k, ...) of the file's, where these are carried over."""
+    polygons: NDArray[np.int64] | None = None
+    """(m,) the polygon that each face is a part of; see ``Shape``."""
+    reached: Callable[[str], str | None] = lambda name: name
+    """The name, from where it is written, of a file beside that which was read; None: there is none."""
+
+    @cached_property
+    def added_polygons(self) -> list[tuple[int, list[int]]]:
+        """The added faces as their corners, each with the row of its first triangle among all."""
+        polygons = None if self.polygons is None else self.polygons[self.old_faces :]
+        added = corners_of(self.added_faces, polygons)
+        return [(self.old_faces + row, corners) for row, corners in added]
+
+    def face_source(self, row: int) -> int:
+        """The triangle of the file that a face comes from."""
+        return row if self.face_sources is None else int(self.face_sources[row])
 
     @property
     def added_faces(self) -> NDArray[np.int64]:
@@ -122,7 +139,7 @@ class NewShape:
 
     def lost_arrays(self, format_name: str) -> list[str]:
         names = [*self.arrays, *self.face_arrays]
-        return [f"{format_name} holds no {', '.join(names)}; PLY and VTP do"] if names else []
+        return [lost_arrays(format_name, names)] if names else []
 
 
 # Columns that say where a point is and how its surface lies: they stay with it.
@@ -132,6 +149,10 @@ _COLOURS = {
 }
 
 LOST_NORMALS = "the normals are left out, which are not those of the new shape"
+
+
+def lost_arrays(format_name: str, names: Iterable[str]) -> str:
+    return f"{format_name} holds no {', '.join(names)}; PLY and VTP do"
 
 
 def texts(values: NDArray[Any]) -> list[bytes]:

@@ -8,6 +8,7 @@ import re
 import numpy as np
 
 from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts
+from .obj_faces import added_lines, with_libraries
 
 _NORMAL = re.compile(rb"/[^/\s]*(?=\s|$)")  # what follows the second slash of a corner
 _CORNER = re.compile(rb"(\S+?/[^/\s]*)/[^/\s]*")
@@ -50,9 +51,9 @@ def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
             _vertex(coordinates[i], rests[new.sources[i]])
             for i in range(len(rests), len(new.points))
         ]
-        made += [b"f %d %d %d" % tuple(face) for face in (new.added_faces + 1).tolist()]
-        made.append(b"")
-    notices = [LOST_NORMALS] if lost else []
+        made += [*added_lines(content, new), b""] if len(new.added_faces) else [b""]
+    made, notices = with_libraries(made, new)
+    notices += [LOST_NORMALS] if lost else []
     return Rewritten(b"\n".join(made), notices + new.lost_arrays("OBJ"))
 
 

@@ -26,10 +26,15 @@ def rewritten_off(content: bytes, new: NewShape) -> Rewritten:
         normals = np.array([row[3:6] for row in points], dtype=float)
         for row, normal in zip(points, row_texts(new.turned(normals))):
             row[3:6] = normal
-    counts[:2] = [b"%d" % len(points), b"%d" % (faces + len(new.added_faces))]
     polygons = rows[1 + vertices : 1 + vertices + faces]
-    added = [[b"3", *(b"%d" % corner for corner in face)] for face in new.added_faces.tolist()]
-    made = [[keyword], counts, *points, *polygons, *added]
+    beside = [row[1 + int(row[0]) :] for row in polygons for _ in range(int(row[0]) - 2)]
+    added = [
+        [b"%d" % len(corners), *map(b"%d".__mod__, corners), *beside[new.face_source(row)]]
+        for row, corners in new.added_polygons
+    ]
+    kept = [] if new.is_other else polygons
+    counts[:2] = [b"%d" % len(points), b"%d" % (len(kept) + len(added))]
+    made = [[keyword], counts, *points, *kept, *added]
     lost = [LOST_NORMALS] if drops else []
     return Rewritten(
         b"".join(b" ".join(row) + b"\n" for row in made), lost + new.lost_arrays("OFF")

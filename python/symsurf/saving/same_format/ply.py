@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..._core import InvalidInput
 from ...reading.ply_header import END, TYPES, Element, elements_of
 from ...shapes import Shape
-from ..ply_format import shape_ply_bytes
+from ..ply_format import face_rows, shape_ply_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten, row_texts, texts
 
 _KINDS = {"f": "f8", "i": "i4", "b": "u1"}
@@ -25,7 +25,9 @@ def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     lines = content[: end.start()].splitlines()
     elements = elements_of(lines)
     if not _is_plain(elements, new):
-        plain = shape_ply_bytes(Shape(new.points, new.faces), new.arrays, new.face_arrays)
+        plain = shape_ply_bytes(
+            Shape(new.points, new.faces, polygons=new.polygons), new.arrays, new.face_arrays
+        )
         return Rewritten(plain, ["nothing of the file is kept but points and faces"])
     encoding = next(line.split()[1] for line in lines if line.split()[:1] == [b"format"])
     if encoding == b"ascii":
@@ -100,7 +102,7 @@ def _header(lines: list[bytes], elements: list[Element], new: NewShape) -> list[
         ]
         old = 0 if new.is_other else elements[1].count
         after = [
-            b"element face %d" % (old + len(new.added_faces))
+            b"element face %d" % (old + len(new.added_polygons))
             if line.split()[:2] == [b"element", b"face"]
             else line
             for line in after
@@ -144,8 +146,9 @@ def _text_body(body: bytes, elements: list[Element], new: NewShape) -> bytes:
             for row in zip(*map(texts, new.face_arrays.values()))
         ]
         text += b"".join(
-            b"3 %d %d %d%s\n" % (*face, rest[f] if rest else b"")
-            for f, face in enumerate(new.added_faces.tolist())
+            b"%d %s%s\n"
+            % (len(corners), b" ".join(map(b"%d".__mod__, corners)), rest[row] if rest else b"")
+            for row, corners in new.added_polygons
         )
     return text
 
@@ -190,13 +193,6 @@ def _binary_faces(elements: list[Element], new: NewShape, order: str) -> bytes:
     if not len(new.added_faces):
         return b""
     _, length, corner, _ = elements[1].properties[0]
-    row = [
-        ("count", order + TYPES[length.decode()]),
-        ("corners", order + TYPES[corner.decode()], (3,)),
-    ]
-    row += [(name, order + _KINDS[values.dtype.kind]) for name, values in new.face_arrays.items()]
-    made = np.empty(len(new.added_faces), row)
-    made["count"], made["corners"] = 3, new.added_faces
-    for name, values in new.face_arrays.items():
-        made[name] = values
-    return made.tobytes()
+    polygons = None if new.polygons is None else new.polygons[new.old_faces :]
+    kinds = (order + TYPES[kind.decode()] for kind in (length, corner))
+    return face_rows(new.added_faces, polygons, list(new.face_arrays.values()), *kinds)[1]
