@@ -12,8 +12,10 @@ PyVista finds it by itself where symsurf is installed.
 from __future__ import annotations
 
 import os
+from hashlib import blake2b
 from typing import Any
 
+import numpy as np
 import pyvista
 
 from . import shape_analyses
@@ -32,10 +34,19 @@ class Symmetry:
 
     def __init__(self, mesh: pyvista.DataSet) -> None:
         self._mesh = mesh
-        self.result: Result | None = None
-        """What the last ``detect`` found."""
+        self._result: Result | None = None
+        self._found_for = b""  # a digest of the points and cells
         self.analysis: AnalysisResult | None = None
         """What the last analysis found, such as ``symmetries``: planes, axes, transformations."""
+
+    @property
+    def result(self) -> Result | None:
+        """What the last ``detect`` found, or an operation that found its mirror first."""
+        return self._result
+
+    @result.setter
+    def result(self, result: Result | None) -> None:
+        self._result, self._found_for = result, _digest(self._mesh)
 
     def detect(self, method: str = "auto", **options: Any) -> Result:
         """Finds the mirror; options, result and errors are those of ``symsurf.detect``.
@@ -52,14 +63,16 @@ class Symmetry:
 
         path: a PNG to write off-screen; without it a window opens.
         """
-        result = self.detect(**options) if options or self.result is None else self.result
+        result = self._current()
+        if options or result is None:
+            result = self.detect(**options)
         return result.plot(path)
 
     def asymmetry(self, **options: Any) -> pyvista.DataSet:
         """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
-        ``field_data``. Over the mirror last detected, or the one that is found first, or ``result``;
-        options and errors are those of the function. The other operations likewise; where they move points, the
-        copy has no normals."""
+        ``field_data``. Over ``result``, or the mirror last detected if points and cells are still
+        the same, or the one that is found first; options and errors are those of the function. The
+        other operations likewise; where they move points, the copy has no normals."""
         return self._operated("asymmetry", options)
 
     def correspondences(self, **options: Any) -> pyvista.DataSet:
@@ -137,7 +150,17 @@ class Symmetry:
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         self._require_points(name)
-        return operate(name, self._mesh, **{"result": self.result} | options).like(self._mesh)
+        if not options.keys() & {"result", "symmetry", "method", "seed"}:
+            options = options | {"result": self._current()}
+        made = operate(name, self._mesh, **options)
+        if made.found is not None:
+            self.result = made.found
+        return made.like(self._mesh)
+
+    def _current(self) -> Result | None:
+        """What was found of the mesh as it is now."""
+        is_same = self._result is not None and self._found_for == _digest(self._mesh)
+        return self._result if is_same else None
 
     def _require_points(self, name: str) -> None:
         if is_grid(self._mesh):
@@ -145,3 +168,13 @@ class Symmetry:
                 f"{name} takes the points of a surface or a cloud; {type(self._mesh).__name__} has "
                 "none: give a surface of it, such as contour()"
             )
+
+
+def _digest(mesh: pyvista.DataSet) -> bytes:
+    """Of the points and cells; of a grid, whose points are many and stay, nothing."""
+    digest = blake2b()
+    if not is_grid(mesh):
+        cells = [getattr(mesh, name, ()) for name in ("faces", "strips", "cells")]
+        for values in (mesh.points, *cells):
+            digest.update(np.ascontiguousarray(values).tobytes())
+    return digest.digest()

@@ -92,7 +92,7 @@ def test_points_of_grids_are_where_pyvista_has_them(kind, of_cells):
     data["value"] = rng.normal(size=count)
     expected = grid.cell_centers().points if of_cells else grid.points
     chosen = np.asarray(data["value"]) > 0.2
-    points = chosen_points(grid, Reading(0.2, scalars="value"))
+    points = chosen_points(grid, Reading(threshold=0.2, scalars="value"))
     assert points.flags.c_contiguous and points.dtype == float
     np.testing.assert_allclose(points, expected[chosen], rtol=1e-12, atol=1e-12)
 

@@ -412,7 +412,13 @@ def test_time_left(elapsed, fraction, says):
 
 
 def test_settings_name_what_was_chosen():
-    task = FileTask("a.xyz", "align", "plane", {"axis": "y", "up": np.array([0.0, 0.0, 1.0])}, 0, 3)
+    task = FileTask(
+        "a.xyz",
+        "align",
+        {"axis": "y", "up": np.array([0.0, 0.0, 1.0])},
+        threads=3,
+        method="plane",
+    )
     assert task.settings == 'align axis="y" method="plane" up=[0.0, 0.0, 1.0]'
     assert FileTask("b.xyz", threshold=0.5, label=3).settings == "detect label=3 threshold=0.5"
     row = next(symsurf.batch(["none.xyz"], "align", axis="y"))

@@ -1,28 +1,99 @@
-"""The options that functions, commands and filters share."""
+"""The options that functions, commands and filters share, each described once."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+import textwrap
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, TypeAlias, TypeVar
+
+from .._core import methods
 
 
-@dataclass(frozen=True)
+def _option(default: Any, doc: str, metavar: str = "") -> Any:
+    return field(default=default, metadata={"doc": doc, "metavar": metavar})
+
+
+@dataclass(frozen=True, kw_only=True)
 class Reading:
-    """How a file, or a grid, becomes points."""
+    """How a file or a grid becomes points."""
 
-    threshold: float | None = None
-    """Of a mask or an image, the number that the values of the points to take are above."""
-    label: int | str | None = None
-    """Of a map of labels, the value of the points to take; a text is the name of a segment."""
-    scalars: str | None = None
-    """The name of the values, of data that have several."""
-    external_files: bool = False
-    """Whether files that a file names may lie anywhere, and not only beside and below it."""
+    threshold: float | None = _option(
+        None,
+        "of a mask or an image: its points are the voxels whose value is above this number; a mask of "
+        "two values needs none",
+        "NUMBER",
+    )
+    label: int | str | None = _option(
+        None,
+        "of a map of labels: its points are the voxels with this value, in place of a threshold; of a "
+        "segmentation of 3D Slicer (seg.nrrd) it may be the name of a segment",
+        "NUMBER",
+    )
+    scalars: str | None = _option(
+        None,
+        "of an image with several values: the name of those that threshold and label are about; "
+        "without it the active ones",
+        "NAME",
+    )
+    external_files: bool = _option(
+        False,
+        "let the files that a file names (of glTF, NRRD, PVTP and VTKHDF) lie anywhere; otherwise they "
+        "lie beside it or below, links followed, and of VTKHDF there are none",
+    )
 
     def of_image(self) -> dict[str, Any]:
         """What chooses points of an image, where it is given, by its name."""
         return {
             name: value
-            for name, value in vars(self).items()
+            for name, value in part(Reading, self).items()
             if name != "external_files" and value is not None
         }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """How a mirror is found."""
+
+    method: str = _option("auto", f"what finds the mirror, one of {', '.join(methods())}", "M")
+    seed: int = _option(0, "random seed, of the randomized methods; [0, 2^64)", "N")
+    nonfinite: str = _option(
+        "skip",
+        '"skip": points with a NaN or infinite coordinate are left out, and have no partners; '
+        '"refuse": they are an error',
+        "WORD",
+    )
+
+
+Options: TypeAlias = type[Reading] | type[Search]
+
+
+def part(kind: Options, source: object) -> dict[str, Any]:
+    """What an object or a mapping has of these options, by their names."""
+    if isinstance(source, Mapping):
+        return {each.name: source[each.name] for each in fields(kind) if each.name in source}
+    return {each.name: getattr(source, each.name) for each in fields(kind)}
+
+
+def documentation(kind: Options) -> dict[str, str]:
+    """What each is, by its name."""
+    return {each.name: each.metadata["doc"] for each in fields(kind)}
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def documented(function: Function) -> Function:
+    """The function, in whose documentation "{Reading}" and "{Search}" on lines of their own are the
+    descriptions of these options."""
+    kinds: tuple[Options, ...] = (Reading, Search)
+    for kind in kinds:
+        texts = [f"{name}: {text}." for name, text in documentation(kind).items()]
+        lines = [
+            textwrap.fill(text, 96, initial_indent=" " * 8, subsequent_indent=" " * 12)
+            for text in texts
+        ]
+        function.__doc__ = (function.__doc__ or "").replace(
+            f"        {{{kind.__name__}}}", "\n".join(lines)
+        )
+    return function

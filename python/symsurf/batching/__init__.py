@@ -10,6 +10,7 @@ from typing import Any
 
 from .. import _core
 from .._core import InvalidParameter
+from ..base.options import Reading, Search, documented, part
 from ..reading import files_in
 from ..saving.output_files import output_files
 from ..saving.shape_files import output_suffix
@@ -20,6 +21,7 @@ from .running import records
 __all__ = ["batch"]
 
 
+@documented
 def batch(
     files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     operation: str = DETECT,
@@ -31,8 +33,12 @@ def batch(
     threads: int = 0,
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
+    seed: int = 0,
+    nonfinite: str = "skip",
     threshold: float | None = None,
     label: int | str | None = None,
+    scalars: str | None = None,
+    external_files: bool = False,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
     """Finds the mirror of each of many files, and does the operation with it.
@@ -44,10 +50,9 @@ def batch(
         operation: "detect", or the name of one of ``operations()``.
         executor: of ``concurrent.futures``, or one that is like those, such as Dask's
             ``Client.get_executor()``. Its workers must see the files under the same names.
-            Without one ``jobs`` processes work, which import the caller's script: as
-            ``multiprocessing`` asks, that keeps its own work below ``if __name__ == "__main__":``.
-        jobs: how many files are worked on at once; with 1 in this process.
-        method: what finds the mirrors, one of ``methods()``.
+        jobs: how many files are worked on at once, each in a process that imports nothing of the
+            caller's script; with 1 in this process.
+        {Search}
         require_found: a mirror with the verdict "none" is an error of its file; otherwise an
             operation uses it, and "verdict" of the row says so.
         threads: for each file; 0: all there are, divided among the jobs, and one with an executor.
@@ -56,7 +61,7 @@ def batch(
             in PLY where that cannot hold what the operation gives each point; of "detect" a small
             JSON file each.
         unit: of the coordinates, such as "mm": a label for the rows.
-        threshold, label: of masks and images; see ``read``.
+        {Reading}
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
@@ -72,6 +77,7 @@ def batch(
         InvalidParameter: an unknown operation, method or parameter, or a value out of its range;
             ``jobs`` beside an executor; two files of one name with an output folder.
     """
+    options = part(Reading, locals()) | part(Search, locals())
     given = [files] if isinstance(files, (str, os.PathLike)) else files
     paths = files_in(Path(file) for file in given)
     require_operation(operation)
@@ -88,13 +94,11 @@ def batch(
         FileTask(
             path,
             operation,
-            method,
             dict(parameters),
             require_found=require_found,
             threads=each,
             unit=unit,
-            threshold=threshold,
-            label=label,
+            **options,
             outputs=tuple(outputs.get(path, ())),
         )
         for path in paths

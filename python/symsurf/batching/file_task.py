@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter, Mirror, analyses, needs_mirror
+from ..base.options import Reading, Search, part
 from ..base.plain import plain
-from ..detection import Progress, detect
+from ..base.progress import Progress, share
+from ..detection import detect
 from ..detection.chunks import detect_chunks
 from ..detection.sampling import downsample
-from ..mirror_operations.operate import operate
+from ..mirror_operations.operate import FOUND_AT, operate
 from ..reading import read, suffix_of
 from ..reading.in_chunks import chunks_of, is_chunked
 from ..reading.inputs import InputWarning, nonfinite_message
@@ -50,19 +52,16 @@ Record = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class FileTask:
+class FileTask(Reading, Search):
     """A file and what is done with it. It pickles: another process can do it."""
 
     file: Path
     """For ``content`` the name that records and outputs have."""
     operation: str = DETECT
     """Or the name of one of ``operations()`` or ``analyses()``."""
-    method: str = "auto"
     parameters: dict[str, Any] = field(default_factory=dict)
     """Those of the operation or the analysis, and of the method where only the mirror is found."""
-    seed: int = 0
     threads: int = 0
-    nonfinite: str = "skip"
     require_found: bool = False
     """Of an operation: a mirror with the verdict "none" is an error."""
     mirror: Mirror | None = None
@@ -79,10 +78,6 @@ class FileTask:
     """Of the file; without it its suffix tells."""
     content: bytes | None = None
     """What is read in place of a file, such as standard input; it needs ``input_format``."""
-    threshold: float | None = None
-    """Of a mask or an image."""
-    label: int | str | None = None
-    """Of a map of labels."""
     unit: str = ""
     """Of the coordinates: a label."""
     outputs: tuple[Path, ...] = ()
@@ -154,7 +149,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         _detect_in_chunks(task, record, progress)
         return
     given = task.file if task.content is None else _Content(task.content, str(task.file))
-    shape = read(given, task.input_format, threshold=task.threshold, label=task.label)
+    shape = read(given, task.input_format, **part(Reading, task))
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     if task.use_normals and shape.normals is None:
@@ -166,19 +161,18 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.operation != DETECT and (task.mirror is not None or not _needs_mirror(task)):
         given_mirror = mirror_record(task.mirror)
         record |= {"verdict": None, "reason": None, "mirror": given_mirror, "score": None}
-        _operate(task, shape, task.mirror, record)
+        _operate(task, shape, task.mirror, record, progress)
         return
     parameters = task.parameters if task.operation == DETECT else {}
+    found_at = 1 if task.operation == DETECT else FOUND_AT
     found = detect(
         shape.points,
-        task.method,
         faces=shape.faces,
         use_faces=task.use_faces,
         normals=shape.normals if task.use_normals else None,
-        nonfinite=task.nonfinite,
-        seed=task.seed,
         threads=task.threads,
-        progress=progress,
+        progress=share(progress, 0, found_at),
+        **part(Search, task),
         **parameters,
     )
     if left_out := found.statistics.get("nonfinite_points", 0):
@@ -191,7 +185,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         if warning:
             notices.append(warning)
         record.pop("candidates")
-        _operate(task, shape, mirror, record)
+        _operate(task, shape, mirror, record, share(progress, found_at, 1))
 
 
 def _is_read_in_chunks(task: FileTask) -> bool:
@@ -200,8 +194,7 @@ def _is_read_in_chunks(task: FileTask) -> bool:
         "use_normals": task.use_normals,
         "downsample": task.downsample is not None,
         "input_format": task.input_format is not None,
-        "threshold": task.threshold is not None,
-        "label": task.label is not None,
+        **dict.fromkeys(task.of_image(), True),
     }
     for name, is_given in needs_all.items():
         if is_given and task.in_chunks:
@@ -225,10 +218,10 @@ def _is_large(file: Path) -> bool:
 def _detect_in_chunks(task: FileTask, record: Record, progress: Progress | None) -> None:
     found = detect_chunks(
         task.file,
-        task.method,
-        seed=task.seed,
+        external_files=task.external_files,
         threads=task.threads,
         progress=progress,
+        **part(Search, task),
         **task.parameters,
     )
     thinned = np.asarray(found.points)
@@ -237,8 +230,6 @@ def _detect_in_chunks(task: FileTask, record: Record, progress: Progress | None)
         f"read in chunks, and {found.point_count} points thinned to {len(thinned)}"
     )
     if left_out := found.statistics.get("nonfinite_points", 0):
-        if task.nonfinite == "refuse":
-            raise InvalidInput(f"{left_out} points are not finite")
         record["notices"].append(nonfinite_message(left_out))
     record |= about(found)
     _write(task, Shape(thinned), found, record, points=task.file)
@@ -269,8 +260,18 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
     _write(task, shape, found, record)
 
 
-def _operate(task: FileTask, shape: Shape, mirror: Mirror | None, record: Record) -> None:
-    result = operate(task.operation, shape, mirror, threads=task.threads, **task.parameters)
+def _operate(
+    task: FileTask, shape: Shape, mirror: Mirror | None, record: Record, progress: Progress | None
+) -> None:
+    result = operate(
+        task.operation,
+        shape,
+        mirror,
+        nonfinite=task.nonfinite,
+        threads=task.threads,
+        progress=progress,
+        **task.parameters,
+    )
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
     _write(task, shape, result, record)
 
@@ -297,7 +298,13 @@ def _write(
             elif isinstance(found, Result) and output.name.endswith(SUMMARY_SUFFIX):
                 write_whole(output, record_bytes(record))
             elif isinstance(found, Result) and output.name.endswith(MATCHES_SUFFIX):
-                save_matches(output, points, found, threads=task.threads)
+                save_matches(
+                    output,
+                    points,
+                    found,
+                    external_files=task.external_files,
+                    threads=task.threads,
+                )
             else:
                 found.save(output)
     except (InvalidInput, InvalidParameter, ImportError, OSError, MemoryError):

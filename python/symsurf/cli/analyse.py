@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import Analysis, InvalidParameter
+from ..base.options import Search
 from ..batching.file_task import FileTask, Record
 from ..results import Symmetries
 from ..saving import ANALYSIS_FORMATS
@@ -25,6 +26,7 @@ from .batch_options import (
     worked_on,
 )
 from .described_options import add_parameters, given_values
+from .shared_options import add_options
 from .terminal import printable, say
 from .values import shown
 
@@ -69,6 +71,7 @@ class AnalysisCommand:
                 help=f"print one JSON object: for each file {content}",
             )
         add_batch_options(parser)
+        add_options(parser, Search, ["nonfinite"])
         add_absolute(parser)
         add_parameters(parser, self._analysis)
 

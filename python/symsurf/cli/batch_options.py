@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter, require_found_parameter
+from ..base.options import Reading, Search
 from ..batching import require_jobs, threads_of_each
 from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, perform
 from ..batching.growing_table import GrowingTable
@@ -24,8 +25,9 @@ from ..saving.output_files import output_files
 from ..saving.sole_writer import sole_writer
 from .output_paths import require_apart, require_suffix
 from .progress_bar import ProgressBar
+from .shared_options import add_options, given_options
 from .terminal import complain, printable, say, standard_input
-from .values import number, whole
+from .values import whole
 
 STANDARD_INPUT = Path("-")
 
@@ -43,16 +45,7 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         metavar="WORD",
         help="of the files, such as ply or ply.gz, in place of their suffixes; standard input needs it",
     )
-    parser.add_argument(
-        "--threshold",
-        metavar="NUMBER",
-        help="of images: the voxels above it are the points; a mask of two values needs none",
-    )
-    parser.add_argument(
-        "--label",
-        metavar="NUMBER",
-        help="of maps of labels: the voxels with it are the points; of seg.nrrd also a segment's name",
-    )
+    add_options(parser, Reading)
 
 
 def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
@@ -62,9 +55,8 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
     asked = FileTask(
         Path(),
         input_format=input_format,
-        threshold=None if arguments.threshold is None else number(arguments.threshold),
-        label=_label(arguments.label),
         unit=arguments.unit,
+        **given_options(arguments),
     )
     tasks = []
     for path in files_in(arguments.files):
@@ -76,10 +68,6 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
             content = standard_input()
             tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
     return tasks
-
-
-def _label(text: str | None) -> int | str | None:
-    return int(text) if text is not None and text.lstrip("-").isdecimal() else text
 
 
 def add_batch_options(parser: argparse.ArgumentParser) -> None:
@@ -119,9 +107,7 @@ def add_table_options(parser: argparse.ArgumentParser) -> None:
 
 def add_mirror_options(parser: argparse.ArgumentParser) -> None:
     """How the mirror of an operation is found."""
-    parser.add_argument(
-        "--method", default="auto", metavar="M", help="what finds the mirror; default auto"
-    )
+    add_options(parser, Search)
     parser.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
 
 

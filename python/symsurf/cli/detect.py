@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
+from ..base.options import Search
 from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
 from .batch_options import (
@@ -21,8 +22,9 @@ from .batch_options import (
     run_tasks,
 )
 from .method_options import add_method_options, given_parameters
+from .shared_options import add_options
 from .terminal import printable
-from .values import shown, whole
+from .values import shown
 
 SUMMARY = "Finds the mirror of each file."
 
@@ -51,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"more than {LARGE / 1e6:.0f} million points are read so anyway",
     )
     add_batch_options(parser)
-    parser.add_argument("--seed", default="0", metavar="N", help="of the methods that draw lots")
+    add_options(parser, Search)
     parser.add_argument(
         "--use-normals",
         action="store_true",
@@ -59,12 +61,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
-    )
-    parser.add_argument(
-        "--nonfinite",
-        default="skip",
-        metavar="WORD",
-        help="what to do with points that are not finite: skip or refuse; default %(default)s",
     )
     parser.add_argument(
         "--downsample",
@@ -87,11 +83,8 @@ def run(arguments: argparse.Namespace) -> int:
     tasks = [
         replace(
             task,
-            method=arguments.method,
             parameters=given_parameters(arguments) | arguments.absolute,
-            seed=whole(arguments.seed),
             threads=threads,
-            nonfinite=arguments.nonfinite,
             use_faces=not arguments.ignore_faces,
             use_normals=arguments.use_normals,
             in_chunks=arguments.in_chunks,

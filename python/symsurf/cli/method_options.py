@@ -13,10 +13,7 @@ _PREFIX = "parameter:"
 
 
 def add_method_options(parser: argparse.ArgumentParser) -> None:
-    """--method, and one option for each parameter that any method has."""
-    parser.add_argument(
-        "--method", default="auto", metavar="M", help=f"one of: {', '.join(all_methods())}"
-    )
+    """One option for each parameter that any method has."""
     group = parser.add_argument_group("parameters of the methods")
     for name, owners in _owners().items():
         group.add_argument(

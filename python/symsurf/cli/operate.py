@@ -7,7 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from .._core import Operation
+from ..base.options import Search, part
 from ..batching.file_task import Record
+from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
 from ..results.summary import figures, of_the_diagonal
 from ..saving import SHAPE_FORMATS
@@ -23,6 +25,7 @@ from .batch_options import (
     run_tasks,
 )
 from .described_options import add_parameters, given_values
+from .shared_options import given_options
 from .terminal import printable
 from .values import shown
 
@@ -74,11 +77,12 @@ class OperationCommand:
         )
         _, threads = jobs_and_threads(arguments)
         mirror = arguments.mirror and read_mirror(arguments.mirror)
+        if mirror is not None:
+            require_no_search(Search(**part(Search, given_options(arguments))))
         tasks = [
             replace(
                 task,
                 operation=name,
-                method=arguments.method,
                 mirror=mirror,
                 require_found=arguments.require_found,
                 parameters=given_values(arguments) | arguments.absolute,

@@ -48,7 +48,6 @@ def run(arguments: argparse.Namespace) -> int:
     asked = [
         replace(
             task,
-            method=arguments.method,
             require_found=arguments.require_found,
             parameters=given_values(arguments) | arguments.absolute,
             threads=threads,

@@ -6,11 +6,14 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from ..base.lengths import as_fractions
+from ..base.options import Reading, documented, part
+from ..base.progress import Progress
 from ..reading.inputs import as_input, refuses, warn
 from ..results import Result, mirror_of
-from .summaries import Progress, summary_in, summary_statistics
+from .summaries import summary_in, summary_statistics
 
 
+@documented
 def detect(
     points: object,
     method: str = "auto",
@@ -20,7 +23,9 @@ def detect(
     normals: ArrayLike | None = None,
     nonfinite: str = "skip",
     threshold: float | None = None,
+    label: int | str | None = None,
     scalars: str | None = None,
+    external_files: bool = False,
     absolute: bool = False,
     seed: int = 0,
     threads: int = 0,
@@ -36,9 +41,9 @@ def detect(
             object with ``points`` or ``vertices``, with the ``faces`` or ``triangles`` that it has. A
             C-ordered float64 array is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
             ``StructuredGrid`` with such points) the points, or the centres of the cells, that
-            ``threshold`` chooses: ``Result.points`` are then these, and pairs are indices into
+            ``threshold`` or ``label`` chooses: ``Result.points`` are then these, and pairs are indices into
             them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
-        method: one of ``methods()``.
+        {Search}
         faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
             spread evenly over the surface find the mirror; score and candidates are those of the
             samples, pairs those of the points. The thesis's methods see the points only.
@@ -47,15 +52,10 @@ def detect(
             of a file, a shape or a mesh are not used unless they are given here. ``perpendicular``
             and ``quadric``, ``auto`` where it tries ``perpendicular``, ``separation_normals`` and
             ``normals_only`` use them in place of their own estimates; the other methods do not.
-        nonfinite: "skip": points with a NaN or infinite coordinate are left out, with an
-            ``InputWarning``, and have no partners; "refuse": they are an error.
-        threshold: of a grid or a file with an image, the number that the scalars of the points to
-            take are above. A mask of booleans or of two whole numbers needs none.
-        scalars: the name of the grid's scalars; without it the active ones.
+        {Reading}
         absolute: True: parameters that are lengths (those of the unit "diagonal") are in input
             units, in place of fractions of the diagonal of the bounding box. ``Result.parameters``
             has them as fractions.
-        seed: of the methods that draw at random; [0, 2^64).
         threads: 0 means as many as the machine has. The result does not depend on it.
         progress: called with the fraction done, on this thread; returning False cancels.
         **parameters: the method's own, by name: ``methods()[method].parameters``.
@@ -71,8 +71,9 @@ def detect(
     A point set without symmetry is no error: its result has a low score, and the verdict "none".
     """
     refuse = refuses(nonfinite)
+    reading = Reading(**part(Reading, locals()))
     summary = summary_in(points)
-    shape = as_input(points if summary is None else summary.means, faces, threshold, scalars)
+    shape = as_input(points if summary is None else summary.means, faces, reading)
     used = shape.faces if use_faces else None
     if absolute and method in _core.methods():
         described = _core.methods()[method].parameters
@@ -95,6 +96,10 @@ def match(
     *,
     tolerance: float = 0.004,
     nonfinite: str = "skip",
+    threshold: float | None = None,
+    label: int | str | None = None,
+    scalars: str | None = None,
+    external_files: bool = False,
     absolute: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
@@ -111,7 +116,7 @@ def match(
         tolerance: how unlike the two sides may be, as a fraction of the diagonal in [1e-4, 0.1]:
             where an image lies so far from the shape, across its surface, the score counts it half.
         absolute: True: ``pair_distance`` is in input units.
-        nonfinite, threads, progress: as for ``detect``.
+        nonfinite, threshold, label, scalars, external_files, threads, progress: as for ``detect``.
 
     Returns:
         A result with the score and the verdict that ``detect`` gives such a mirror, and the pairs
@@ -124,7 +129,8 @@ def match(
     """
     mirror = mirror_of(mirror)
     refuse = refuses(nonfinite)
-    shape = as_input(points)
+    reading = Reading(**part(Reading, locals()))
+    shape = as_input(points, reading=reading)
     if absolute:
         pair_distance /= _core.diagonal(shape.points, "auto", refuse)
     fields = _core.match(shape.points, mirror, pair_distance, tolerance, refuse, threads, progress)

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, PointSummary, SurfaceMatcher
 from ..base.options import Reading
+from ..base.progress import Progress, share
+from ..reading.inputs import refuses
 from ..results import Result
-from . import Progress, detect
+from . import detect
 from .sources import source_of
 from .summaries import CELLS, summarize
 
@@ -25,6 +27,7 @@ def detect_chunks(
     cells: int = CELLS,
     communicator: Any = None,
     external_files: bool = False,
+    nonfinite: str = "skip",
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -45,7 +48,7 @@ def detect_chunks(
         cells: the most cells that points are thinned to, in [64, 2^28]; 120 bytes each.
         communicator: of mpi4py, or anything else with ``allgather``: each process passes its own
             chunks, and gets the result of all.
-        external_files, seed, threads, progress: as for ``detect``.
+        external_files, nonfinite, seed, threads, progress: as for ``detect``.
         **parameters: the method's own, as for ``detect``.
 
     Returns:
@@ -59,19 +62,17 @@ def detect_chunks(
         InvalidParameter, Cancelled: as ``detect`` does.
     """
 
-    def reading(fraction: float) -> bool | None:
-        return None if progress is None else progress(_READING * fraction)
-
-    def finding(fraction: float) -> bool | None:
-        return None if progress is None else progress(_READING + (1 - _READING) * fraction)
-
+    refuse = refuses(nonfinite)
     summary = summarize(
         chunks,
         cells=cells,
         communicator=communicator,
         external_files=external_files,
-        progress=reading,
+        progress=share(progress, 0, _READING),
     )
+    if refuse and summary.nonfinite:
+        raise InvalidInput(f"{summary.nonfinite} points are not finite")
+    finding = share(progress, _READING, 1)
     return detect(summary, method, seed=seed, threads=threads, progress=finding, **parameters)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from . import Progress
+from ..base.progress import Progress
 
 
 def downsample(points: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .._core import Cancelled, PointSummary
 from ..base.options import Reading
+from ..base.progress import Progress
 from .sources import is_dask_array, source_of
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
-
-Progress = Callable[[float], "bool | None"]
 
 CELLS = PointSummary().cells
 

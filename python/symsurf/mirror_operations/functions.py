@@ -9,6 +9,7 @@ from typing import Any, cast
 
 from .._core import Operation, operations, require_found_parameter
 from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.options import Reading, Search, documentation
 from ..results.operation_results import RESULTS, OperationResult, Transferred
 from .operate import operate, with_values
 
@@ -29,6 +30,8 @@ _DOCUMENTED = {
     "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
     "bounding box; ``parameters`` of what is given back has them as fractions.",
     "require_found": f"{require_found_parameter().doc} A result that is given is refused likewise.",
+    **{name: f"{text}." for name, text in documentation(Search).items()},
+    **{name: f"{text}." for name, text in documentation(Reading).items()},
     "threads, progress": "as for ``detect``.",
 }
 

@@ -12,10 +12,15 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core
 from .._core import InvalidInput, InvalidParameter, Mirror, Parameter
 from ..base.lengths import as_fractions, diagonal_of
-from ..detection import Progress, detect
-from ..reading.inputs import Input, as_input, warn_of
+from ..base.options import Reading, Search, part
+from ..base.progress import Progress, share
+from ..detection import detect
+from ..reading.inputs import as_input, refuses, require_finite, warn_of
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.operation_results import RESULTS, require_one_a_point
+
+FOUND_AT = 0.8
+"""The share of the progress that finding the mirror takes."""
 
 
 def operate(
@@ -27,26 +32,50 @@ def operate(
     faces: ArrayLike | None = None,
     absolute: bool = False,
     require_found: bool = False,
+    method: str = "auto",
+    seed: int = 0,
+    nonfinite: str = "skip",
+    threshold: float | None = None,
+    label: int | str | None = None,
+    scalars: str | None = None,
+    external_files: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: Any,
 ) -> OperationResult:
     """Runs one of ``operations()``; arguments and errors are those of the function of that name."""
-    given = as_input(shape, faces)
+    search = Search(**part(Search, locals()))
+    reading = Reading(**part(Reading, locals()))
+    given = as_input(shape, faces, reading)
+    if refuses(nonfinite):
+        require_finite(given.points)
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         result, parameters = _named_symmetry(result, parameters)
     _require_conditions(parameters, described)
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
-    mirror = None
+    mirror, found, own = None, None, progress
+    if result is not None or not _core.needs_mirror(name, parameters):
+        require_no_search(search)
     if _core.needs_mirror(name, parameters):
-        mirror = _mirror_of(given, result, require_found, threads)
+        if result is None:
+            finding, own = share(progress, 0, FOUND_AT), share(progress, FOUND_AT, 1)
+            options = part(Search, search)
+            found = detect(
+                given.points, faces=given.faces, threads=threads, progress=finding, **options
+            )
+            mirror, warning = found_mirror(found, require_found)
+            warn_of([warning] if warning else [])
+        elif require_found and isinstance(result, Result):
+            mirror = found_mirror(result, require_found)[0]
+        else:
+            mirror = mirror_of(result, "result")
         # The way back from a straightened shape is laid out over it.
         if mirror.footprint is None and not _core.operations()[name].takes_any_mirror:
             mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
     made = _core.operate(
-        name, given.points, given.faces, mirror, _mask_of(mask), threads, progress, parameters
+        name, given.points, given.faces, mirror, _mask_of(mask), threads, own, parameters
     )
     return RESULTS[name].from_fields(
         made
@@ -55,6 +84,7 @@ def operate(
             "given_polygons": given.polygons,
             "space": given.space,
             "mirror": mirror,
+            "found": found,
         }
     )
 
@@ -132,14 +162,10 @@ def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
     return values
 
 
-def _mirror_of(
-    shape: Input, result: Result | Mirror | Axis | None, require_found: bool, threads: int
-) -> Mirror:
-    if result is None:
-        found = detect(shape.points, faces=shape.faces, threads=threads)
-        mirror, warning = found_mirror(found, require_found)
-        warn_of([warning] if warning else [])
-        return mirror
-    if require_found and isinstance(result, Result):
-        return found_mirror(result, require_found)[0]
-    return mirror_of(result, "result")
+def require_no_search(search: Search) -> None:
+    """Raises InvalidParameter where something is said of a search that is not made."""
+    for name in ("method", "seed"):
+        if (value := getattr(search, name)) != getattr(Search(), name):
+            raise InvalidParameter(
+                f"{name} is {value!r}; allowed is its default, as no mirror is searched"
+            )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import BinaryIO, cast
 
 from .._core import InvalidInput, InvalidParameter
-from ..base.options import Reading
+from ..base.options import Reading, documented, part
 from ..shapes import Shape
 from .errors import broken, naming
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
@@ -17,6 +17,7 @@ from .location import located
 __all__ = ["files_in", "known_names", "read", "require_format", "stem_of", "suffix_of"]
 
 
+@documented
 def read(
     path: str | os.PathLike[str] | BinaryIO,
     format: str | None = None,
@@ -37,20 +38,14 @@ def read(
         path: the name of a file, or a binary file that is open.
         format: "ply", "ply.gz", ...; without it the name's suffix tells. A file that is open
             needs it.
-        threshold: of an image, the number that the values of the voxels to take are above. A mask
-            of two values needs none.
-        label: of a map of labels, the value of the voxels to take, in place of a threshold; of a
-            segmentation of 3D Slicer (seg.nrrd) also the name of a segment.
-        scalars: of VTK's images, the name of the values; without it the active ones.
-        external_files: True: files that a glTF or an NRRD names may lie anywhere; else only beside and
-            below it, links followed.
+        {Reading}
 
     Raises:
         InvalidInput: names the file and the reason: unknown suffix, an optional package that is not
             installed, not readable, larger than half of the memory, broken, truncated, no points.
         InvalidParameter: an unknown format; a threshold or a label for what is no image.
     """
-    reading = Reading(threshold, label, scalars, external_files)
+    reading = Reading(**part(Reading, locals()))
     suffix = None if format is None else require_format(format)
     if hasattr(path, "read"):
         if suffix is None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter
-from ..base.options import Reading
+from ..base.options import Reading, part
 from ..shapes import Shape, objects
 from . import read
 
@@ -42,31 +42,30 @@ class Input:
 def as_input(
     given: Any,
     faces: ArrayLike | None = None,
-    threshold: float | None = None,
-    scalars: str | None = None,
+    reading: Reading | None = None,
 ) -> Input:
     """The points of a path, a data set, a mesh or an array, and their faces, where there are some.
 
     Args:
         given: see ``symsurf.detect``.
         faces: in place of those of the mesh.
-        threshold, scalars: of grids; see ``symsurf.detect``.
+        reading: of files and grids.
     """
+    reading = reading or Reading()
     if isinstance(given, (str, os.PathLike)):
-        given = read(given, threshold=threshold, scalars=scalars)
-        threshold = scalars = None
+        given = read(given, **part(Reading, reading))
+        reading = Reading()
     grid = objects.grid_of(given)
     if grid is not None:
         from ..shapes import grids
 
         if faces is not None:
             raise InvalidInput("faces are given with a grid, which has none; leave them out")
-        return Input(grids.chosen_points(grid, Reading(threshold, scalars=scalars)), None)
-    for name, value in (("threshold", threshold), ("scalars", scalars)):
-        if value is not None:
-            raise InvalidParameter(
-                f"{name} is {value!r}; allowed is None, as the input is no grid of PyVista"
-            )
+        return Input(grids.chosen_points(grid, reading), None)
+    for name, value in reading.of_image().items():
+        raise InvalidParameter(
+            f"{name} is {value!r}; allowed is None, as the input is no grid of PyVista"
+        )
     if faces is not None:
         return Input(_points(given), triangles(faces))
     parts = objects.parts_of(given)
@@ -101,6 +100,13 @@ def refuses(nonfinite: str) -> bool:
     if nonfinite not in ("skip", "refuse"):
         raise InvalidParameter(f"nonfinite is {nonfinite!r}; allowed is 'skip' or 'refuse'")
     return nonfinite == "refuse"
+
+
+def require_finite(points: Any) -> None:
+    """Raises InvalidInput, of rows that the option ``nonfinite`` refuses."""
+    count = np.count_nonzero(~np.isfinite(np.asarray(points, dtype=float)).all(axis=-1))
+    if count:
+        raise InvalidInput(f"{count} points are not finite")
 
 
 def warn(statistics: dict[str, Any]) -> None:

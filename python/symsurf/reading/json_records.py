@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, InvalidParameter, Mirror, make_mirror
 
 _CHECKED = 200  # surface points of a large result, of all alike
+# What statistics were called before 0.2.0.
+_RENAMED = {"stray_points": "outliers", "skin_points": "boundary_points"}
 _ROUNDING = 1e-6  # of the largest coordinate: far above that of any mirror's foot
 
 
@@ -23,8 +25,8 @@ def result_fields(path: str | os.PathLike[str]) -> dict[str, Any]:
     if path.suffix.lower() != ".json":
         raise InvalidParameter(f"path is {str(path)!r}; allowed is the suffix .json")
     with content_of(path, "no result that was saved") as record:
-        footprint = record["footprint"]
-        candidates = [_fields(each, footprint, []) for each in record["candidates"]]
+        footprint = record.get("footprint")  # older versions wrote none
+        candidates = [_fields(each, footprint, []) for each in record.get("candidates", [])]
         fields = _fields(record, footprint, candidates) | {"space": _space(record.get("space"))}
         _require_sound(fields)
         return fields
@@ -112,7 +114,10 @@ def _fields(
         "score": _real("score", record["score"]),
         "candidates": candidates,
         "parameters": _values(record.get("parameters", {})),
-        "statistics": _values(record.get("statistics", {})),
+        "statistics": {
+            _RENAMED.get(name, name): value
+            for name, value in _values(record.get("statistics", {})).items()
+        },
         "seconds": _real("seconds", record.get("seconds", 0.0)),
     }
 

@@ -15,6 +15,7 @@ from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
 from .elements import Axis
 from .outputs import plot, save
+from .result import Result
 from .summary import Summarised, figures, value_text
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ class OperationResult(Summarised):
     mirror: Mirror | None
     """The mirror that was used; one made by hand with the shape for its footprint. None of what is
     done about an axis."""
+    found: Result | None
+    """The detection that the mirror is of; None where it was given, or none was needed."""
     parameters: dict[str, Any]
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]
@@ -82,6 +85,7 @@ class OperationResult(Summarised):
                 else carried_polygons(faces, face_sources, images, given),
             ),
             mirror=made["mirror"],
+            found=made["found"],
             parameters=made["parameters"],
             statistics=made["statistics"],
             sources=point_sources,

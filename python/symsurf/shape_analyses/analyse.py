@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core
 from .._core import InvalidInput, InvalidParameter
 from ..base.lengths import as_fractions, diagonal_of
-from ..detection import Progress
+from ..base.options import Reading, part
+from ..base.progress import Progress
 from ..reading.inputs import as_input, refuses, warn
 from ..results.analysis_results import RESULTS, AnalysisResult
 from ..shapes import Shape
@@ -21,13 +22,18 @@ def analyse(
     faces: ArrayLike | None = None,
     colours: ArrayLike | None = None,
     nonfinite: str = "skip",
+    threshold: float | None = None,
+    label: int | str | None = None,
+    scalars: str | None = None,
+    external_files: bool = False,
     absolute: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
 ) -> AnalysisResult:
     """Runs one of ``analyses()``; arguments and errors are those of the function of that name."""
-    given = as_input(shape, faces)
+    reading = Reading(**part(Reading, locals()))
+    given = as_input(shape, faces, reading)
     if absolute:
         described = _core.analyses()[name].parameters
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))

@@ -9,6 +9,7 @@ from typing import Any
 
 from .._core import Analysis, analyses
 from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.options import Reading, Search, documentation
 from ..results.analysis_results import RESULTS, AnalysisResult
 from .analyse import analyse
 
@@ -21,8 +22,8 @@ _COLOURS = (
 _DOCUMENTED = {
     "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
     "colours": _COLOURS,
-    "nonfinite": '"skip": points with a NaN or infinite coordinate are left out, with an '
-    '``InputWarning``; "refuse": they are an error.',
+    "nonfinite": f"{documentation(Search)['nonfinite']}.",
+    **{name: f"{text}." for name, text in documentation(Reading).items()},
     "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
     "bounding box; ``parameters`` of what is given back has them as fractions.",
     "threads, progress": "as for ``detect``.",
