@@ -12,7 +12,7 @@ from ..batching.file_task import Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
 from ..results.summary import figures, of_the_diagonal
-from ..saving import SHAPE_FORMATS
+from ..saving import makes_shape, shape_formats
 from ..saving.shape_files import output_suffix
 from .batch_options import (
     add_absolute,
@@ -45,14 +45,14 @@ class OperationCommand:
             metavar="DIR",
             help="write each shape to DIR, with what the operation gives each point",
         )
-        is_in_arrays = not (self._operation.moves_points or self._operation.adds_points)
+        is_in_arrays = not makes_shape(self._operation)
         other = ", PLY for files in other formats: these hold no arrays" if is_in_arrays else ""
         parser.add_argument(
             "--format",
             default="input",
             metavar="WORD",
             help=f"of --output: input, that of the file, which is kept but for what changes{other}; "
-            f"or one of {', '.join(name[1:] for name in SHAPE_FORMATS)}: points and faces, in the first two "
+            f"or one of {', '.join(name[1:] for name in shape_formats(self._operation))}: points and faces, in the first two "
             "with arrays; default %(default)s",
         )
         add_batch_options(parser)

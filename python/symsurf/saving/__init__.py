@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from .._core import InvalidParameter
+from .._core import InvalidParameter, Operation, operations
 from ..results import AnalysisResult, Correspondences, OperationResult, Result
 from ..results.outputs import save
 from .json_format import analysis_bytes, json_bytes, operation_bytes
@@ -23,7 +23,16 @@ from .vtp_format import shape_vtp_bytes, vtp_bytes
 FORMATS = {".json": json_bytes, ".vtp": vtp_bytes, ".ply": ply_bytes, ".txt": text_bytes}
 BARE_FORMATS = (".obj", ".off", ".stl")
 """Of shapes without arrays."""
-SHAPE_FORMATS = (".ply", ".vtp", *BARE_FORMATS)
+
+
+def shape_formats(operation: Operation) -> list[str]:
+    """Those of what it makes: what gives nothing but arrays is in none without them."""
+    return [".ply", ".vtp", *(BARE_FORMATS if makes_shape(operation) else ())]
+
+
+def makes_shape(operation: Operation) -> bool:
+    """Whether there is more than arrays of the points that are given."""
+    return operation.moves_points or operation.adds_points or operation.carries_values
 
 
 def _face_arrays(result: OperationResult | AnalysisResult) -> dict[str, Any]:
@@ -62,6 +71,8 @@ def _save(
     """Writes a result in the format of the path's suffix."""
     path = Path(path)
     suffix = path.suffix.lower()
+    if isinstance(result, OperationResult) and not makes_shape(operations()[result.operation]):
+        formats = {name: made for name, made in formats.items() if name not in BARE_FORMATS}
     if suffix not in formats:
         raise InvalidParameter(
             f"path is {str(path)!r}; allowed are the suffixes {', '.join(formats)}"

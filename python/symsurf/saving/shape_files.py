@@ -17,7 +17,7 @@ from ..reading import read
 from ..reading.formats import format_of
 from ..results import OperationResult
 from ..shapes import Shape
-from . import BARE_FORMATS, SHAPE_FORMATS, write_whole
+from . import BARE_FORMATS, makes_shape, shape_formats, write_whole
 from .same_format import OTHER_REWRITERS, REWRITERS, NewShape, Rewritten, lost_arrays, plain_content
 
 _BARE = (".stl", ".xyz", ".off")  # without normals and colours they hold nothing beside
@@ -34,15 +34,15 @@ def output_suffix(
     """
     if operation not in _core.operations():
         return ".summary.json"
+    described = _core.operations()[operation]
     if format_name != "input":
-        if f".{format_name}" not in SHAPE_FORMATS:
-            allowed = ", ".join(["input", *(name[1:] for name in SHAPE_FORMATS)])
+        formats = shape_formats(described)
+        if f".{format_name}" not in formats:
+            allowed = ", ".join(["input", *(name[1:] for name in formats)])
             raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
         return f".{format_name}"
-    described = _core.operations()[operation]
-    has_shape = described.moves_points or described.adds_points or described.carries_values
     suffix = file.suffix if input_format is None else f".{input_format}"
-    is_kept = suffix.lower() in REWRITERS and has_shape
+    is_kept = suffix.lower() in REWRITERS and makes_shape(described)
     return suffix if is_kept or suffix.lower() == ".ply" else ".ply"
 
 

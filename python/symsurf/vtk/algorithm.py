@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from .._core import Cancelled, InvalidInput, InvalidParameter, Parameter
+from ..base.options import Search, documentation
 from .names import camel_case
 from .shape import shape_of
 
@@ -29,6 +30,13 @@ IMAGE_THRESHOLD = Property(
     0.5,
     "Of an image: the points whose scalar is greater are the shape; 0.5 suits masks of 0 and 1.",
 )
+IMAGE_LABEL = Property(
+    None,
+    "Of an image that is a map of labels: the points whose scalar is this number are the shape, in "
+    "place of those above image_threshold. None: those.",
+)
+SEED = Property(0, f"{documentation(Search)['seed']}.")
+REFUSE_NONFINITE = Property(False, "Whether points that are not finite are an error, not left out.")
 
 
 def described(parameters: Iterable[Parameter], prefix: str = "") -> dict[str, Property]:
@@ -56,7 +64,7 @@ class Algorithm(VTKPythonAlgorithmBase):
     ``vtkPolyData``; what its class lists in ``_properties`` can be set, and nothing else.
 
     Of point sets other than ``vtkPolyData`` the surface of their cells is the shape; of an image the
-    points whose scalar is greater than ``image_threshold``: the active scalars, or those that
+    points whose scalar is greater than ``image_threshold``, or is ``image_label``: the active scalars, or those that
     ``SetInputArrayToProcess(0, 0, 0, 0, name)`` names; of a multiblock all blocks together. Where an
     output is said to be the input, it is what comes of this.
     """
@@ -68,7 +76,11 @@ class Algorithm(VTKPythonAlgorithmBase):
     _output_count: ClassVar[int] = 1
 
     def __init_subclass__(cls) -> None:
-        cls._properties = {**cls._properties, "image_threshold": IMAGE_THRESHOLD}
+        cls._properties = {
+            **cls._properties,
+            "image_threshold": IMAGE_THRESHOLD,
+            "image_label": IMAGE_LABEL,
+        }
         for name, each in cls._properties.items():
             _add_property(cls, name, each.doc)
         for port, (name, doc) in enumerate(cls._inputs.items()):
@@ -124,7 +136,8 @@ class Algorithm(VTKPythonAlgorithmBase):
         given = [vtkDataObject.GetData(each) for each in inputs]
         made = [vtkPolyData.GetData(outputs, port) for port in range(self._output_count)]
         try:
-            shape = shape_of(given[0], self, self._options["image_threshold"])
+            scalars = self._options["image_threshold"], self._options["image_label"]
+            shape = shape_of(given[0], self, *scalars)
             self._run([shape, *given[1:]], made)
         except Cancelled:
             return 1

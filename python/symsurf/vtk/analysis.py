@@ -16,7 +16,7 @@ from ..reading.inputs import InputWarning
 from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
 from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
-from .algorithm import THREADS, Algorithm, Property, selected
+from .algorithm import REFUSE_NONFINITE, THREADS, Algorithm, Property, selected
 from .arrays import add_values, set_vertices, vtk_cells
 from .names import camel_case
 
@@ -48,9 +48,7 @@ class SymmetryAnalysis(Algorithm):
                 "The name of the point array, of any number of components, whose colours "
                 "``symmetries_texture`` compares. Empty, or None: the active scalars.",
             ),
-            "refuse_nonfinite": Property(
-                False, "Whether points that are not finite are an error, not left out."
-            ),
+            "refuse_nonfinite": REFUSE_NONFINITE,
             "number_of_threads": THREADS,
         },
     )

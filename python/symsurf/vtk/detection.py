@@ -14,7 +14,7 @@ from ..detection import detect
 from ..reading.inputs import InputWarning
 from ..results import Result
 from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
-from .algorithm import THREADS, Algorithm, Property, selected
+from .algorithm import REFUSE_NONFINITE, SEED, THREADS, Algorithm, Property, selected
 from .arrays import add_values, set_vertices, vtk_cells
 
 
@@ -53,13 +53,11 @@ class MirrorDetection(Algorithm):
                 True,
                 "Whether samples of the input's polygons find the mirror, not its points alone.",
             ),
-            "refuse_nonfinite": Property(
-                False, "Whether points that are not finite are an error, not left out."
-            ),
+            "refuse_nonfinite": REFUSE_NONFINITE,
             "show_candidates": Property(
                 False, "Whether the output Mirror has the triangles of the candidates too."
             ),
-            "seed": Property(0, "Seed of the methods that draw at random."),
+            "seed": SEED,
             "number_of_threads": THREADS,
         },
     )

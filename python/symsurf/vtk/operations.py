@@ -23,10 +23,10 @@ from .._core import (
     require_found_parameter,
 )
 from ..detection import detect
-from ..reading.inputs import InputWarning
+from ..reading.inputs import InputWarning, require_finite
 from ..results import found_mirror
 from ..shapes.poly_data import Faces, faces_of, points_of, vtk_points
-from .algorithm import THREADS, Algorithm, Property, described
+from .algorithm import REFUSE_NONFINITE, SEED, THREADS, Algorithm, Property, described
 from .arrays import (
     add_values,
     blend_rows,
@@ -70,6 +70,8 @@ class MirrorOperation(Algorithm):
         shape, given = inputs
         options, operation = self._options, self.operation
         points, faces = points_of(shape), faces_of(shape)
+        if options["refuse_nonfinite"]:
+            require_finite(points)
         mask = _mask_of(shape, options["mask_array"]) if operation.takes_mask else None
         parameters = {each.name: options[each.name] for each in operation.parameters}
         mirror: Mirror | None = None
@@ -98,6 +100,7 @@ class MirrorOperation(Algorithm):
             result = detect(
                 points,
                 self._options["method"],
+                seed=self._options["seed"],
                 faces=faces.corners,
                 threads=self._options["number_of_threads"],
                 progress=lambda fraction: self._progress(_FOUND_AT * fraction),
@@ -292,6 +295,7 @@ def _filter(operation: Operation) -> type[MirrorOperation]:
         "How the mirror is found where none is connected, with the parameters that are there "
         f"initially. One of: {', '.join(methods())}",
     )
+    properties |= {"seed": SEED, "refuse_nonfinite": REFUSE_NONFINITE}
     properties |= described([require_found_parameter()])
     properties["number_of_threads"] = THREADS
     members: dict[str, Any] = {

@@ -24,10 +24,13 @@ from ..shapes.poly_data import require_points, require_sound_cells
 
 
 def shape_of(
-    data: vtkDataObject | None, algorithm: vtkAlgorithm, image_threshold: float
+    data: vtkDataObject | None,
+    algorithm: vtkAlgorithm,
+    image_threshold: float,
+    image_label: float | None = None,
 ) -> vtkPolyData | None:
     """Poly data as they are; the surface of other point sets' cells, or their points where they have
-    none; of an image the points whose scalar is greater; all blocks of a composite as one shape.
+    none; of an image the points whose scalar is greater, or is the label; all blocks of a composite as one shape.
 
     algorithm: its input array to process 0 says which scalars. Raises InvalidInput, also where a
     cell names a point that is not there.
@@ -40,9 +43,9 @@ def shape_of(
     if isinstance(data, vtkPointSet):
         return _surface_of(data)
     if isinstance(data, (vtkImageData, vtkRectilinearGrid)):
-        return _points_above(data, algorithm, image_threshold)
+        return _chosen_points(data, algorithm, image_threshold, image_label)
     if isinstance(data, vtkCompositeDataSet):
-        return _joined_blocks(data, algorithm, image_threshold)
+        return _joined_blocks(data, algorithm, image_threshold, image_label)
     raise InvalidInput(
         f"the input is a {data.GetClassName()}; allowed are vtkPolyData and other point sets, images "
         "and composites of these"
@@ -62,7 +65,9 @@ def _surface_of(data: vtkPointSet) -> vtkPolyData:
     return _made(vtkGeometryFilter(), data)
 
 
-def _points_above(image: Any, algorithm: vtkAlgorithm, threshold: float) -> vtkPolyData:
+def _chosen_points(
+    image: Any, algorithm: vtkAlgorithm, threshold: float, label: float | None
+) -> vtkPolyData:
     if image.GetNumberOfPoints() == 0:
         return vtkPolyData()
     kind = image.GetClassName()
@@ -83,25 +88,27 @@ def _points_above(image: Any, algorithm: vtkAlgorithm, threshold: float) -> vtkP
     copy.ShallowCopy(image)
     if name:
         copy.GetPointData().SetActiveScalars(name)
-    above = vtkThresholdPoints()
-    above.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    chosen = vtkThresholdPoints()
+    chosen.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
     least = math.nextafter(threshold, math.inf)  # it takes equal values, too
-    if hasattr(above, "SetThresholdFunction"):
-        above.SetThresholdFunction(above.THRESHOLD_UPPER)
-        above.SetUpperThreshold(least)
+    lower, upper = (least, math.inf) if label is None else (label, label)
+    if hasattr(chosen, "SetThresholdFunction"):
+        chosen.SetThresholdFunction(chosen.THRESHOLD_BETWEEN)
+        chosen.SetLowerThreshold(lower)
+        chosen.SetUpperThreshold(upper)
     else:  # before VTK 9.6
-        above.ThresholdByUpper(least)
-    return _made(above, copy)
+        chosen.ThresholdBetween(lower, upper)
+    return _made(chosen, copy)
 
 
 def _joined_blocks(
-    data: vtkCompositeDataSet, algorithm: vtkAlgorithm, threshold: float
+    data: vtkCompositeDataSet, algorithm: vtkAlgorithm, threshold: float, label: float | None
 ) -> vtkPolyData:
     joined = vtkAppendPolyData()
     block = data.NewIterator()
     block.InitTraversal()
     while not block.IsDoneWithTraversal():
-        joined.AddInputData(shape_of(block.GetCurrentDataObject(), algorithm, threshold))
+        joined.AddInputData(shape_of(block.GetCurrentDataObject(), algorithm, threshold, label))
         block.GoToNextItem()
     if joined.GetNumberOfInputConnections(0) == 0:
         return vtkPolyData()
