@@ -1,8 +1,10 @@
-"""Fuzzes symsurf from Python. Usage: python tests/fuzz/python [--first SEED] [--count N] [--points N] [--log FILE]
+"""Fuzzes symsurf from Python. Usage: python tests/fuzz/python [--files] [--first SEED] [--count N] [--points N] [--log FILE]
 
 Each call is made in a process with 2 GB and 20 s of a processor. A finding, a line of the log, is a
 process that dies, an exception but the documented ones, a number that is none, a call that takes
-longer, and a kind of call that is always refused. ``--show SEED`` makes one call here, and writes its points and faces to ``--output``."""
+longer, and a kind of call that is always refused. With ``--files`` the calls read damaged files.
+``--show SEED`` makes one call here, and writes its points and faces, or the bytes of its file, to
+``--output``."""
 
 from __future__ import annotations
 
@@ -15,8 +17,10 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from select import select
+from typing import Any
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # each asks for memory
 sys.path.insert(0, str(Path(__file__).parent))
@@ -30,6 +34,7 @@ REFUSALS = 10
 
 def main() -> int:
     parser = argparse.ArgumentParser()
+    parser.add_argument("--files", action="store_true")
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=9000)
     parser.add_argument("--points", type=int, default=2000, help="at most, of each cloud")
@@ -39,18 +44,18 @@ def main() -> int:
     parser.add_argument("--work", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.work:
-        return work(range(given.first, given.first + given.count), given.points)
+        return work(range(given.first, given.first + given.count), given.points, given.files)
     if given.show is not None:
-        return show(given.show, given.points, given.output)
-    return watch(given.first, given.first + given.count, given.points, given.log)
+        return show(given.show, given.points, given.output, given.files)
+    return watch(given.first, given.first + given.count, given.points, given.log, given.files)
 
 
-def watch(first: int, end: int, points: int, log: Path | None) -> int:
+def watch(first: int, end: int, points: int, log: Path | None, files: bool) -> int:
     """Has all seeds worked on: after one that ends the process by another."""
     findings, done, refused = 0, Counter[str](), Counter[str]()
     while first < end:
         seed = kind = words = ""
-        with started(range(first, end), points) as child:
+        with started(range(first, end), points, files) as child:
             for line in lines_of(child):
                 what, rest = line.split(" ", 1)
                 if what == "begin":
@@ -79,8 +84,9 @@ def watch(first: int, end: int, points: int, log: Path | None) -> int:
     return 1 if findings else 0
 
 
-def started(seeds: range, points: int) -> subprocess.Popen[bytes]:
+def started(seeds: range, points: int, files: bool) -> subprocess.Popen[bytes]:
     words = ["--work", f"--first={seeds.start}", f"--count={len(seeds)}", f"--points={points}"]
+    words += ["--files"] * files
     return subprocess.Popen([sys.executable, __file__, *words], stdout=subprocess.PIPE)
 
 
@@ -110,13 +116,12 @@ def tell(line: str, log: Path | None) -> None:
             print(line, file=file)
 
 
-def work(seeds: range, points: int) -> int:
+def work(seeds: range, points: int, files: bool) -> int:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    from cases import Case
-
+    make_case = maker(points, files)
     signal.signal(signal.SIGPROF, signal.SIG_DFL)  # which ends the process
     for seed in seeds:
-        case = Case(seed, points, lambda words: say("call", words))
+        case = make_case(seed, tell=lambda words: say("call", words))
         say("begin", f"{seed} {case.kind}")
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
         began = time.process_time()
@@ -132,14 +137,23 @@ def work(seeds: range, points: int) -> int:
     return 0
 
 
+def maker(points: int, files: bool) -> Any:
+    """What makes a case of a seed and of what it is to be told."""
+    if files:
+        from files import Case as FileCase
+
+        return FileCase
+    import cases
+
+    return partial(cases.Case, most=points)
+
+
 def say(what: str, words: str) -> None:
     print(what, " ".join(words.split()), flush=True)
 
 
-def show(seed: int, points: int, output: Path | None) -> int:
-    from cases import Case
-
-    case = Case(seed, points, print)
+def show(seed: int, points: int, output: Path | None, files: bool) -> int:
+    case = maker(points, files)(seed, tell=print)
     if output is not None:
         import numpy
 

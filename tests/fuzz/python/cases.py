@@ -14,7 +14,7 @@ import symsurf
 from symsurf.mirror_operations.operate import operate
 
 ALLOWED = (symsurf.InvalidInput, symsurf.InvalidParameter, symsurf.Cancelled)
-KINDS = ("detect",) * 5 + ("operate",) * 3 + ("analyse",)
+KINDS = ("detect", "operate", "detect", "operate", "detect", "analyse")
 # It tries each pair of many centres and radii, as the thesis does, and is drawn seldom.
 SLOW_METHOD = "sphere_thesis"
 # What is not known of points without a counterpart or a reflection, and is infinite in a focus.
@@ -34,7 +34,7 @@ class Case:
         random = np.random.default_rng(seed)
         self.call = KINDS[seed % len(KINDS)]
         self.points = cloud(random, most)
-        self.faces = faces(random, len(self.points))
+        self.faces = faces(random, len(self.points), is_mesh=self.call != "detect")
         self.kind = f"{self.call}-{'cloud' if self.faces is None else 'mesh'}"
         self.random = random
         self.words = f"{len(self.points)} points"

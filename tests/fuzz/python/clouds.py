@@ -21,9 +21,12 @@ def cloud(random: Random, most: int) -> Points:
     return points[:most]
 
 
-def faces(random: Random, count: int) -> NDArray[np.int64] | None:
-    """Triangles between so many points: none, any, or those of a strip."""
+def faces(random: Random, count: int, is_mesh: bool) -> NDArray[np.int64] | None:
+    """Triangles between so many points: none, seldom where it should be a mesh, any, or those of a
+    strip."""
     kind = random.integers(4)
+    if is_mesh and kind < 2:
+        kind = random.integers(1, 4)
     if kind < 2 or count < 4:
         return None
     if kind == 2:
