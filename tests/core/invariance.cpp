@@ -151,7 +151,7 @@ class Invariance : public testing::TestWithParam<TestCloud> {
 TEST_P(Invariance, OfMirrorAndScoreUnderOrderPoseScaleAndCopies) {
   const Points& points = cloud.points;
   const Points twice = shuffled.replicate(2, 1);
-  const Similarity moved{rotation, 1e-6, Vector3(1, -1, 1)};
+  const Similarity moved{rotation, 1e-6, 1e-6 * Vector3(1, -1, 1)};
   for (const std::string& method : cloud.methods) {
     const Result result = detect(points, {.method = method});
     const auto check = [&](const std::string& change, const Similarity& by) {
