@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloud/principal_frame.h"
+#include "fit/gauss_newton.h"
 #include "fit/shapes.h"
 #include "random_cloud.h"
 
@@ -59,13 +60,13 @@ TEST(UnitSphere, IsFoundFromItsPairsInAFewSteps) {
       const Points cloud = 0.4 * random.box(30);
       UnitSphere sphere = truth.changed({0.05, -0.04, 0.03, 0.1});
       for (int step = 0; step < 6; ++step) {
-        SphereStep sum(sphere);
+        GaussNewton<UnitSphere> sum;
         for (Index i = 0; i < cloud.rows(); ++i) {
           const Vector3 x = cloud.row(i);
           const Vector3 gap = sphere.reflect(x) - truth.reflect(x);
-          if (gap.allFinite()) sum.add(x, gap, Matrix3::Identity(), 1);
+          if (gap.allFinite()) sum.add(sphere, x, gap, Metric{1, 0, Vector3::Zero()}, 1);
         }
-        sphere = sum.taken();
+        sphere = sum.taken(sphere).first;
       }
       for (Index i = 0; i < cloud.rows(); ++i)
         EXPECT_NEAR(sphere.distance(cloud.row(i)), truth.distance(cloud.row(i)), 1e-13)

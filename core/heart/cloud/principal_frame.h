@@ -4,6 +4,9 @@
 #include <symsurf/mirrors.h>
 #include <symsurf/points.h>
 
+#include <Eigen/Geometry>
+#include <utility>
+
 namespace symsurf {
 
 /// The coordinate frame in which methods compute (principal component analysis): the centroid at 0,
@@ -24,11 +27,10 @@ struct PrincipalFrame {
 /// Of at least one point; all must be finite. A cloud of equal points gets a size of 0.
 PrincipalFrame principal_frame(PointsView points, const Context& context);
 
-class PlaneStep;
-
 /// A plane while it is searched for: normal . x + offset = 0 in the principal frame, |normal| = 1.
 struct UnitPlane {
-  using Step = PlaneStep;
+  /// Two tilts of the normal, along unit vectors across it, and what is added to the offset.
+  using Change = Vector3;
 
   Vector3 normal = Vector3::UnitX();
   double offset = 0;
@@ -39,6 +41,26 @@ struct UnitPlane {
   Vector3 reflect_direction(const Vector3& /*x*/, const Vector3& v) const {
     return reflect_direction(v);
   }
+
+  /// By how much each number moves the image of x.
+  Matrix3 slopes(const Vector3& x) const {
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    const double l = distance(x);
+    Matrix3 slopes;
+    slopes << -2 * (u.dot(x) * normal + l * u), -2 * (v.dot(x) * normal + l * v), -2 * normal;
+    return slopes;
+  }
+
+  /// Changed, and by how much.
+  std::pair<UnitPlane, double> stepped(const Change& by) const {
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Vector3 tilted = normal + by[0] * u + by[1] * v;
+    const double length = tilted.norm();
+    return {{tilted / length, (offset + by[2]) / length}, by.norm()};
+  }
+  void follow(const UnitPlane& moved) { *this = moved; }
+  static constexpr double ridge = 1e-13;  // rounding
+  static constexpr bool is_rigid = true;
 };
 
 inline UnitPlane in_frame(const Plane& plane, const PrincipalFrame& frame) {

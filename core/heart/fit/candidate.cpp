@@ -34,60 +34,14 @@ struct Action {
   }
 };
 
-// The mirror moved onto the surfels' images, looking less far with each step.
-template <typename Shape>
-Shape icp_steps(const Surfels& surfels, const SurfelMap& map, Shape shape, double widest,
-                double narrowest, int steps, Index stride) {
-  for (int step = 0; step < steps; ++step) {
-    const double tolerance = widest * std::pow(narrowest / widest, step / (steps - 1.0));
-    typename Shape::Step sum(shape);
-    for (Index i = 0; i < surfels.size(); i += stride) {
-      const Surfel& s = surfels[i];
-      const double weight = displaced(shape.distance(s.position), tolerance);
-      if (weight <= 0) continue;
-      const Vector3 image = shape.reflect(s.position);
-      const Index j = map.nearest(image);
-      if (j < 0) continue;
-      const Vector3 gap = image - surfels[j].position;
-      const Correspondence correspondence(gap, shape.reflect_direction(s.position, s.normal),
-                                          s.flatness, surfels[j]);
-      sum.add(s.position, gap, correspondence.metric(), weight * correspondence.weight(tolerance));
-    }
-    shape = sum.taken();
-  }
-  return shape;
-}
-
 }  // namespace
-
-template <typename Shape>
-double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
-                     double tolerance, Index stride, double contradiction) {
-  constexpr double least_moved = 0.35;
-  double moved = 0, support = 0;
-  Index looked = 0;
-  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
-    const Surfel& s = surfels[i];
-    const double weight = displaced(shape.distance(s.position), tolerance);
-    if (weight <= 0) continue;
-    moved += weight;
-    const Vector3 image = shape.reflect(s.position);
-    const Index j = map.nearest(image);
-    if (j < 0) continue;
-    const Correspondence correspondence(image - surfels[j].position,
-                                        shape.reflect_direction(s.position, s.normal), s.flatness,
-                                        surfels[j]);
-    const double agrees = correspondence.weight(tolerance);
-    support += weight * (agrees - contradiction * (1 - agrees));
-  }
-  return support / std::max(moved, least_moved * static_cast<double>(looked));
-}
 
 template <typename Shape>
 Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
                                     Candidate<Shape> candidate, double widest, double narrowest,
                                     int steps, Index stride, double contradiction) {
-  candidate.shape = icp_steps(surfels, map, candidate.shape, widest, narrowest, steps, stride);
+  candidate.shape = symsurf::fitted(candidate.shape, PatchMatcher(surfels, map, stride),
+                                    {widest, narrowest, steps});
   candidate.support =
       support_share(surfels, map, candidate.shape, narrowest, stride, contradiction);
   return candidate;
@@ -148,11 +102,6 @@ std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, cons
   suppress_non_maxima(surfels, found, 0.06, count);
   return found;
 }
-
-template double support_share(const Surfels&, const SurfelMap&, const UnitPlane&, double, Index,
-                              double);
-template double support_share(const Surfels&, const SurfelMap&, const UnitSphere&, double, Index,
-                              double);
 
 template Candidate<UnitPlane> refined_on_surfels(const Surfels&, const SurfelMap&,
                                                  Candidate<UnitPlane>, double, double, int, Index,

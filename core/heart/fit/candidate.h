@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "base/math.h"
@@ -14,13 +15,13 @@
 #include "cloud/point_tree.h"
 #include "cloud/principal_frame.h"
 #include "cloud/surfels.h"
-#include "pairing/correspondence.h"
+#include "fit/fitted.h"
 
 namespace symsurf {
 
 // What the searches for mirrors of few numbers share. A `Shape` is such a mirror in the principal
 // frame: distance(x), reflect(x) (NaN without an image), reflect_direction(x, n), the unit normal
-// at the image of a surface through x with normal n, and Shape::Step, one Gauss-Newton step.
+// at the image of a surface through x with normal n, and what GaussNewton asks for.
 // Compiled for the shapes of shapes.h.
 
 /// A mirror, the share of the surfels that it explains and that of the points that it maps onto
@@ -42,12 +43,60 @@ void sort_best_first(std::vector<Candidate<Shape>>& candidates) {
 }
 
 /// Share of the surfels whose images agree with the cloud, less `contradiction` times those whose
-/// images come beside it, out of those the mirror moves (at least 35 % of all, so that a mirror the
-/// cloud lies along explains nothing). Surfels without an image count as moved; an image in the
-/// void says nothing: that part may be missing. `stride` k looks at every k-th surfel.
+/// images come beside it, out of those the mirror moves (at least `least_moved` of all, so that a
+/// mirror the cloud lies along explains nothing). Surfels without an image count as moved; an image
+/// in the void says nothing: that part may be missing. `stride` k looks at every k-th surfel.
 template <typename Shape>
 double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
-                     double tolerance, Index stride = 1, double contradiction = 0);
+                     double tolerance, Index stride = 1, double contradiction = 0,
+                     double least_moved = 0.35) {
+  double moved = 0, support = 0;
+  Index looked = 0;
+  for (Index i = 0; i < surfels.size(); i += stride, ++looked) {
+    const Surfel& s = surfels[i];
+    const double weight = displaced(shape.distance(s.position), tolerance);
+    if (weight <= 0) continue;
+    moved += weight;
+    const Vector3 image = shape.reflect(s.position);
+    const Index j = map.nearest(image);
+    if (j < 0) continue;
+    const Correspondence correspondence(image - surfels[j].position,
+                                        shape.reflect_direction(s.position, s.normal), s.flatness,
+                                        surfels[j]);
+    const double agrees = correspondence.weight(tolerance);
+    support += weight * (agrees - contradiction * (1 - agrees));
+  }
+  return support / std::max(moved, least_moved * static_cast<double>(looked));
+}
+
+/// The surfels themselves as the cloud that images meet.
+class PatchMatcher {
+ public:
+  /// Looks at every `stride`-th surfel.
+  PatchMatcher(const Surfels& surfels, const SurfelMap& map, Index stride)
+      : surfels_(surfels), map_(map), stride_(stride) {}
+
+  double spacing() const { return surfels_.spacing(); }
+  double noise() const { return 0; }
+  double along_surface() const { return 0.08; }
+
+  template <typename Map>
+  std::vector<Match> matches(const std::vector<Map>& maps, double /*limit*/) const {
+    std::vector<Match> found;
+    for (std::size_t k = 0; k < maps.size(); ++k)
+      for (Index i = 0; i < surfels_.size(); i += stride_) {
+        const Surfel& own = surfels_[i];
+        const Index j = map_.nearest(maps[k].reflect(own.position));
+        if (j >= 0) found.push_back({own.position, &own, surfels_[j].position, &surfels_[j], k});
+      }
+    return found;
+  }
+
+ private:
+  const Surfels& surfels_;
+  const SurfelMap& map_;
+  Index stride_;
+};
 
 /// Moves a mirror onto the surfels' images, looking less far with each step.
 template <typename Shape>
@@ -129,12 +178,12 @@ std::optional<Shape> fitted_to_exact_pairs(Shape shape, const std::vector<Vector
     if (gaps.size() < 10) return std::nullopt;
     typical = quantile(std::move(lengths), 0.1);
     if (typical > worth_trying * spacing) return std::nullopt;
-    typename Shape::Step sum(shape);
+    GaussNewton<Shape> sum;
     for (const Gap& gap : gaps)
       if (gap.vector.norm() <= 3 * typical)
-        sum.add(gap.position, gap.vector, Metric{1, 0, Vector3::Zero()}, 1);
+        sum.add(shape, gap.position, gap.vector, Metric{1, 0, Vector3::Zero()}, 1);
     double moved;
-    shape = sum.taken(&moved);
+    std::tie(shape, moved) = sum.taken(shape);
     if (moved < 1e-15) break;
   }
   if (typical >= exact * spacing) return std::nullopt;

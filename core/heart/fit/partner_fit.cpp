@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/math.h"
 #include "fit/shapes.h"
@@ -146,16 +147,17 @@ UnitSphere PartnerFit::refined(UnitSphere sphere, Index most) const {
   constexpr int steps = 12;
   double reach = 0.75 * spacing_;
   for (int step = 0; step < steps; ++step) {
-    SphereStep sum(sphere);
+    GaussNewton<UnitSphere> sum;
     std::vector<double> gaps;
     for (const Correspondence& pair : correspondences(sphere, most, reach)) {
       const double gap = pair.gap.norm();
       gaps.push_back(gap);
-      sum.add(pair.position, pair.gap, Matrix3::Identity(), biweight(gap / reach));
+      sum.add(sphere, pair.position, pair.gap, Metric{1, 0, Vector3::Zero()},
+              biweight(gap / reach));
     }
     if (gaps.size() < 10) break;
     double moved;
-    sphere = sum.taken(&moved);
+    std::tie(sphere, moved) = sum.taken(sphere);
     if (moved < 1e-15) break;
     reach = std::clamp(3 * median(std::move(gaps)), exact * spacing_, 0.75 * spacing_);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -85,39 +86,6 @@ Index Refinement::stride_for(Index wanted) const {
 }
 
 template <typename Shape>
-const Vector3& Refinement::position(const Sample& sample) const {
-  return is_plane<Shape> ? sample.smoothed : sample.point;
-}
-
-template <typename Shape>
-Vector3 Refinement::gap(const Shape& shape, const Match& match) const {
-  return shape.reflect(position<Shape>(*match.sample)) -
-         (is_plane<Shape> ? noise_.smoothed(match.partner, *match.surfel) : match.partner);
-}
-
-template <typename Shape>
-auto Refinement::matches(const Shape& shape, double limit, Index stride) const
-    -> std::vector<Match> {
-  std::vector<const Sample*> asked;
-  std::vector<Vector3> images;
-  for (std::size_t i = 0; i < samples_.size(); i += stride) {
-    const Vector3 image = shape.reflect(samples_[i].point);
-    if (!image.allFinite()) continue;
-    asked.push_back(&samples_[i]);
-    images.push_back(cloud_.frame.from_frame(image));
-  }
-  const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
-  std::vector<Match> found;
-  found.reserve(asked.size());
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    if (!partners[k].allFinite()) continue;
-    const Vector3 x = cloud_.frame.to_frame(partners[k]);
-    if (const Surfel* surfel = surfel_at(x)) found.push_back({asked[k], x, surfel});
-  }
-  return found;
-}
-
-template <typename Shape>
 double Refinement::support(const Shape& shape, Index samples) const {
   const Index stride = stride_for(samples);
   double moved = 0, support = 0;
@@ -125,14 +93,14 @@ double Refinement::support(const Shape& shape, Index samples) const {
   for (std::size_t i = 0; i < samples_.size(); i += stride, ++looked)
     moved += displaced(shape.distance(position<Shape>(samples_[i])), score_tolerance);
   for (const Match& match : matches(shape, reach, stride)) {
-    const Sample& s = *match.sample;
-    const Vector3& x = position<Shape>(s);
-    const Vector3 off = gap(shape, match);
-    const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
-                                        s.surfel->flatness, *match.surfel);
-    const double agrees = is_plane<Shape> ? kernel_(distance_past(off, *match.surfel, spacing_),
-                                                    correspondence.normal_consistency)
-                                          : closeness(correspondence);
+    const Vector3& x = match.point;
+    const Vector3 off = shape.reflect(x) - match.partner;
+    const Correspondence correspondence(off, shape.reflect_direction(x, match.patch->normal),
+                                        match.patch->flatness, *match.partner_patch);
+    const double agrees = is_plane<Shape>
+                              ? kernel_(distance_past(off, *match.partner_patch, spacing_),
+                                        correspondence.normal_consistency)
+                              : closeness(correspondence);
     support += displaced(shape.distance(x), score_tolerance) * agrees;
   }
   return support / std::max(moved, least_moved * static_cast<double>(looked));
@@ -156,57 +124,6 @@ Shape Refinement::refined(const Shape& start) const {
   return exact(fitted(close, {static_cast<Index>(samples_.size()), narrow, 2}));
 }
 
-// Reweighted least squares. The tolerance follows the residuals of what it lets in, down to what
-// the cloud's noise leaves: images that only just miss the cloud, at the edge of a hole or where
-// nothing mirrors them, stop pulling. Looking for partners is most of the work: they stay until the
-// mirror has moved by a part of the spacing, or has converged between them.
-template <typename Shape>
-Shape Refinement::fitted(Shape shape, const Fit& fit) const {
-  constexpr double least_tolerance = 0.002, widening = 2, still = 1e-4;
-  constexpr double along_surface = 0.01;  // partners hold a mirror hardly where they may slide
-  const double stale = 0.1 * spacing_, converged = 0.02 * spacing_;
-  const Index stride = stride_for(fit.samples);
-  double tolerance = fit.tolerance;
-  std::vector<Match> found;
-  double moved = infinity;
-  for (int step = 0; step < fit.steps; ++step) {
-    if (moved > stale) {
-      found = matches(shape, std::min(reach, 4 * tolerance + spacing_), stride);
-      moved = 0;
-    }
-    typename Shape::Step sum(shape);
-    double squares = 0, weights = 0;
-    for (const Match& match : found) {
-      const Sample& s = *match.sample;
-      const Vector3& x = position<Shape>(s);
-      const double weight = displaced(shape.distance(x), tolerance);
-      if (weight <= 0) continue;
-      const Facet p{match.surfel->normal, match.surfel->flatness_without(noise_.deviation())};
-      const Vector3 off = gap(shape, match);
-      if (!off.allFinite()) continue;  // the mirror has moved since
-      const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
-                                          s.surfel->flatness, p);
-      const double r = distance_past(off, p, spacing_) / tolerance;
-      const double trusted = weight * correspondence.normal_consistency *
-                             inside_surface(off, p, spacing_) * fading(r * r / 2);
-      squares += trusted * r * r;
-      weights += trusted;
-      sum.add(x, off, correspondence.metric(along_surface), trusted);
-    }
-    if (weights < 4) return shape;
-    double change;
-    shape = sum.taken(&change);
-    moved += change;
-    tolerance =
-        std::clamp(widening * tolerance * std::sqrt(squares / weights), least_tolerance, tolerance);
-    if (change < still) {
-      if (moved < converged) return shape;
-      moved = infinity;
-    }
-  }
-  return shape;
-}
-
 template <typename Shape>
 Shape Refinement::exact(const Shape& start) const {
   constexpr Index wanted = 1000;
@@ -219,19 +136,18 @@ Shape Refinement::exact(const Shape& start) const {
 template <typename Shape>
 Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const Shape& shape) const {
   constexpr Index wanted = 400;
-  typename Shape::Step held(shape), moved(shape);
+  GaussNewton<Shape> held, moved;
   double count = 0;
   for (const Match& match : matches(shape, reach, stride_for(wanted))) {
-    const Sample& s = *match.sample;
-    const Vector3& x = position<Shape>(s);
+    const Vector3& x = match.point;
     const double weight = displaced(shape.distance(x), widest);
     if (weight <= 0) continue;
-    const Vector3 off = gap(shape, match);
-    const Correspondence correspondence(off, shape.reflect_direction(x, s.surfel->normal),
-                                        s.surfel->flatness, *match.surfel);
-    const Vector3& n = match.surfel->normal;
-    held.add(x, off, n * n.transpose(), weight * correspondence.weight(widest));
-    moved.add(x, off, Matrix3::Identity(), weight);
+    const Vector3 off = shape.reflect(x) - match.partner;
+    const Correspondence correspondence(off, shape.reflect_direction(x, match.patch->normal),
+                                        match.patch->flatness, *match.partner_patch);
+    const Vector3& n = match.partner_patch->normal;
+    held.add(shape, x, off, Metric{0, 1, n}, weight * correspondence.weight(widest));
+    moved.add(shape, x, off, Metric{1, 0, n}, weight);
     count += weight;
   }
   if (!(count > 0))
@@ -253,17 +169,16 @@ PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
     Eigen::Matrix<double, 6, 6> products = Eigen::Matrix<double, 6, 6>::Zero();
     Heights asked = Heights::Zero();
     for (const Match& match : found) {
-      const Sample& x = *match.sample;
-      const double s = u.dot(x.smoothed), t = v.dot(x.smoothed);
+      const Vector3& x = match.point;
+      const double s = u.dot(x), t = v.dot(x);
       const Heights terms(Heights{1, s, t, s * s / 2, s * t, t * t / 2});
-      const Vector3 flat = gap(plane, match);
+      const Vector3 flat = plane.reflect(x) - match.partner;
       const Vector3 off = flat + 2 * heights.dot(terms) * plane.normal;
-      const Correspondence correspondence(off, plane.reflect_direction(x.surfel->normal),
-                                          x.surfel->flatness, *match.surfel);
-      const double weight = displaced(plane.distance(x.smoothed), widest) *
-                            correspondence.weight(widest) *
-                            inside_surface(off, *match.surfel, spacing_);
-      const Vector3& across = match.surfel->normal;
+      const Correspondence correspondence(off, plane.reflect_direction(match.patch->normal),
+                                          match.patch->flatness, *match.partner_patch);
+      const double weight = displaced(plane.distance(x), widest) * correspondence.weight(widest) *
+                            inside_surface(off, *match.partner_patch, spacing_);
+      const Vector3& across = match.partner_patch->normal;
       const double slope = 2 * across.dot(plane.normal);
       products += weight * slope * slope * terms * terms.transpose();
       asked -= weight * slope * across.dot(flat) * terms;

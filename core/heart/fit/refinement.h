@@ -9,17 +9,19 @@
 #include "cloud/principal_frame.h"
 #include "cloud/surfels.h"
 #include "fit/candidate.h"
+#include "fit/fitted.h"
 #include "fit/shapes.h"
 #include "pairing/correspondence.h"
 
 namespace symsurf {
 
-/// How many samples a fit looks at, how far off their partners may be at first, in diagonals, and
-/// how many steps it takes.
+/// How many samples a fit looks at, how far off their partners may be at first and at last, in
+/// diagonals, and how many steps it takes.
 struct Fit {
   Index samples;
   double tolerance = 0.012;
   int steps;
+  double narrowest = 0.002;
 };
 
 /// Patches of the finer surfels, each of which has a sample, over those of the coarse ones: what
@@ -34,9 +36,13 @@ class Refinement {
   Refinement(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
              const Surfels& fine);
 
-  /// The mirror that leaves the least robust residual.
+  /// The maps that leave the least robust residual; see fitted.h.
+  template <typename Map>
+  std::vector<Map> fitted(const std::vector<Map>& maps, const Fit& fit) const;
   template <typename Shape>
-  Shape fitted(Shape shape, const Fit& fit) const;
+  Shape fitted(const Shape& shape, const Fit& fit) const {
+    return fitted(std::vector<Shape>{shape}, fit).front();
+  }
 
   /// The same with its support on about as many samples.
   template <typename Shape>
@@ -66,6 +72,8 @@ class Refinement {
 
   /// Of the cloud's points on a surface, in the principal frame.
   double spacing() const { return spacing_; }
+  const SurfaceNoise& noise() const { return noise_; }
+  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
 
  private:
   struct Sample {
@@ -74,23 +82,19 @@ class Refinement {
     std::uint32_t position;    // along a curve that fills space
     Vector3 smoothed = point;  // less its noise
   };
-  struct Match {
-    const Sample* sample;
-    Vector3 partner;
-    const Surfel* surfel;  // the partner's
-  };
+  class Matching;
 
   // The stride between samples, for about so many.
   Index stride_for(Index wanted) const;
   SurfaceNoise measured_noise() const;
-  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
+  template <typename Map>
+  std::vector<Match> matches(const std::vector<Map>& maps, double limit, Index stride) const;
   template <typename Shape>
-  std::vector<Match> matches(const Shape& shape, double limit, Index stride) const;
-  template <typename Shape>
+  std::vector<Match> matches(const Shape& shape, double limit, Index stride) const {
+    return matches(std::vector<Shape>{shape}, limit, stride);
+  }
+  template <typename Map>
   const Vector3& position(const Sample& sample) const;
-  // From the partner to the image.
-  template <typename Shape>
-  Vector3 gap(const Shape& shape, const Match& match) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
@@ -108,5 +112,58 @@ class Refinement {
 template <typename Shape>
 Candidate<Shape> polished(const Candidate<Shape>& candidate, const Fit& fit,
                           const Refinement& refinement);
+
+template <typename Map>
+const Vector3& Refinement::position(const Sample& sample) const {
+  return Map::is_rigid ? sample.smoothed : sample.point;
+}
+
+template <typename Map>
+std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limit,
+                                       Index stride) const {
+  std::vector<Match> found;
+  std::vector<Vector3> images;
+  for (std::size_t k = 0; k < maps.size(); ++k)
+    for (std::size_t i = 0; i < samples_.size(); i += stride) {
+      const Vector3 image = maps[k].reflect(samples_[i].point);
+      if (!image.allFinite()) continue;
+      found.push_back({position<Map>(samples_[i]), samples_[i].surfel, image, nullptr, k});
+      images.push_back(cloud_.frame.from_frame(image));
+    }
+  const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!partners[k].allFinite()) continue;
+    const Vector3 x = cloud_.frame.to_frame(partners[k]);
+    found[k].partner_patch = surfel_at(x);
+    if (found[k].partner_patch)
+      found[k].partner = Map::is_rigid ? noise_.smoothed(x, *found[k].partner_patch) : x;
+  }
+  std::erase_if(found, [](const Match& match) { return !match.partner_patch; });
+  return found;
+}
+
+// Matches on every so many samples.
+class Refinement::Matching {
+ public:
+  Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
+
+  double spacing() const { return cloud_.spacing_; }
+  double noise() const { return cloud_.noise_.deviation(); }
+  double along_surface() const { return 0.01; }
+  template <typename Map>
+  std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
+    return cloud_.matches(maps, limit, stride_);
+  }
+
+ private:
+  const Refinement& cloud_;
+  Index stride_;
+};
+
+template <typename Map>
+std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit) const {
+  return symsurf::fitted(maps, Matching(*this, stride_for(fit.samples)),
+                         {fit.tolerance, fit.narrowest, fit.steps});
+}
 
 }  // namespace symsurf

@@ -9,19 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "base/linear_algebra.h"
 #include "cloud/principal_frame.h"
-#include "pairing/correspondence.h"
 
 namespace symsurf {
 
-class CylinderStep;
-
 /// A circular cylinder while it is searched for, in the principal frame; |axis| = 1.
 struct UnitCylinder {
-  using Step = CylinderStep;
-
   /// What is added to the point and to the axis, along either side each, and to the radius.
   using Change = Eigen::Vector<double, 5>;
 
@@ -58,7 +53,35 @@ struct UnitCylinder {
   /// Of the axis.
   Vector3 nearest_to_origin() const { return point - point.dot(axis) * axis; }
 
+  /// By how much each number moves the image of x: x' = x - 2 (1 - r / |v|) v, v = (I - a a') (x -
+  /// p).
+  Eigen::Matrix<double, 3, 5> slopes(const Vector3& x) const {
+    const Vector3 d = x - nearest_to_origin(), v = from_axis(x);
+    const double length = v.norm(), bend = radius / length;
+    const Vector3 u = v / length;
+    const Matrix3 by_v = -2 * ((1 - bend) * Matrix3::Identity() + bend * u * u.transpose());
+    Eigen::Matrix<double, 3, 5> slopes;
+    for (int k = 0; k < 2; ++k) {
+      const Vector3 s = side(k);
+      slopes.col(k) = by_v * -s;
+      slopes.col(2 + k) = by_v * (-d.dot(s) * axis - d.dot(axis) * s);
+    }
+    slopes.col(4) = 2 * u;
+    return slopes;
+  }
+
+  /// Changed by no more than keeps it from turning inside out, and by how much.
+  std::pair<UnitCylinder, double> stepped(const Change& by) const {
+    const double length = by.norm(), longest = std::min(0.5 * radius, 1.0);
+    return {changed(length > longest ? Change(longest / length * by) : by),
+            std::min(length, longest)};
+  }
+
   /// The axis tilts about its point nearest to the origin.
+  void follow(const UnitCylinder& moved) { *this = moved; }
+  static constexpr double ridge = 1e-13;  // rounding
+  static constexpr bool is_rigid = false;
+
   UnitCylinder changed(const Change& by) const {
     return {nearest_to_origin() + by[0] * side(0) + by[1] * side(1),
             (axis + by[2] * side(0) + by[3] * side(1)).normalized(),
@@ -72,15 +95,11 @@ struct UnitCylinder {
   }
 };
 
-class SphereStep;
-
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:
 /// F(x) = k/2 |x - p|^2 + n . (x - p) = 0 through the point p with the unit normal n there. The
 /// sign of k is the side it bends to (Pratt, Direct least-squares fitting of algebraic surfaces,
 /// 1987).
 struct UnitSphere {
-  using Step = SphereStep;
-
   /// A shift along the normal, two tilts about the point, what is added to the curvature.
   using Change = Eigen::Vector4d;
 
@@ -115,6 +134,37 @@ struct UnitSphere {
     return ((v - along * u) / stretch - along * u).normalized();
   }
 
+  /// By how much each number moves the image x' = 2 q - x, q the mirror's point nearest to x, d
+  /// away, u the direction and g the length of the gradient at x: a change of F by f moves it by
+  /// -2 (f(q) u + d / g (I - u u') grad f(q)).
+  Eigen::Matrix<double, 3, 4> slopes(const Vector3& x) const {
+    const Vector3 up = gradient(x);
+    const double g = up.norm(), d = twice_distance(x, g) / 2;
+    const Vector3 u = up / g, y = x - d * u - point;
+    const auto moved = [&](double f, const Vector3& rise) -> Vector3 {
+      return -2 * ((f - d / g * u.dot(rise)) * u + d / g * rise);
+    };
+    Eigen::Matrix<double, 3, 4> slopes;
+    slopes << moved(-1 - curvature * normal.dot(y), -curvature * normal),
+        moved(side(0).dot(y), side(0)), moved(side(1).dot(y), side(1)),
+        moved(y.squaredNorm() / 2, y);
+    return slopes;
+  }
+
+  /// Changed by no more than half its size, and by how much: flat spheres may bend to the other
+  /// side, small ones do not turn inside out.
+  std::pair<UnitSphere, double> stepped(const Change& by) const {
+    const double size = 1 / std::max(std::abs(curvature), 1.0), longest = 0.5 * size;
+    const double length =
+        Eigen::Vector4d(by[0], size * by[1], size * by[2], size * size * by[3]).norm();
+    return {changed(length > longest ? Change(longest / length * by) : by),
+            std::min(length, longest)};
+  }
+
+  void follow(const UnitSphere& moved) { *this = moved; }
+  static constexpr double ridge = 1e-13;  // rounding
+  static constexpr bool is_rigid = false;
+
   UnitSphere changed(const Change& by) const {
     return {point + by[0] * normal, (normal + by[1] * side(0) + by[2] * side(1)).normalized(),
             curvature + by[3]};
@@ -127,8 +177,6 @@ struct UnitSphere {
   }
 
  private:
-  friend class SphereStep;
-
   // 4 F / (1 + |gradient|), which loses no digits where the curvature vanishes.
   double twice_distance(const Vector3& x, double length) const {
     const Vector3 off = x - point;
@@ -151,152 +199,6 @@ struct PlaneBend {
   UnitCylinder cylinder() const {
     return {point + normal / greater, normal.cross(most_bent), 1 / std::abs(greater)};
   }
-};
-
-/// One Gauss-Newton step for a plane: sums weighted squared gaps between images and partners in
-/// their metrics, linear in a tilt of the normal (two numbers) and a shift of the offset.
-class PlaneStep {
- public:
-  explicit PlaneStep(const UnitPlane& plane)
-      : plane_(plane), u_(plane.normal.unitOrthogonal()), v_(plane.normal.cross(u_)) {}
-
-  // The image's slopes are -2 (a n + l u), -2 (b n + l v) and -2 n, with a, b, l the coordinates of
-  // x along u, v and n: their products with one another and with any vector are short.
-  void add(const Vector3& x, const Vector3& gap, const Metric& metric, double weight) {
-    const double a = u_.dot(x), b = v_.dot(x), l = plane_.distance(x);
-    const auto along_slopes = [&](const Vector3& y) -> Vector3 {
-      const double n = plane_.normal.dot(y);
-      return {a * n + l * u_.dot(y), b * n + l * v_.dot(y), n};
-    };
-    const Vector3 off = along_slopes(metric.normal), pulled = along_slopes(gap);
-    Matrix3 slopes;
-    slopes << a * a + l * l, a * b, a, a * b, b * b + l * l, b, a, b, 1;
-    const double all = 4 * weight * metric.isotropic, surface = 4 * weight * metric.off_surface;
-    hessian_ += all * slopes + surface * off * off.transpose();
-    gradient_ -= (all * pulled + surface * metric.normal.dot(gap) * off) / 2;
-  }
-
-  /// The plane after the step, and how far it moved; the same plane where nothing holds it.
-  UnitPlane taken(double* moved = nullptr) const {
-    Matrix3 damped = hessian_;
-    damped.diagonal().array() += 1e-12 * hessian_.trace() + 1e-300;
-    const Vector3 change = -solved(damped, gradient_);
-    if (moved) *moved = change.norm();
-    UnitPlane next = plane_;
-    next.normal = (plane_.normal + change[0] * u_ + change[1] * v_);
-    const double length = next.normal.norm();
-    next.normal /= length;
-    next.offset = (plane_.offset + change[2]) / length;
-    return next;
-  }
-
- private:
-  UnitPlane plane_;
-  Vector3 u_, v_;
-  Matrix3 hessian_ = Matrix3::Zero();
-  Vector3 gradient_ = Vector3::Zero();
-};
-
-/// One Gauss-Newton step for a cylinder: the point moves and the axis tilts in two directions each,
-/// the radius grows. x' = x - 2 (1 - r / |v|) v with v = (I - a a') (x - p).
-class CylinderStep {
- public:
-  explicit CylinderStep(const UnitCylinder& cylinder)
-      : cylinder_(cylinder), sides_{cylinder.side(0), cylinder.side(1)} {
-    // The axis tilts about the point nearest to the cloud's middle.
-    cylinder_.point = cylinder_.nearest_to_origin();
-  }
-
-  void add(const Vector3& x, const Vector3& gap, const Matrix3& metric, double weight) {
-    const Vector3 d = x - cylinder_.point, v = cylinder_.from_axis(x);
-    const double length = v.norm(), bend = cylinder_.radius / length;
-    const Vector3 u = v / length;
-    const Matrix3 by_v = -2 * ((1 - bend) * Matrix3::Identity() + bend * u * u.transpose());
-    Eigen::Matrix<double, 3, 5> slope;
-    for (int k = 0; k < 2; ++k) {
-      slope.col(k) = by_v * -sides_[k];
-      slope.col(2 + k) =
-          by_v * (-d.dot(sides_[k]) * cylinder_.axis - d.dot(cylinder_.axis) * sides_[k]);
-    }
-    slope.col(4) = 2 * u;
-    const Eigen::Matrix<double, 3, 5> weighted = weight * metric * slope;
-    hessian_.noalias() += slope.transpose() * weighted;
-    gradient_.noalias() += weighted.transpose() * gap;
-  }
-
-  const Eigen::Matrix<double, 5, 5>& hessian() const { return hessian_; }
-
-  /// The cylinder after the step, and how far it moved; the same one where nothing holds it.
-  UnitCylinder taken(double* moved = nullptr) const {
-    UnitCylinder::Change change =
-        solved<5>(hessian_ + Hessian(damping() * Hessian::Identity()), -gradient_);
-    // Wide cylinders may slide along their radius, but none turns inside out.
-    const double longest = std::min(0.5 * cylinder_.radius, 1.0);
-    if (change.norm() > longest) change *= longest / change.norm();
-    if (moved) *moved = change.norm();
-    return cylinder_.changed(change);
-  }
-
- private:
-  using Hessian = Eigen::Matrix<double, 5, 5>;
-
-  double damping() const { return 1e-13 * hessian_.trace() + 1e-300; }
-
-  UnitCylinder cylinder_;
-  Vector3 sides_[2];
-  Hessian hessian_ = Hessian::Zero();
-  UnitCylinder::Change gradient_ = UnitCylinder::Change::Zero();
-};
-
-/// One Gauss-Newton step for a sphere: sums weighted squared gaps between images and partners in
-/// their metrics. A change of F by f moves the image x' = 2 q - x, q the mirror's point nearest to
-/// x, d away, u the direction and g the length of the gradient at x, by
-/// -2 (f(q) u + d / g (I - u u') grad f(q)).
-class SphereStep {
- public:
-  explicit SphereStep(const UnitSphere& sphere)
-      : sphere_(sphere), sides_{sphere.side(0), sphere.side(1)} {}
-
-  void add(const Vector3& x, const Vector3& gap, const Matrix3& metric, double weight) {
-    const Vector3 up = sphere_.gradient(x), n = sphere_.normal;
-    const double g = up.norm(), d = sphere_.twice_distance(x, g) / 2, k = sphere_.curvature;
-    const Vector3 u = up / g, y = x - d * u - sphere_.point;
-    Eigen::Matrix<double, 3, 4> slope;
-    const auto moved = [&](double f, const Vector3& rise) -> Vector3 {
-      return -2 * ((f - d / g * u.dot(rise)) * u + d / g * rise);
-    };
-    slope.col(0) = moved(-1 - k * n.dot(y), -k * n);
-    slope.col(1) = moved(sides_[0].dot(y), sides_[0]);
-    slope.col(2) = moved(sides_[1].dot(y), sides_[1]);
-    slope.col(3) = moved(y.squaredNorm() / 2, y);
-    const Eigen::Matrix<double, 3, 4> weighted = weight * metric * slope;
-    hessian_.noalias() += slope.transpose() * weighted;
-    gradient_.noalias() += weighted.transpose() * gap;
-  }
-
-  const Eigen::Matrix4d& hessian() const { return hessian_; }
-
-  /// The sphere after the step, and how far it moved; the same sphere where nothing holds it.
-  UnitSphere taken(double* moved = nullptr) const {
-    Eigen::Matrix4d damped = hessian_;
-    damped.diagonal().array() += 1e-13 * hessian_.trace() + 1e-300;
-    UnitSphere::Change change = solved<4>(damped, -gradient_);
-    // Flat spheres may bend to the other side, but small ones do not turn inside out.
-    const double size = 1 / std::max(std::abs(sphere_.curvature), 1.0);
-    const double length =
-        Eigen::Vector4d(change[0], size * change[1], size * change[2], size * size * change[3])
-            .norm();
-    const double longest = 0.5 * size;
-    if (length > longest) change *= longest / length;
-    if (moved) *moved = std::min(length, longest);
-    return sphere_.changed(change);
-  }
-
- private:
-  UnitSphere sphere_;
-  Vector3 sides_[2];
-  Eigen::Matrix4d hessian_ = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d gradient_ = Eigen::Vector4d::Zero();
 };
 
 }  // namespace symsurf

@@ -98,7 +98,7 @@ SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Conte
       coarse_(cloud, surfels, context.stage(0.2, 0.4)),
       fine_(cloud, coarse_, context.stage(0.4, 0.6)),
       score_(cloud, points_, context.stage(0.6, 1)),
-      fit_(cloud, tree_, points_, coarse_, fine_) {}
+      fit_(cloud, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {
   return vote.support >= minimum_score_ && vote.missing <= most_missing &&

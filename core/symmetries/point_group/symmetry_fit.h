@@ -7,6 +7,7 @@
 #include "cloud/cloud.h"
 #include "cloud/point_tree.h"
 #include "cloud/surfels.h"
+#include "fit/refinement.h"
 
 namespace symsurf {
 
@@ -22,18 +23,49 @@ struct GroupPose {
   static GroupPose along(const Vector3& z, const Vector3& centre);
 };
 
-/// Fits the pose of some elements of a point group to a cloud: Gauss-Newton steps on robust
-/// correspondences, as for planes, but of all elements at once, so that they stay a group.
+/// An element of a point group as it stands in a pose, whose small turn and shift a fit looks for.
+class PosedElement {
+ public:
+  using Change = Eigen::Vector<double, 6>;
+  static constexpr bool is_rigid = true;
+  /// Directions that the elements leave free, as along an axis, stay as they are.
+  static constexpr double ridge = 1e-5;
+
+  PosedElement(const GroupPose& pose, const Matrix3& element);
+
+  const GroupPose& pose() const { return pose_; }
+
+  /// What it maps x to; half the way there; the normal at the image of a surface with normal n.
+  Vector3 reflect(const Vector3& x) const { return map_ * x; }
+  double distance(const Vector3& x) const { return (reflect(x) - x).norm() / 2; }
+  Vector3 reflect_direction(const Vector3& /*x*/, const Vector3& n) const {
+    return map_.linear() * n;
+  }
+
+  /// What GaussNewton asks for.
+  Eigen::Matrix<double, 3, 6> slopes(const Vector3& x) const;
+  std::pair<PosedElement, double> stepped(const Change& by) const;
+  void follow(const PosedElement& moved) { *this = {moved.pose_, element_}; }
+
+ private:
+  GroupPose pose_;
+  Matrix3 element_;
+  Eigen::Isometry3d map_;
+};
+
+/// Fits the pose of some elements of a point group to a cloud, of all at once, so that they stay a
+/// group.
 class SymmetryFit {
  public:
-  SymmetryFit(const Cloud& cloud, const PointTree& tree, const NearestPoints& points,
-              const Surfels& coarse, const Surfels& fine);
+  SymmetryFit(const Cloud& cloud, const NearestPoints& points, const Surfels& coarse,
+              const Surfels& fine);
 
   /// On the surfels, from some 5 degrees and a 20th of the diagonal away.
-  GroupPose roughly(GroupPose pose, const std::vector<Matrix3>& elements) const;
+  GroupPose roughly(const GroupPose& pose, const std::vector<Matrix3>& elements) const;
 
   /// On the full cloud, from a degree away; looks at about so many samples a step.
-  GroupPose closely(GroupPose pose, const std::vector<Matrix3>& elements, std::size_t looked) const;
+  GroupPose closely(const GroupPose& pose, const std::vector<Matrix3>& elements,
+                    std::size_t looked) const;
 
   /// The share of the surfels, of those it moves, that an element maps within `tolerance` of the
   /// surface, in diagonals.
@@ -45,24 +77,13 @@ class SymmetryFit {
   double worst_window(const GroupPose& pose, const std::vector<Matrix3>& elements) const;
 
  private:
-  struct Match {
-    Vector3 point, image, partner;
-    const Surfel *own, *other;
-  };
-  class Step;
-
-  const Surfel* surfel_at(const Vector3& x) const { return flattest_at({&coarse_, &fine_}, x); }
-  SurfaceNoise measured_noise() const;
   std::vector<bool> on_surface(const std::vector<Vector3>& images) const;
-  std::vector<Match> on_surfels(const Eigen::Isometry3d& map, std::size_t stride) const;
-  std::vector<Match> on_cloud(const Eigen::Isometry3d& map, double reach, std::size_t stride) const;
 
   const Cloud& cloud_;
   const NearestPoints& points_;
   const Surfels &coarse_, &fine_;
   SurfelMap map_;
-  SurfaceNoise noise_;
-  double spacing_;  // of the points, diagonals
+  Refinement refinement_;
 };
 
 }  // namespace symsurf
