@@ -77,7 +77,6 @@ class PatchMatcher {
       : surfels_(surfels), map_(map), stride_(stride) {}
 
   double spacing() const { return surfels_.spacing(); }
-  double noise() const { return 0; }
   double along_surface() const { return 0.08; }
 
   template <typename Map>
@@ -87,7 +86,7 @@ class PatchMatcher {
       for (Index i = 0; i < surfels_.size(); i += stride_) {
         const Surfel& own = surfels_[i];
         const Index j = map_.nearest(maps[k].reflect(own.position));
-        if (j >= 0) found.push_back({own.position, &own, surfels_[j].position, &surfels_[j], k});
+        if (j >= 0) found.push_back({own.position, own, surfels_[j].position, surfels_[j], k});
       }
     return found;
   }

@@ -11,13 +11,13 @@
 
 namespace symsurf {
 
-/// A point, its image's partner on the cloud, and the patches of the surface at both; in the
-/// principal frame. `map`: the number of the map that has the image.
+/// A point, its image's partner on the cloud, and the surface at both. `map`: the number of the map
+/// that has the image.
 struct Match {
   Vector3 point;
-  const Surfel* patch;
+  Facet facet;
   Vector3 partner;
-  const Surfel* partner_patch;
+  Facet partner_facet;
   std::size_t map = 0;
 };
 
@@ -35,8 +35,8 @@ struct Schedule {
 /// between them.
 ///
 /// `Matcher`: matches(maps, limit) has partners no farther off than the limit, spacing() is that of
-/// what they are among, noise() the deviation of the surface, along_surface() how much an offset
-/// along it counts, as partners hardly hold a map where they may slide.
+/// what they are among, along_surface() how much an offset along it counts, as partners hardly hold
+/// a map where they may slide.
 template <typename Map, typename Matcher>
 std::vector<Map> fitted(std::vector<Map> maps, const Matcher& matcher, const Schedule& schedule) {
   constexpr double reach = 0.06, widening = 2, still = 1e-4;
@@ -57,10 +57,9 @@ std::vector<Map> fitted(std::vector<Map> maps, const Matcher& matcher, const Sch
       if (weight <= 0) continue;
       const Vector3 off = map.reflect(x) - match.partner;
       if (!off.allFinite()) continue;  // the map has moved since
-      const Facet facet{match.partner_patch->normal,
-                        match.partner_patch->flatness_without(matcher.noise())};
-      const Correspondence correspondence(off, map.reflect_direction(x, match.patch->normal),
-                                          match.patch->flatness, facet);
+      const Facet& facet = match.partner_facet;
+      const Correspondence correspondence(off, map.reflect_direction(x, match.facet.normal),
+                                          match.facet.flatness, facet);
       const double r = distance_past(off, facet, spacing) / tolerance;
       const double trusted = weight * correspondence.normal_consistency *
                              inside_surface(off, facet, spacing) * fading(r * r / 2);

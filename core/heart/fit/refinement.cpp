@@ -95,10 +95,10 @@ double Refinement::support(const Shape& shape, Index samples) const {
   for (const Match& match : matches(shape, reach, stride)) {
     const Vector3& x = match.point;
     const Vector3 off = shape.reflect(x) - match.partner;
-    const Correspondence correspondence(off, shape.reflect_direction(x, match.patch->normal),
-                                        match.patch->flatness, *match.partner_patch);
+    const Correspondence correspondence(off, shape.reflect_direction(x, match.facet.normal),
+                                        match.facet.flatness, match.partner_facet);
     const double agrees = is_plane<Shape>
-                              ? kernel_(distance_past(off, *match.partner_patch, spacing_),
+                              ? kernel_(distance_past(off, match.partner_facet, spacing_),
                                         correspondence.normal_consistency)
                               : closeness(correspondence);
     support += displaced(shape.distance(x), score_tolerance) * agrees;
@@ -143,9 +143,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const Shape& shape)
     const double weight = displaced(shape.distance(x), widest);
     if (weight <= 0) continue;
     const Vector3 off = shape.reflect(x) - match.partner;
-    const Correspondence correspondence(off, shape.reflect_direction(x, match.patch->normal),
-                                        match.patch->flatness, *match.partner_patch);
-    const Vector3& n = match.partner_patch->normal;
+    const Correspondence correspondence(off, shape.reflect_direction(x, match.facet.normal),
+                                        match.facet.flatness, match.partner_facet);
+    const Vector3& n = match.partner_facet.normal;
     held.add(shape, x, off, Metric{0, 1, n}, weight * correspondence.weight(widest));
     moved.add(shape, x, off, Metric{1, 0, n}, weight);
     count += weight;
@@ -174,11 +174,11 @@ PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
       const Heights terms(Heights{1, s, t, s * s / 2, s * t, t * t / 2});
       const Vector3 flat = plane.reflect(x) - match.partner;
       const Vector3 off = flat + 2 * heights.dot(terms) * plane.normal;
-      const Correspondence correspondence(off, plane.reflect_direction(match.patch->normal),
-                                          match.patch->flatness, *match.partner_patch);
+      const Correspondence correspondence(off, plane.reflect_direction(match.facet.normal),
+                                          match.facet.flatness, match.partner_facet);
       const double weight = displaced(plane.distance(x), widest) * correspondence.weight(widest) *
-                            inside_surface(off, *match.partner_patch, spacing_);
-      const Vector3& across = match.partner_patch->normal;
+                            inside_surface(off, match.partner_facet, spacing_);
+      const Vector3& across = match.partner_facet.normal;
       const double slope = 2 * across.dot(plane.normal);
       products += weight * slope * slope * terms * terms.transpose();
       asked -= weight * slope * across.dot(flat) * terms;

@@ -127,19 +127,21 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
       const Vector3 image = maps[k].reflect(samples_[i].point);
       if (!image.allFinite()) continue;
-      found.push_back({position<Map>(samples_[i]), samples_[i].surfel, image, nullptr, k});
+      found.push_back({position<Map>(samples_[i]), *samples_[i].surfel, image, {}, k});
       images.push_back(cloud_.frame.from_frame(image));
     }
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
+  std::vector<Match> met;
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!partners[k].allFinite()) continue;
     const Vector3 x = cloud_.frame.to_frame(partners[k]);
-    found[k].partner_patch = surfel_at(x);
-    if (found[k].partner_patch)
-      found[k].partner = Map::is_rigid ? noise_.smoothed(x, *found[k].partner_patch) : x;
+    const Surfel* surfel = surfel_at(x);
+    if (!surfel) continue;
+    Match& match = met.emplace_back(found[k]);
+    match.partner = Map::is_rigid ? noise_.smoothed(x, *surfel) : x;
+    match.partner_facet = {surfel->normal, surfel->flatness_without(noise_.deviation())};
   }
-  std::erase_if(found, [](const Match& match) { return !match.partner_patch; });
-  return found;
+  return met;
 }
 
 // Matches on every so many samples.
@@ -148,7 +150,6 @@ class Refinement::Matching {
   Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
 
   double spacing() const { return cloud_.spacing_; }
-  double noise() const { return cloud_.noise_.deviation(); }
   double along_surface() const { return 0.01; }
   template <typename Map>
   std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
