@@ -145,20 +145,22 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& semidefinite, const Eigen::VectorX
 }
 
 template <int n>
-requires(n >= 3 &&
-         n <= 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
+requires((n >= 3 && n <= 7) ||
+         n == 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
                                                   const Eigen::Vector<double, n>& right) {
   return semidefinite.ldlt().solve(right);
 }
 
-template Eigen::Vector3d solved(const Eigen::Matrix3d&, const Eigen::Vector3d&);
-template Eigen::Vector4d solved(const Eigen::Matrix4d&, const Eigen::Vector4d&);
-template Eigen::Vector<double, 10> solved(const Eigen::Matrix<double, 10, 10>&,
-                                          const Eigen::Vector<double, 10>&);
-template Eigen::Vector<double, 6> solved(const Eigen::Matrix<double, 6, 6>&,
-                                         const Eigen::Vector<double, 6>&);
-template Eigen::Vector<double, 5> solved(const Eigen::Matrix<double, 5, 5>&,
-                                         const Eigen::Vector<double, 5>&);
+#define SYMSURF_SOLVED(n)                                                      \
+  template Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>&, \
+                                           const Eigen::Vector<double, n>&)
+SYMSURF_SOLVED(3);
+SYMSURF_SOLVED(4);
+SYMSURF_SOLVED(5);
+SYMSURF_SOLVED(6);
+SYMSURF_SOLVED(7);
+SYMSURF_SOLVED(10);
+#undef SYMSURF_SOLVED
 
 namespace {
 

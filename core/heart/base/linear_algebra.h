@@ -66,9 +66,9 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& semidefinite, const Eigen::VectorX
 
 /// The same in less time, where many are solved.
 template <int n>
-requires(n >= 3 &&
-         n <= 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
-                                                 const Eigen::Vector<double, n>& right);
+requires((n >= 3 && n <= 7) ||
+         n == 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
+                                                  const Eigen::Vector<double, n>& right);
 
 /// Weighted least squares fit of z = h . (1, u, v, u^2, u v, v^2).
 class QuadraticFit {

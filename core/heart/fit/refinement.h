@@ -121,27 +121,33 @@ const Vector3& Refinement::position(const Sample& sample) const {
 template <typename Map>
 std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limit,
                                        Index stride) const {
-  std::vector<Match> found;
+  struct Asked {
+    const Sample& sample;
+    std::size_t map;
+  };
+  std::vector<Asked> asked;
   std::vector<Vector3> images;
   for (std::size_t k = 0; k < maps.size(); ++k)
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
       const Vector3 image = maps[k].reflect(samples_[i].point);
       if (!image.allFinite()) continue;
-      found.push_back({position<Map>(samples_[i]), *samples_[i].surfel, image, {}, k});
+      asked.push_back({samples_[i], k});
       images.push_back(cloud_.frame.from_frame(image));
     }
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
-  std::vector<Match> met;
-  for (std::size_t k = 0; k < found.size(); ++k) {
+  std::vector<Match> found;
+  for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!partners[k].allFinite()) continue;
     const Vector3 x = cloud_.frame.to_frame(partners[k]);
     const Surfel* surfel = surfel_at(x);
     if (!surfel) continue;
-    Match& match = met.emplace_back(found[k]);
-    match.partner = Map::is_rigid ? noise_.smoothed(x, *surfel) : x;
-    match.partner_facet = {surfel->normal, surfel->flatness_without(noise_.deviation())};
+    found.push_back({position<Map>(asked[k].sample),
+                     *asked[k].sample.surfel,
+                     Map::is_rigid ? noise_.smoothed(x, *surfel) : x,
+                     {surfel->normal, surfel->flatness_without(noise_.deviation())},
+                     asked[k].map});
   }
-  return met;
+  return found;
 }
 
 // Matches on every so many samples.

@@ -110,7 +110,8 @@ std::optional<Quadric> fitted_quadric(const SearchCloud& cloud, GrownSurface& su
   if (!start) return std::nullopt;
   surface.mirror = nullptr;
   const double spacing = cloud.spacing;
-  UnitQuadric model = fitted(*start, SearchMatcher(cloud), {4 * spacing, 0.5 * spacing, steps});
+  UnitQuadric model =
+      symsurf::fitted(*start, SearchMatcher(cloud), {4 * spacing, 0.5 * spacing, steps});
   std::vector<Vector3> positions;
   for (const Index i : cloud.tree.order()) positions.push_back(cloud.point(i));
   const NearestPoints points(cloud.points, cloud.tree, cloud.context);
