@@ -75,7 +75,7 @@ def test_in_a_host_that_cancels_and_throws(scalar):
 
 def test_the_float_build_finds_the_same_planes():
     found = {}
-    for scalar in ("double", "float"):
+    for scalar in ("float", "double"):
         lines = map(str.split, in_host(scalar).stdout.splitlines())
         found[scalar] = {
             (name, figure): np.array(values, float)
