@@ -49,8 +49,8 @@ test:
 	@.ci/setup cached $(SUITES:%=suite_%)
 	@.ci/suites $(SUITES)
 
-# The same with all that there is to draw, in an hour and a half of two cores, and with what is seldom broken: tables of the
-# thesis, windows, clouds of more than a million points, VTK 9.1 and 9.7.
+# The same with all that there is to draw and with what is seldom broken: tables of the thesis, damaged parts, windows,
+# VTK 9.1 and 9.7. It takes about twice as long.
 test-full: export SYMSURF_SEEDS = 8
 test-full: test
 
