@@ -148,6 +148,27 @@ def test_results_come_back(method, points, tmp_path):
         assert_same(list(loaded.mirror.mesh()), list(result.mirror.mesh()))
 
 
+@pytest.mark.parametrize("method", ["plane", "fixed_direction", "perpendicular", "quadric"])
+def test_results_of_older_versions_are_loaded(method, blob, tmp_path):
+    """They have no footprint, no axes, and statistics under their old names."""
+    points = np.vstack([blob, blob * (-1, 1, 1)])
+    result = symsurf.detect(points, method)
+    path = tmp_path / "result.json"
+    result.save(path)
+    record = json.loads(path.read_text())
+    for name in ("footprint", "space"):
+        del record[name]
+    record["statistics"] |= {"stray_points": 3, "skin_points": 5}
+    path.write_text(json.dumps(record))
+    loaded = symsurf.Result.load(path)
+    assert loaded.mirror.kind == result.mirror.kind and loaded.score == result.score
+    assert_same(loaded.surface_points, result.surface_points)
+    assert loaded.statistics["outliers"] == 3 and loaded.statistics["boundary_points"] == 5
+    assert loaded.verdict == result.verdict
+    made = symsurf.asymmetry(points, loaded)
+    assert np.isfinite(made.statistics["rms"])
+
+
 def test_what_is_not_a_number_is_none_after_loading(tmp_path):
     points, mirror = mirrored_surface(200, 0)
     result = symsurf.match(points, mirror)

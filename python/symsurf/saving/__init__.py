@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from functools import partial
@@ -98,13 +99,12 @@ def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
         raise OSError(errno.EINVAL, "This is not a file", str(path))
     # A name of its own: others may write the same file at the same time.
     unfinished = file.with_name(f".symsurf-{os.urandom(8).hex()}.partial")
-    mode = file.stat().st_mode & 0o7777 if file.exists() else None
+    before = file.stat() if file.exists() else None
+    opener = partial(os.open, mode=0o666 if before is None else 0o600)
     try:
-        with open(
-            unfinished, "xb", opener=partial(os.open, mode=0o666 if mode is None else 0o600)
-        ) as new:
-            if mode is not None:  # who may read what stood there
-                unfinished.chmod(mode)
+        with open(unfinished, "xb", opener=opener) as new:
+            if before is not None:
+                _hand_over(unfinished, before)
             new.writelines([content] if isinstance(content, bytes) else content)
         unfinished.replace(file)
     except BaseException as error:
@@ -113,3 +113,10 @@ def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
         if isinstance(error, OSError):  # which names the partial file
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
+
+
+def _hand_over(file: Path, before: os.stat_result) -> None:
+    """To those who may read and write what stood there."""
+    with suppress(OSError, AttributeError):  # root may give files away; Windows has no owners
+        os.chown(file, before.st_uid, before.st_gid)
+    file.chmod(stat.S_IMODE(before.st_mode))
