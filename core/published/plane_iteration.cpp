@@ -96,16 +96,10 @@ void suppress_similar(std::vector<Candidate>& candidates, std::size_t most) {
   });
 }
 
-Points in_frame(PointsView points, const PrincipalFrame& frame) {
-  Points rows(points.size(), 3);
-  for (Index i = 0; i < points.size(); ++i) rows.row(i) = frame.to_frame(points[i]).transpose();
-  return rows;
-}
-
 }  // namespace
 
 Points thinned_points(const Cloud& cloud, const Context& context) {
-  return Surfels(cloud, surfels_thinned, context).positions(surfels_thinned);
+  return cloud.patches(surfels_thinned, context).positions(surfels_thinned);
 }
 
 Result iterated_planes(const std::string& method, const Cloud& cloud, const Points& thinned,
@@ -135,7 +129,7 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
     }
     suppress_similar(candidates, finalists);
   };
-  const Points all = in_frame(cloud.points, cloud.frame);
+  const Points all = cloud.frame.to_frame(cloud.points, context.stage(0.3, 0.3));
   const Index stride = all.rows() / some_points;
   if (stride > 1) {
     const Points some = all(Eigen::seq(0, Eigen::last, stride), Eigen::indexing::all);
@@ -154,10 +148,8 @@ Result iterated_planes(const std::string& method, const Cloud& cloud, const Poin
 Result ranked_planes(const std::string& method, const Cloud& cloud,
                      const std::vector<std::shared_ptr<Mirror>>& planes,
                      const ParameterValues& values, const Context& context) {
-  PointTree tree(cloud.points, context.stage(0, 0.25));
-  const NearestPoints points(cloud.points, tree, context);
-  Result best = MirrorScore(cloud, points, context.stage(0.25, 0.5)).ranked(method, planes);
-  add_pairs(best, cloud, std::move(tree), values, context.stage(0.5, 1));
+  Result best = MirrorScore(cloud, context.stage(0, 0.5)).ranked(method, planes);
+  add_pairs(best, cloud, values, context.stage(0.5, 1));
   return best;
 }
 

@@ -10,7 +10,6 @@
 
 #include "base/linear_algebra.h"
 #include "base/parallel.h"
-#include "cloud/normals.h"
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"
 #include "published.h"
@@ -19,12 +18,12 @@ namespace symsurf {
 
 namespace {
 
-double midpoint_score(PointsView points, const PointTree& tree, const Result& result,
-                      const Context& context) {
+double midpoint_score(const Cloud& cloud, const Result& result, const Context& context) {
   constexpr Index neighbours = 11, samples = 2000, grain = 64;
   const PointsView midpoints(result.surface_points);
   if (midpoints.size() < neighbours) return 0;
-  const double tolerance = surface_spacing(points, tree);
+  const PointsView points = cloud.points;
+  const double tolerance = surface_spacing(points, cloud.tree(context));
   if (!(tolerance > 0)) return 0;
 
   const PointTree midpoint_tree(midpoints, context.stage(0, 0.3));
@@ -61,8 +60,9 @@ double midpoint_score(PointsView points, const PointTree& tree, const Result& re
 
 }  // namespace
 
-Result midpoint_pairs(PointsView points, const PointTree& tree,
-                      const std::vector<Neighbour>& partners, const Context& context) {
+Result midpoint_pairs(const Cloud& cloud, const std::vector<Neighbour>& partners,
+                      const Context& context) {
+  const PointsView points = cloud.points;
   const auto count = std::count_if(partners.begin(), partners.end(),
                                    [](const Neighbour& partner) { return partner.index >= 0; });
   Result result;
@@ -76,7 +76,7 @@ Result midpoint_pairs(PointsView points, const PointTree& tree,
     result.residuals[row] = std::sqrt(partner.squared_distance);
     result.surface_points.row(row++) = (points[i] + points[partner.index]).transpose() / 2;
   }
-  result.score = midpoint_score(points, tree, result, context);
+  result.score = midpoint_score(cloud, result, context);
   return result;
 }
 
@@ -91,10 +91,10 @@ std::vector<Parameter> normal_parameters() {
   };
 }
 
-Points given_or_estimated_normals(const Cloud& cloud, const PointTree& tree,
-                                  const ParameterValues& values, const Context& context) {
+Points given_or_estimated_normals(const Cloud& cloud, const ParameterValues& values,
+                                  const Context& context) {
   if (cloud.normals.empty())
-    return estimate_normals(cloud.points, tree, values.integer("neighbours"),
+    return estimate_normals(cloud.points, cloud.tree(context), values.integer("neighbours"),
                             values.choice("normal_estimation"), context);
   Points unit(cloud.normals.size(), 3);
   for (Index i = 0; i < unit.rows(); ++i)
@@ -281,8 +281,9 @@ std::vector<Vector3> directions(Index steps) {
 // Algorithms 1 and 2: separates the cloud along each direction and keeps the one of the highest
 // score s = ln(d + 1) + exp(-error) (3.4), d the clearance; equal scores: the first.
 template <typename Error>
-Result best_separation(const Cloud& cloud, const PointTree& tree, Index steps, const Error& error,
+Result best_separation(const Cloud& cloud, Index steps, const Error& error,
                        const Context& context) {
+  const PointTree& tree = cloud.tree(context.stage(0, 0.02));
   const std::vector<Vector3> tried = directions(steps);
   const auto count = static_cast<Index>(tried.size());
   Vector3 centroid = Vector3::Zero();
@@ -310,7 +311,7 @@ Result best_separation(const Cloud& cloud, const PointTree& tree, Index steps, c
     throw InvalidInput("each of the " + std::to_string(count) +
                        " planes tried leaves one side without points");
   const Separation winner = separated(cloud, tree, centroid, tried[best], context);
-  Result result = midpoint_pairs(cloud.points, tree, winner.partners, context.stage(0.95, 1));
+  Result result = midpoint_pairs(cloud, winner.partners, context.stage(0.95, 1));
   result.statistics = {
       {"direction", tried[best]},
       {"projection_error", table(best, projection_error)},
@@ -322,26 +323,22 @@ Result best_separation(const Cloud& cloud, const PointTree& tree, Index steps, c
 }
 
 Result run_separation(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  const PointTree tree(cloud.points, context.stage(0, 0.02));
   Result result = best_separation(
-      cloud, tree, values.integer("steps"),
-      [](const Separation& separation, const Context&) { return line_error(separation); },
-      context.stage(0.02, 1));
+      cloud, values.integer("steps"),
+      [](const Separation& separation, const Context&) { return line_error(separation); }, context);
   result.method = "separation";
   return result;
 }
 
 Result run_separation_normals(const Cloud& cloud, const ParameterValues& values,
                               const Context& context) {
-  const PointTree tree(cloud.points, context.stage(0, 0.02));
-  const Points normals = given_or_estimated_normals(cloud, tree, values, context.stage(0.02, 0.1));
+  const Points normals = given_or_estimated_normals(cloud, values, context.stage(0, 0.1));
   const PointTree normal_tree(normals, context.stage(0.1, 0.12));
   // Regression normals all point up, so their sign counts; others are lines.
   const bool as_lines =
       !cloud.normals.empty() || values.choice("normal_estimation") != "regression";
   const NormalError error{cloud.points, normals, as_lines, normal_tree.order()};
-  Result result =
-      best_separation(cloud, tree, values.integer("steps"), error, context.stage(0.12, 1));
+  Result result = best_separation(cloud, values.integer("steps"), error, context.stage(0.12, 1));
   result.method = "separation_normals";
   return result;
 }
@@ -385,9 +382,10 @@ namespace {
 
 // Steps 2 to 6 of the thesis's Algorithm 3, by index: the other point nearest to the line through x
 // along its unit normal; equal distances: the lowest index.
-std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, const PointTree& tree,
-                                          PointsView normals, const Context& context) {
+std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, PointsView normals,
+                                          const Context& context) {
   const PointsView points = cloud.points;
+  const PointTree& tree = cloud.tree(context);
   std::vector<Neighbour> partners(points.size());
   constexpr Index grain = 1024;
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
@@ -419,11 +417,10 @@ std::vector<Neighbour> nearest_to_normals(const Cloud& cloud, const PointTree& t
 }
 
 Result run_normals_only(const Cloud& cloud, const ParameterValues& values, const Context& context) {
-  const PointTree tree(cloud.points, context.stage(0, 0.05));
-  const Points normals = given_or_estimated_normals(cloud, tree, values, context.stage(0.05, 0.4));
+  const Points normals = given_or_estimated_normals(cloud, values, context.stage(0, 0.4));
   const std::vector<Neighbour> partners =
-      nearest_to_normals(cloud, tree, normals, context.stage(0.4, 0.9));
-  Result result = midpoint_pairs(cloud.points, tree, partners, context.stage(0.9, 1));
+      nearest_to_normals(cloud, normals, context.stage(0.4, 0.9));
+  Result result = midpoint_pairs(cloud, partners, context.stage(0.9, 1));
   result.method = "normals_only";
   result.statistics["projection_error"] =
       result.residuals.squaredNorm() / static_cast<double>(result.residuals.size());

@@ -36,16 +36,15 @@ struct Line {
 ///
 /// The score, 0 to 1, is the share of the points that a smooth surface through the midpoints
 /// mirrors onto their partners, to within the spacing of the points; points nearer to the surface
-/// than that do not count. The tree is that of the points.
-Result midpoint_pairs(PointsView points, const PointTree& tree,
-                      const std::vector<Neighbour>& partners, const Context& context);
+/// than that do not count.
+Result midpoint_pairs(const Cloud& cloud, const std::vector<Neighbour>& partners,
+                      const Context& context);
 
 /// The parameters of Algorithms 2 and 3: how normals are estimated where none are given.
 std::vector<Parameter> normal_parameters();
 
-/// Unit normals, the cloud's own or estimated as the parameters say. The tree is that of its
-/// points.
-Points given_or_estimated_normals(const Cloud& cloud, const PointTree& tree,
-                                  const ParameterValues& values, const Context& context);
+/// Unit normals, the cloud's own or estimated as the parameters say.
+Points given_or_estimated_normals(const Cloud& cloud, const ParameterValues& values,
+                                  const Context& context);
 
 }  // namespace symsurf

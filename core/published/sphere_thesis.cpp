@@ -107,7 +107,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   const Points simplified = downsample(cloud.points, values.integer("sample_size"), context);
   const MeasuredSphere start = best_candidate(simplified, radii, context.stage(0, 0.8));
 
-  PointTree tree(cloud.points, context.stage(0.8, 0.8));
+  const PointTree& tree = cloud.tree(context.stage(0.8, 0.8));
   const double reach = measure_reach(cloud.points);
   const auto measure = [&](const Eigen::Vector4d& s) {
     constexpr Index grain = 1024;
@@ -143,7 +143,7 @@ Result run_sphere_thesis(const Cloud& cloud, const ParameterValues& values,
   const double found = measure(sphere);
   // Of images that fall on points, phi is 1 or a rounding error more.
   result.score = std::min(1.0, found / static_cast<double>(cloud.points.size()));
-  add_pairs(result, cloud, std::move(tree), values, context.stage(0.95, 1));
+  add_pairs(result, cloud, values, context.stage(0.95, 1));
   result.statistics = {{"measure", found},
                        {"start_measure", start.measure},
                        {"start_centre", start.centre},

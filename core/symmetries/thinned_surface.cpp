@@ -19,11 +19,8 @@ constexpr double noisy = 0.25, reach = 3.5;
 // farther away: moving least squares (Levin 2003).
 Points smoothed(const SurfacePoints& surface, const Cloud& cloud, const Context& context) {
   constexpr Index several = 4;  // of the cloud for each of the thinned points
-  const std::vector<Index> rows =
-      spread_along_curve(cloud.points, several * surface.size(), context.stage(0, 0.2));
-  Points all(static_cast<Index>(rows.size()), 3);
-  for (Index k = 0; k < all.rows(); ++k)
-    all.row(k) = cloud.frame.to_frame(cloud.points[rows[k]]).transpose();
+  const Cloud& some = cloud.thinned(several * surface.size(), context.stage(0, 0.1));
+  const Points all = cloud.frame.to_frame(some.points, context.stage(0.1, 0.2));
   const PointTree tree(all, context.stage(0.2, 0.4));
   const double radius = reach * surface.spacing;
   Points moved = surface.points;
@@ -66,7 +63,7 @@ Cloud sampled(Cloud cloud, SurfaceSamples& sampling, const Context& context) {
 
 ThinnedSurface::ThinnedSurface(const Cloud& cloud, Index count, const Context& context)
     : cloud_(sampled(cloud, sampling_, context.stage(0, 0.1))),
-      surfels_(cloud_, std::min(count, cloud_.points.size() / 2), context.stage(0.1, 0.5)),
+      surfels_(cloud_.patches(std::min(count, cloud_.points.size() / 2), context.stage(0.1, 0.5))),
       map_(surfels_),
       points_(
           surface_of(surfels_.positions(surfels_.size()), cloud_, noise_, context.stage(0.5, 1))),

@@ -45,7 +45,7 @@ class ThinnedSurface {
  private:
   SurfaceSamples sampling_;
   Cloud cloud_;
-  Surfels surfels_;
+  const Surfels& surfels_;
   SurfelMap map_;
   double noise_ = 0;  // before it was smoothed away
   SurfacePoints points_;

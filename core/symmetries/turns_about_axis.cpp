@@ -181,13 +181,13 @@ SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
 // shape has nothing: few fill what it lacks. None where it lacks next to nothing.
 std::optional<double> covering_turn(PointsView points, TrianglesView faces,
                                     const SymmetryAxis& axis, const Context& context) {
-  Cloud cloud;
-  cloud.points = points;
+  Cloud cloud(points);
   cloud.faces = faces;
   SurfaceSamples samples;
   if (!faces.empty()) samples.apply(cloud, context);
   validate(cloud, 1, context);
-  const Surfels surfels(cloud, std::min(surfels_wanted, cloud.points.size() / 2), context);
+  const Surfels& surfels =
+      cloud.patches(std::min(surfels_wanted, cloud.points.size() / 2), context);
   std::vector<Vector3> positions;
   for (Index i = 0; i < surfels.size(); ++i)
     positions.push_back(cloud.frame.from_frame(surfels[i].position));

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "cloud/cloud.h"
-#include "cloud/normals.h"
 #include "cloud/point_tree.h"
+#include "cloud/surface_points.h"
 #include "preprocess/boundary.h"
 #include "random_cloud.h"
 

@@ -82,6 +82,17 @@ TEST(ExactPlanes, AreFoundOfRandomPoints) {
     }
 }
 
+// How often a file repeats some of the points does not move what maps them.
+TEST(ExactPlanes, AreThoseOfTheDistinctPoints) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = turned(box_surface(8, 12, 16), random);
+    Points repeated(points.rows() + 20, 3);
+    repeated << points, points.topRows(5).replicate(4, 1);
+    expect_planes(repeated, 3);
+  }
+}
+
 // The plane of a flat cloud moves nothing.
 TEST(ExactPlanes, LeaveOutThePlaneOfAFlatCloud) {
   Points points = box_surface(8, 12, 2);

@@ -35,16 +35,11 @@ Points gaussian(const Points& points, double share, std::uint64_t seed) {
 
 struct Scored {
   explicit Scored(const Points& points)
-      : cloud(checked_cloud(points, {}, 4, {})),
-        tree(points),
-        nearest(points, tree, {}),
-        score(cloud, nearest, {}) {}
+      : cloud(checked_cloud(points, {}, 4, {})), score(cloud, {}) {}
   double operator()(const Mirror& mirror) const {
     return score_of(score.fit(mirror), mirror.kind());
   }
   Cloud cloud;
-  PointTree tree;
-  NearestPoints nearest;
   MirrorScore score;
 };
 

@@ -113,7 +113,7 @@ TEST_P(SharedSlabs, HaveThePartnersOfTheWhole) {
       const Shared shared(points, GetParam(), random);
       const double limit = random.uniform(0.02, 0.1);
       Result whole;
-      add_pairs(whole, points, PointTree(points), mirror, limit, {});
+      add_pairs(whole, Cloud(points), mirror, limit, {});
       for (const Vector3& along : {Vector3(mirror.normal()), mirror.normal().unitOrthogonal()}) {
         Index row = 0;
         std::vector<Result> results(GetParam());

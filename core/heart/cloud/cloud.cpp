@@ -7,14 +7,86 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
 #include "base/parallel.h"
+#include "cloud/point_tree.h"
+#include "cloud/surface_points.h"
+#include "cloud/surfels.h"
 #include "cloud/voxel_grid.h"
 
 namespace symsurf {
+
+namespace {
+
+struct Thinned {
+  Points points, normals;
+  Cloud cloud;
+
+  Thinned(const Cloud& whole, Index about, const Context& context) {
+    const std::vector<Index> rows =
+        drawn_with_images(whole.frame.to_frame(whole.points, context), about);
+    points = chosen_rows(whole.points, rows);
+    normals = chosen_rows(whole.normals, rows);
+    cloud = checked_cloud(points, normals, 1, context);
+    cloud.seed = whole.seed;
+    cloud.tolerance = whole.tolerance;
+  }
+};
+
+}  // namespace
+
+struct Cloud::Parts {
+  std::mutex mutex;
+  std::optional<PointTree> tree;
+  std::map<Index, Surfels> patches, finer_patches;  // by how many were asked for
+  std::map<Index, Thinned> thinned;
+};
+
+Cloud::Cloud() : Cloud(PointsView()) {}
+
+Cloud::Cloud(PointsView all, PointsView lines) { set_points(all, lines); }
+
+void Cloud::set_points(PointsView all, PointsView lines) {
+  points = all;
+  normals = lines;
+  parts_ = std::make_shared<Parts>();
+}
+
+const PointTree& Cloud::tree(const Context& context) const {
+  const std::lock_guard lock(parts_->mutex);
+  if (!parts_->tree) parts_->tree.emplace(points, context);
+  return *parts_->tree;
+}
+
+void Cloud::release_tree() const {
+  constexpr Index large = 200'000;  // points: their tree takes 10 MB
+  const std::lock_guard lock(parts_->mutex);
+  if (points.size() > large) parts_->tree.reset();
+}
+
+const Surfels& Cloud::patches(Index about, const Context& context) const {
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->patches.try_emplace(about, *this, about, context).first->second;
+}
+
+const Surfels& Cloud::finer_patches(Index about, const Context& context) const {
+  const Surfels& coarser = patches(about, context.stage(0, 0.5));
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->finer_patches.try_emplace(about, *this, coarser, context.stage(0.5, 1))
+      .first->second;
+}
+
+const Cloud& Cloud::thinned(Index about, const Context& context) const {
+  if (points.size() <= about) return *this;
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->thinned.try_emplace(about, *this, about, context).first->second.cloud;
+}
 
 namespace {
 
@@ -131,9 +203,7 @@ void validate(Cloud& cloud, Index minimum_points, const Context& context) {
 
 Cloud checked_cloud(PointsView points, PointsView normals, Index minimum_points,
                     const Context& context) {
-  Cloud cloud;
-  cloud.points = points;
-  cloud.normals = normals;
+  Cloud cloud(points, normals);
   validate(cloud, minimum_points, context);
   return cloud;
 }

@@ -6,24 +6,56 @@
 #include <symsurf/points.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cloud/principal_frame.h"
 
 namespace symsurf {
 
-/// A point cloud or mesh on its way to a method.
+class PointTree;
+class Surfels;
+
+/// A point cloud or mesh on its way to a method. Its parts are made when they are first asked for,
+/// once, safely between threads, and shared by copies of the cloud.
 struct Cloud {
+  Cloud();
+  explicit Cloud(PointsView points, PointsView normals = {});
+
+  /// Other points: the parts are made anew.
+  void set_points(PointsView points, PointsView normals);
+
+  /// The k-d tree of the points.
+  const PointTree& tree(const Context& context) const;
+
+  /// Frees the tree of so many points that it takes the memory which others need: references to it
+  /// end. The next who asks for it gets another.
+  void release_tree() const;
+
+  /// About so many patches.
+  const Surfels& patches(Index about, const Context& context) const;
+
+  /// About four times as many, clutter left out as there.
+  const Surfels& finer_patches(Index about, const Context& context) const;
+
+  /// About so many of the points, drawn at random: images over the frame's planes, as those of
+  /// exact mirrors are, together. The cloud itself where it has no more.
+  const Cloud& thinned(Index about, const Context& context) const;
+
   PointsView points;
   PointsView normals;   ///< empty: none given; otherwise one line direction a point, sign ignored
   TrianglesView faces;  ///< between the vertices where there are any, else the points
-  PointsView vertices;  ///< of the mesh, where the points are samples of its faces
-  std::vector<Plane> vertex_planes;  ///< that map the vertices onto themselves, all of them
+  std::shared_ptr<const Cloud> vertices;  ///< of the mesh, where the points are samples of it
+  std::vector<Plane> vertex_planes;       ///< that map the vertices onto themselves, all of them
   PointsView footprint;  ///< what a mirror is drawn over, where that is more than the points
   std::uint64_t seed = 0;
   double tolerance = usual_tolerance;  ///< of the score, in diagonals
   double diagonal = 0;                 ///< of the axis-aligned bounding box
   PrincipalFrame frame;
+
+ private:
+  struct Parts;
+  std::shared_ptr<Parts> parts_;
 };
 
 /// Sets diagonal and frame, and checks what every method relies on: at least minimum_points points
@@ -96,7 +128,7 @@ void set_footprint(Result& result, Points footprint);
 /// The distinct points of a cloud, in the order of their first appearance.
 struct DistinctPoints {
   std::vector<std::int32_t> first;   ///< of each, the first point of the cloud that equals it
-  std::vector<std::int32_t> number;  ///< of each point of the cloud, which of these it equals
+  std::vector<std::int32_t> number;  ///< of each point of the cloud, which of these it is
 };
 
 DistinctPoints distinct_points(PointsView points, const Context& context);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
@@ -12,146 +13,48 @@ namespace symsurf {
 
 namespace {
 
-constexpr double least_angle = 1e-3;   // between the directions of two points, radians
-constexpr std::size_t farthest = 512;  // points that are looked at
-
-// Points that lie equally far from the centroid.
-using Shell = std::vector<Vector3>;
-
-// The outermost shells, each whole.
-std::vector<Shell> outer_shells(const Cloud& cloud) {
-  const auto farther = [](const Vector3& a, const Vector3& b) {
-    return a.squaredNorm() > b.squaredNorm();
-  };
-  std::vector<Vector3> points;
-  double least = 0;
-  const auto keep_farthest = [&] {
-    if (points.size() <= farthest) return;
-    std::nth_element(points.begin(), points.begin() + farthest, points.end(), farther);
-    points.resize(farthest);
-    least = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-              return farther(b, a);
-            })->squaredNorm();
-  };
-  for (Index i = 0; i < cloud.points.size(); ++i) {
-    const Vector3 x = cloud.frame.to_frame(cloud.points[i]);
-    if (x.squaredNorm() < least) continue;
-    points.push_back(x);
-    if (points.size() >= 4 * farthest) keep_farthest();
-  }
-  keep_farthest();
-  const bool is_all = static_cast<Index>(points.size()) == cloud.points.size();
-  std::stable_sort(points.begin(), points.end(), farther);
-  if (points.size() > farthest) points.resize(farthest);
-
-  std::vector<Shell> shells;
-  double radius = 0;
-  for (const Vector3& x : points) {
-    if (shells.empty() || radius - x.norm() > single_rounding) shells.emplace_back();
-    radius = x.norm();
-    if (radius > single_rounding) shells.back().push_back(x);
-  }
-  if (!is_all && !shells.empty()) shells.pop_back();  // it may go on farther in
-  return shells;
-}
-
-// Unit normals of the planes through the centroid that may map the shells onto themselves.
-std::vector<Vector3> possible_normals(std::vector<Shell> shells) {
-  std::vector<Vector3> normals;
-  std::erase_if(shells, [](const Shell& shell) { return shell.empty(); });
-  std::stable_sort(shells.begin(), shells.end(),
-                   [](const Shell& a, const Shell& b) { return a.size() < b.size(); });
-  if (shells.empty()) return normals;
-  const auto add_bisectors = [&](const Shell& shell, const Vector3& a) {
-    for (const Vector3& other : shell)
-      if ((other - a).norm() > single_rounding) normals.push_back((other - a).normalized());
-  };
-  const Vector3& a = shells.front().front();
-  add_bisectors(shells.front(), a);
-  for (const Shell& shell : shells)
-    for (const Vector3& b : shell) {
-      const Vector3 across = a.normalized().cross(b.normalized());
-      if (across.norm() < least_angle) continue;
-      add_bisectors(shell, b);
-      normals.push_back(across.normalized());
-      return normals;
-    }
-  return normals;
-}
-
-// Drops the planes that move some of the positions elsewhere than onto points.
-void keep_exact(std::vector<UnitPlane>& planes, const Points& positions, const Cloud& cloud,
-                const NearestPoints& points) {
-  std::vector<Vector3> images;
-  for (const UnitPlane& plane : planes)
-    for (Index i = 0; i < positions.rows(); ++i)
-      images.push_back(cloud.frame.from_frame(plane.reflect(positions.row(i).transpose())));
-  const std::vector<Vector3> partners = points.nearest(images, single_rounding * cloud.frame.size);
-  std::size_t k = 0;
-  std::erase_if(planes, [&](const UnitPlane&) {
-    bool exact = true;
-    for (Index i = 0; i < positions.rows(); ++i) exact = partners[k++].allFinite() && exact;
-    return !exact;
-  });
-}
-
-}  // namespace
-
-std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& points,
-                                    const Surfels& samples) {
-  std::vector<UnitPlane> planes;
-  for (const Vector3& normal : possible_normals(outer_shells(cloud))) planes.push_back({normal, 0});
-  for (const Index count : {Index{4}, Index{64}, samples.size()}) {
-    Points positions(std::min(count, samples.size()), 3);
-    for (Index k = 0; k < positions.rows(); ++k)
-      positions.row(k) = samples[k * samples.size() / positions.rows()].sampled.transpose();
-    keep_exact(planes, positions, cloud, points);
-  }
-  suppress_non_maxima(planes, planes.size(), [](const UnitPlane& plane, const UnitPlane& other) {
-    return plane.normal.cross(other.normal).norm() < least_angle;
-  });
-  // A flat cloud's own plane moves nothing.
-  std::erase_if(planes, [&](const UnitPlane& plane) {
-    for (Index k = 0; k < samples.size(); ++k)
-      if (std::abs(plane.distance(samples[k].sampled)) > single_rounding) return false;
-    return true;
-  });
-  return planes;
-}
-
-// How often a file repeats a point must not move the centroid.
-std::vector<Plane> exact_planes(PointsView points, const Context& context) {
-  const Points distinct = chosen_rows(points, distinct_points(points, context).first);
-  const Cloud cloud = checked_cloud(distinct, {}, 1, context);
-  const PointTree tree(distinct, context);
-  std::vector<Plane> planes;
-  for (const UnitPlane& plane : exact_planes(cloud, NearestPoints(distinct, tree, context),
-                                             Surfels(cloud, distinct.rows(), context)))
-    planes.push_back(in_input_units(plane, cloud.frame));
-  return planes;
-}
-
-namespace {
-
 // Of the set's diameter: from an image to a point, single precision; the same under an isometry
 // that two points define.
 constexpr double exactly = 2e-6, guessed = 5e-5;
-constexpr double same_map = 1e-4;        // between matrices
-constexpr double least_radius = 0.3;     // of the largest, of points that define a map
-constexpr double least_sine = 0.3;       // of the angle between two of them
-constexpr Index most_bases = 4'000'000;  // pairs that are tried for the base
+constexpr double same_map = 1e-4;         // between matrices
+constexpr double least_radius = 0.3;      // of the largest, of points that define a map
+constexpr double least_sine = 0.3;        // of the angle between two of them
+constexpr Index most_bases = 4'000'000;   // pairs that are tried for the base
+constexpr std::size_t farthest = 10'000;  // points that the base is chosen of
+
+// How often a file repeats a point must not move it.
+Vector3 centre_of(PointsView points, const PointTree& tree) {
+  Vector3 sum = Vector3::Zero();
+  double count = 0;
+  for (std::size_t p = 0; p < tree.order().size(); ++p) {
+    const Vector3 x = points[tree.order()[p]];
+    if (p > 0 && x == points[tree.order()[p - 1]]) continue;
+    sum += x;
+    count += 1;
+  }
+  return sum / count;
+}
 
 class Search {
  public:
-  Search(PointsView points, const PointTree& tree)
-      : tree_(tree),
-        centre_(points.matrix().colwise().mean().transpose()),
-        points_((points.matrix().rowwise() - centre_.transpose()).transpose()),
+  Search(PointsView points, const PointTree& tree, Index checked)
+      : all_(points),
+        tree_(tree),
+        centre_(tree.has_copies() ? centre_of(points, tree)
+                                  : Vector3(points.matrix().colwise().mean())),
+        points_(farthest_of(points)),
         radii_(points_.colwise().norm()),
-        diameter_(2 * radii_.maxCoeff()) {}
+        diameter_(2 * radii_.maxCoeff()),
+        whole_from_(static_cast<Index>(radii_.size()) == points.size()
+                        ? 0
+                        : radii_.minCoeff() + guessed * diameter_),
+        checked_(3, std::min(checked, points.size())) {
+    for (Index k = 0; k < checked_.cols(); ++k)
+      checked_.col(k) = points[k * points.size() / checked_.cols()] - centre_;
+  }
 
   ExactIsometries run(std::size_t most, const Context& context) {
-    ExactIsometries found{{Matrix3::Identity()}, {}};
+    ExactIsometries found{{Matrix3::Identity()}, {}, centre_};
     std::vector<Matrix3> fitted = found.maps;
     const auto [a, b] = base_points();
     if (a < 0 || b < 0) return found;
@@ -180,6 +83,31 @@ class Search {
   }
 
  private:
+  using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+  // From the centre.
+  Columns farthest_of(PointsView points) const {
+    std::vector<Vector3> found;
+    double least = 0;
+    const auto farther = [](const Vector3& a, const Vector3& b) {
+      return a.squaredNorm() > b.squaredNorm();
+    };
+    const auto keep_farthest = [&] {
+      if (found.size() <= farthest) return;
+      std::nth_element(found.begin(), found.begin() + farthest, found.end(), farther);
+      least = found[farthest].squaredNorm();
+      found.resize(farthest);
+    };
+    for (Index i = 0; i < points.size(); ++i) {
+      const Vector3 x = points[i] - centre_;
+      if (x.squaredNorm() < least) continue;
+      found.push_back(x);
+      if (found.size() >= 4 * farthest) keep_farthest();
+    }
+    keep_farthest();
+    return rows_of(found).transpose();
+  }
+
   // Two points in directions far from parallel, of radii that few others have: these are all that
   // the points can be mapped to. -1: there are none.
   std::pair<Index, Index> base_points() const {
@@ -193,7 +121,7 @@ class Search {
     const auto rarest = [&](const auto& allowed) {
       Index best = -1;
       for (Index i = 0; i < radii_.size(); ++i)
-        if (2 * radii_[i] >= least_radius * diameter_ && allowed(i) &&
+        if (2 * radii_[i] >= least_radius * diameter_ && radii_[i] >= whole_from_ && allowed(i) &&
             (best < 0 || counts[i] < counts[best] ||
              (counts[i] == counts[best] && radii_[i] > radii_[best])))
           best = i;
@@ -221,17 +149,17 @@ class Search {
   bool fit(Matrix3& map, double reach) {
     const double limit = reach * reach * diameter_ * diameter_;
     const auto partner_of = [&](Index i) {
-      return tree_.nearest(centre_ + map * points_.col(i), limit).index;
+      return tree_.nearest(centre_ + map * checked_.col(i), limit).index;
     };
     if (partner_of(hardest_) < 0) return false;
     Matrix3 products = Matrix3::Zero();
-    for (Index i = 0; i < points_.cols(); ++i) {
+    for (Index i = 0; i < checked_.cols(); ++i) {
       const Index partner = partner_of(i);
       if (partner < 0) {
         hardest_ = i;
         return false;
       }
-      products += points_.col(partner) * points_.col(i).transpose();
+      products += (all_[partner] - centre_) * checked_.col(i).transpose();
     }
     map = nearest_orthogonal(products, map.determinant());
     return true;
@@ -252,8 +180,8 @@ class Search {
   bool keeps_some(const Matrix3& map) const {
     constexpr Index enough = 200;
     const double limit = exactly * exactly * diameter_ * diameter_;
-    for (Index i = 0; i < points_.cols(); i += std::max<Index>(1, points_.cols() / enough))
-      if (tree_.nearest(centre_ + map * points_.col(i), limit).index < 0) return false;
+    for (Index i = 0; i < checked_.cols(); i += std::max<Index>(1, checked_.cols() / enough))
+      if (tree_.nearest(centre_ + map * checked_.col(i), limit).index < 0) return false;
     return true;
   }
 
@@ -262,19 +190,50 @@ class Search {
                        [&](const Matrix3& other) { return (other - map).norm() < same_map; });
   }
 
+  PointsView all_;
   const PointTree& tree_;
   Vector3 centre_;
-  Eigen::Matrix<double, 3, Eigen::Dynamic> points_;  // from it
+  Columns points_;  // that are farthest from it, from it
   Eigen::VectorXd radii_;
   double diameter_;
+  double whole_from_;  // radius from which on these are all points
+  Columns checked_;    // from the centre
   Index hardest_ = 0;  // that the last map took nowhere: others may miss there, too
 };
+
+// The normal of a reflection; none of other maps.
+std::optional<Vector3> reflected_normal(const Matrix3& map) {
+  constexpr double least_angle = 1e-3;  // radians
+  if (map.determinant() > 0 || map.trace() < 0 || (map - map.transpose()).norm() > least_angle)
+    return {};
+  return Vector3(eigen_of(Matrix3(map + map.transpose())).vectors.col(0));
+}
 
 }  // namespace
 
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
-                                 std::size_t most) {
-  return Search(points, tree).run(most, context);
+                                 std::size_t most, Index checked) {
+  return Search(points, tree, checked).run(most, context);
+}
+
+std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {
+  constexpr Index checked = 1000;
+  const ExactIsometries found = exact_isometries(cloud.points, cloud.tree(context), context,
+                                                 std::numeric_limits<std::size_t>::max(), checked);
+  std::vector<Plane> planes;
+  for (const Matrix3& map : found.maps) {
+    const std::optional<Vector3> normal = reflected_normal(map);
+    if (!normal) continue;
+    const Plane plane =
+        in_input_units(UnitPlane{*normal, -normal->dot(found.centre)}, PrincipalFrame());
+    // A flat cloud's own plane moves nothing.
+    Index i = 0;
+    while (i < cloud.points.size() &&
+           std::abs(plane.signed_distance(cloud.points[i])) <= single_rounding * cloud.frame.size)
+      ++i;
+    if (i < cloud.points.size()) planes.push_back(plane);
+  }
+  return planes;
 }
 
 Matrix3 basis_of(const Vector3& one, const Vector3& other) {

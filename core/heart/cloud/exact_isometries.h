@@ -8,33 +8,28 @@
 
 #include "cloud/cloud.h"
 #include "cloud/point_tree.h"
-#include "cloud/principal_frame.h"
-#include "cloud/surfels.h"
 
 namespace symsurf {
-
-/// The planes that map a cloud onto itself to rounding, all of them, in the principal frame.
-///
-/// Such a plane goes through the centroid and swaps points that lie equally far from it (Wolter,
-/// Woo and Volz 1985). Of two points a and b and the few as far out as they are, it is the bisector
-/// of a and another, or of b and another, or holds a and b. None where the points that lie as far
-/// out are too many to try, as on a sphere.
-std::vector<UnitPlane> exact_planes(const Cloud& cloud, const NearestPoints& points,
-                                    const Surfels& samples);
-
-/// The same of points in this process, copies counted once, in input units.
-std::vector<Plane> exact_planes(PointsView points, const Context& context);
 
 struct ExactIsometries {
   std::vector<Matrix3> maps;        ///< the identity first
   std::vector<Matrix3> generators;  ///< of which all are products
+  Vector3 centre;                   ///< of the points, copies counted once: it stays in place
 };
 
 /// The orthogonal maps about the centroid of a point set that take each of its points to one of
 /// them, to the rounding of single precision: by trying all images of two points (Atallah 1985 in
-/// the plane), then fitted to all; of what is found all products. At most about `most`.
+/// the plane) with few as far out as they are (Wolter, Woo and Volz 1985), then fitted to all; of
+/// what is found all products. At most about `most`. `checked`: how many of the points, spread
+/// over them, are asked where they are taken. The identity alone where of many points too many lie
+/// as far out, as on a sphere.
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
-                                 std::size_t most = std::numeric_limits<std::size_t>::max());
+                                 std::size_t most = std::numeric_limits<std::size_t>::max(),
+                                 Index checked = std::numeric_limits<Index>::max());
+
+/// The reflections among them, by some of the points: the planes that map a cloud onto itself, but
+/// for one that all points lie on.
+std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context);
 
 /// The orthonormal basis with its first axis along one vector and its second on the side of
 /// another.

@@ -10,8 +10,8 @@
 
 #include "base/math.h"
 #include "base/parallel.h"
-#include "cloud/normals.h"
 #include "cloud/point_tree.h"
+#include "cloud/surface_points.h"
 
 namespace symsurf {
 

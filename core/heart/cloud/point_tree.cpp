@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/radix_sort.h"
+#include "cloud/cloud.h"
 
 namespace symsurf {
 
@@ -128,6 +129,9 @@ constexpr std::size_t queries_between_checks = 64;  // queries between two looks
 const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace
+
+NearestPoints::NearestPoints(const Cloud& cloud, const Context& context)
+    : points_(cloud.points), tree_(cloud.tree(context)), context_(context) {}
 
 std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
                                             double reach) const {

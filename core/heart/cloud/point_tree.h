@@ -12,6 +12,8 @@
 
 namespace symsurf {
 
+struct Cloud;
+
 /// A k-d tree (nanoflann) of points in a few dimensions. Searches offer candidates to the caller,
 /// who decides about them and how far to look on; PointTree is what most callers want.
 template <int dimension>
@@ -147,6 +149,9 @@ class PointTree {
 
   Index size() const { return static_cast<Index>(order_.size()); }
 
+  /// Whether some points are equal.
+  bool has_copies() const { return !begins_.empty(); }
+
   /// The cloud's indices along the Z-order curve; last those of points that are not finite.
   const std::vector<std::int32_t>& order() const { return order_; }
 
@@ -216,9 +221,8 @@ class PointTree {
 /// Nearest points of a cloud to many queries.
 class NearestPoints {
  public:
-  /// The tree is that of the points.
-  NearestPoints(PointsView points, const PointTree& tree, const Context& context)
-      : points_(points), tree_(tree), context_(context) {}
+  /// Until the cloud's tree is released.
+  NearestPoints(const Cloud& cloud, const Context& context);
 
   /// The nearest point to each query, NaN where none is within `reach`.
   std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;

@@ -33,6 +33,14 @@ Vector3 PrincipalFrame::to_frame(const Vector3& x) const {
   return axes.transpose() * (x - centroid) * (1 / size);
 }
 
+Points PrincipalFrame::to_frame(PointsView points, const Context& context) const {
+  Points inside(points.size(), 3);
+  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) inside.row(i) = to_frame(points[i]).transpose();
+  });
+  return inside;
+}
+
 Vector3 PrincipalFrame::from_frame(const Vector3& x) const { return centroid + size * (axes * x); }
 
 PrincipalFrame principal_frame(PointsView points, const Context& context) {

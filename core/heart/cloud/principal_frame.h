@@ -21,6 +21,7 @@ struct PrincipalFrame {
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();  ///< the box, in the frame
 
   Vector3 to_frame(const Vector3& x) const;
+  Points to_frame(PointsView points, const Context& context) const;
   Vector3 from_frame(const Vector3& x) const;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "cloud/point_tree.h"
@@ -15,6 +17,28 @@ double surface_spacing(PointsView points, const PointTree& tree, Index copies = 
 /// The same about one of the points, from its neighbourhood: itself, then others, nearest first.
 double spacing_at(const std::vector<Neighbour>& neighbourhood);
 
+/// How a cloud lies around one of its points: its nearest others, of a weight that falls with the
+/// distance as 1 - (d / radius)^2. Which of several as far as the last are counted does not matter.
+struct NeighbourhoodMoments {
+  double radius = 0;                     ///< how far the last lies
+  Vector3 mean = Vector3::Zero();        ///< from the point, in radii
+  Matrix3 covariance = Matrix3::Zero();  ///< in radii squared
+
+  /// 0: as many on all sides; 5/16 at the flat face of a body full of points.
+  double one_sided() const { return mean.norm(); }
+};
+
+/// Calls visit(v, moments of the k nearest others of the point tree.order()[positions[v]]) for
+/// all of the positions, on several threads at once; fastest where they ascend.
+void visit_neighbourhoods(
+    PointsView points, const PointTree& tree, Index k, const std::vector<Index>& positions,
+    const Context& context,
+    const std::function<void(Index v, const NeighbourhoodMoments& around)>& visit);
+
+/// estimate_normals() of points whose tree is there already.
+Points estimate_normals(PointsView points, const PointTree& tree, Index neighbours,
+                        std::string_view method, const Context& context);
+
 /// The plane through a neighbourhood, by principal components.
 struct LocalPlane {
   Matrix3 axes;          ///< columns, the normal first
@@ -28,8 +52,7 @@ struct SurfacePoints {
 
   /// The planes are those through `neighbourhood` points, each point itself among them.
   SurfacePoints(Points positions, const Context& context, Index neighbourhood = ring);
-  /// Of `count` of the points, in the principal frame and drawn at random, along the Z-order curve.
-  /// Images over the frame's planes, as those of exact mirrors are, are drawn together.
+  /// Of the points that drawn_with_images() gives, along the Z-order curve.
   SurfacePoints(const Points& all, Index count, const Context& context);
 
   Index size() const { return points.rows(); }
@@ -46,8 +69,8 @@ struct SurfacePoints {
   double noise = 0;          ///< the median deviation from the planes
 };
 
-/// The rows of `count` of the points, or of all where there are no more, spread along the Z-order
-/// curve and in its order: dense where the points are dense.
-std::vector<Index> spread_along_curve(PointsView points, Index count, const Context& context);
+/// The rows of about `count` of the points, in the principal frame, drawn at random. Images over
+/// the frame's planes, as those of exact mirrors are, are drawn together.
+std::vector<Index> drawn_with_images(const Points& all, Index count);
 
 }  // namespace symsurf

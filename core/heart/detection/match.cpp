@@ -54,23 +54,20 @@ Values candidate_values(const Result& result) {
 
 namespace {
 
-Result scored(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
-              const Context& context) {
-  const NearestPoints points(cloud.points, tree, context);
+Result scored(const Cloud& cloud, const Mirror& mirror, const Context& context) {
   Result result;
-  MirrorScore(cloud, points, context).fill(mirror, result);
+  MirrorScore(cloud, context).fill(mirror, result);
   return result;
 }
 
 // A volumetric cloud by itself or by its boundary, whichever scores more.
-Result scored_over(const Cloud& cloud, const PointTree& tree, const Mirror& mirror,
-                   const Context& context) {
-  Result whole = scored(cloud, tree, mirror, context);
+Result scored_over(const Cloud& cloud, const Mirror& mirror, const Context& context) {
+  Result whole = scored(cloud, mirror, context);
   if (is_exact(whole) || !is_volumetric(cloud, context)) return whole;
   const Points rows = chosen_rows(cloud.points, boundary_of(cloud, context));
   Cloud boundary = checked_cloud(rows, {}, 1, context);
   boundary.tolerance = cloud.tolerance;
-  Result outer = scored(boundary, PointTree(rows, context), mirror, context);
+  Result outer = scored(boundary, mirror, context);
   return outer.score > whole.score ? outer : whole;
 }
 
@@ -83,11 +80,9 @@ MethodImplementation matching(const Mirror& mirror, double pair_distance) {
   method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates = true;
   method.run = [&mirror, pair_distance](const Cloud& cloud, const ParameterValues&,
                                         const Context& context) {
-    PointTree tree(cloud.points, context.stage(0, 0.2));
-    Result result = scored_over(cloud, tree, mirror, context.stage(0, 0));
+    Result result = scored_over(cloud, mirror, context.stage(0, 0.2));
     result.method = "match";
-    add_pairs(result, cloud.points, std::move(tree), mirror, pair_distance * cloud.diagonal,
-              context.stage(0.2, 1));
+    add_pairs(result, cloud, mirror, pair_distance * cloud.diagonal, context.stage(0.2, 1));
     return result;
   };
   return method;
@@ -102,8 +97,7 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance, cons
     throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
                            "; allowed is [0, inf)");
   const auto start = std::chrono::steady_clock::now();
-  Cloud cloud;
-  cloud.points = points;
+  Cloud cloud(points);
   cloud.tolerance = values.real("tolerance");
   Result result =
       run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);

@@ -21,9 +21,7 @@ bool may_hide_exact_mirror(const Result& of_boundary, const Cloud& body) {
 
 Cloud cloud_of(PointsView points, PointsView normals, const Options& options,
                double tolerance = usual_tolerance) {
-  Cloud cloud;
-  cloud.points = points;
-  cloud.normals = normals;
+  Cloud cloud(points, normals);
   cloud.seed = options.seed;
   cloud.tolerance = tolerance;
   return cloud;

@@ -205,15 +205,6 @@ FieldEstimate exact_partners(const SurfacePoints& cloud, const std::vector<Chord
 
 namespace {
 
-Points framed(const Cloud& cloud, const Context& context) {
-  Points points(cloud.points.size(), 3);
-  parallel_for(context, points.rows(), 1 << 14, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      points.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
-  });
-  return points;
-}
-
 constexpr double far_residual = 6;      // median residuals: a partner by chance
 constexpr double far_at_least = 1e-6;   // spacings
 constexpr Index known_neighbours = 16;  // both ends of a pair share a surface point
@@ -268,8 +259,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   Result result;
   result.method = "fixed_direction";
   const PrincipalFrame& frame = cloud.frame;
-  const SurfacePoints work(framed(cloud, context.stage(0, 0.05)), values.integer("sample_size"),
-                           context.stage(0.05, 0.1));
+  const SurfacePoints work(frame.to_frame(cloud.points, context.stage(0, 0.05)),
+                           values.integer("sample_size"), context.stage(0.05, 0.1));
   const Vector3 given = frame.axes.transpose() * values.vector("direction");
   const FieldEstimate found =
       find_height_field(work, given, result.statistics, context.stage(0.1, 0.7));
@@ -280,10 +271,8 @@ Result run_fixed_direction(const Cloud& cloud, const ParameterValues& values,
   nodes.rowwise() += frame.centroid.transpose();
   result.mirror =
       std::make_shared<HeightField>(frame.axes * found.direction, std::move(nodes), context);
-  PointTree tree(cloud.points, context.stage(0.7, 0.75));
-  const NearestPoints points(cloud.points, tree, context);
-  MirrorScore(cloud, points, context.stage(0.75, 0.8)).fill(result);
-  add_pairs(result, cloud, std::move(tree), values, context.stage(0.8, 0.9));
+  MirrorScore(cloud, context.stage(0.7, 0.8)).fill(result);
+  add_pairs(result, cloud, values, context.stage(0.8, 0.9));
   result.surface_points = result.mirror->project(result.surface_points, context.stage(0.9, 0.95));
   const double working_share =
       static_cast<double>(work.size()) / static_cast<double>(cloud.points.size());

@@ -14,7 +14,6 @@
 #include "base/parallel.h"
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/cloud.h"
-#include "cloud/normals.h"
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"
 #include "operations/copy_pairs.h"

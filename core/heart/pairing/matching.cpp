@@ -49,13 +49,11 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
 }
 
 // Little is held beside the tree, and beside the result: at a million points that is what counts.
-void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
-               double limit, const Context& context) {
-  Partners partners;
-  {
-    const PointTree consumed = std::move(tree);
-    partners = find_partners(points, consumed, mirror, limit, context);
-  }
+void add_pairs(Result& result, const Cloud& cloud, const Mirror& mirror, double limit,
+               const Context& context) {
+  const PointsView points = cloud.points;
+  Partners partners = find_partners(points, cloud.tree(context), mirror, limit, context);
+  cloud.release_tree();
   const Index size = points.size();
   const Index found = size - std::count(partners.index.begin(), partners.index.end(), -1);
   // The largest first, into the space that the tree left.
@@ -78,11 +76,11 @@ void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror
   });
 }
 
-void add_pairs(Result& result, const Cloud& cloud, PointTree&& tree, const ParameterValues& values,
+void add_pairs(Result& result, const Cloud& cloud, const ParameterValues& values,
                const Context& context) {
   if (values.boolean("pairs"))
-    add_pairs(result, cloud.points, std::move(tree), *result.mirror,
-              values.real("pair_distance") * cloud.diagonal, context);
+    add_pairs(result, cloud, *result.mirror, values.real("pair_distance") * cloud.diagonal,
+              context);
 }
 
 void keep_pairs(Result& result, const std::vector<Index>& rows) {
@@ -91,9 +89,9 @@ void keep_pairs(Result& result, const std::vector<Index>& rows) {
   result.surface_points = Points(result.surface_points(rows, Eigen::indexing::all));
 }
 
-void pair_anew(Result& result, PointsView points, double limit, const Context& context) {
+void pair_anew(Result& result, const Cloud& cloud, double limit, const Context& context) {
   if (!result.mirror) return;
-  add_pairs(result, points, PointTree(points, context), *result.mirror, limit, context);
+  add_pairs(result, cloud, *result.mirror, limit, context);
   if (result.mirror->kind() != "free-form" && result.mirror->kind() != "quadric") return;
   result.surface_points = result.mirror->project(result.surface_points, context);
   std::vector<Index> reached;

@@ -26,20 +26,20 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
                        const Context& context);
 
 /// Fills the result's pairs, residuals and surface points with what find_partners() finds, in the
-/// order of the points. Frees the tree as soon as partners are known: it and the pairs never need
-/// memory together.
-void add_pairs(Result& result, PointsView points, PointTree&& tree, const Mirror& mirror,
-               double limit, const Context& context);
+/// order of the points. Releases the tree as soon as partners are known: it and the pairs never
+/// need memory together.
+void add_pairs(Result& result, const Cloud& cloud, const Mirror& mirror, double limit,
+               const Context& context);
 
 /// The same over the result's mirror, to the values' "pair_distance"; nothing where these want no
 /// "pairs".
-void add_pairs(Result& result, const Cloud& cloud, PointTree&& tree, const ParameterValues& values,
+void add_pairs(Result& result, const Cloud& cloud, const ParameterValues& values,
                const Context& context);
 
 /// The same over the mirror that was found of other points: of some of these, or of more on the
 /// same surface. Surface points of mirrors of any shape are projected onto them, as their methods
 /// do.
-void pair_anew(Result& result, PointsView points, double limit, const Context& context);
+void pair_anew(Result& result, const Cloud& cloud, double limit, const Context& context);
 
 /// Keeps these rows of the result's pairs, residuals and surface points.
 void keep_pairs(Result& result, const std::vector<Index>& rows);

@@ -10,7 +10,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
-#include "cloud/normals.h"
+#include "cloud/surface_points.h"
 #include "cloud/voxel_grid.h"
 #include "pairing/matching.h"
 
@@ -183,7 +183,7 @@ double exactly_paired(const Result& result, const Cloud& cloud) {
 }  // namespace
 
 std::vector<Index> boundary_of(const Cloud& cloud, const Context& context) {
-  const PointTree tree(cloud.points, context);
+  const PointTree& tree = cloud.tree(context);
   const std::vector<Index> positions = outer_positions(cloud, tree, context);
   std::vector<char> is_boundary(positions.size());
   visit_neighbourhoods(cloud.points, tree, neighbours, positions, context,
@@ -211,8 +211,7 @@ bool BoundaryExtraction::apply(Cloud& cloud, const Context& context) {
 void BoundaryExtraction::map_back(Result& result, PairDistance pair_distance,
                                   const Context& context) const {
   result.statistics["boundary_points"] = count_;
-  pair_anew(result, whole_.points, pair_distance.value_or(single_rounding) * whole_.diagonal,
-            context);
+  pair_anew(result, whole_, pair_distance.value_or(single_rounding) * whole_.diagonal, context);
   if (result.mirror) result.score = std::max(result.score, exactly_paired(result, whole_));
   if (!pair_distance) keep_pairs(result, {});
 }

@@ -25,8 +25,7 @@ namespace symsurf {
 void Stage::replace(Cloud& cloud, Points points, Points normals) {
   points_ = std::move(points);
   normals_ = std::move(normals);
-  cloud.points = points_;
-  cloud.normals = normals_;
+  cloud.set_points(points_, normals_);
 }
 
 std::vector<std::unique_ptr<Stage>> make_stages(const Preprocessing& policy, Index minimum_points,

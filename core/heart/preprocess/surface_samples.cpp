@@ -157,16 +157,15 @@ bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
     return false;
   }
   Samples samples = even_samples(faces, !cloud.normals.empty());
-  cloud.vertices = vertices_ = cloud.points;
-  cloud.vertex_planes = exact_planes(vertices_, context);
+  cloud.vertices = vertices_ = std::make_shared<const Cloud>(cloud);
+  cloud.vertex_planes = exact_planes(*vertices_, context);
   if (!cloud.vertex_planes.empty()) {
-    const MeshSymmetry maps(vertices_, cloud.faces, cloud.diagonal, context);
+    const MeshSymmetry maps(*vertices_, context);
     for (const Plane& plane : orthogonal_planes(cloud.vertex_planes, maps, samples.points))
       samples = mirrored(samples, plane, single_rounding * cloud.diagonal);
   }
-  diagonal_ = cloud.diagonal;
   count_ = samples.points.rows();
-  if (cloud.footprint.empty()) cloud.footprint = vertices_;
+  if (cloud.footprint.empty()) cloud.footprint = vertices_->points;
   replace(cloud, std::move(samples.points), std::move(samples.normals));
   return true;
 }
@@ -174,7 +173,7 @@ bool SurfaceSamples::apply(Cloud& cloud, const Context& context) {
 void SurfaceSamples::map_back(Result& result, PairDistance pair_distance,
                               const Context& context) const {
   result.statistics["surface_samples"] = count_;
-  if (pair_distance) pair_anew(result, vertices_, *pair_distance * diagonal_, context);
+  if (pair_distance) pair_anew(result, *vertices_, *pair_distance * vertices_->diagonal, context);
 }
 
 }  // namespace symsurf

@@ -29,8 +29,7 @@ class SurfaceSamples : public Stage {
   void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
-  PointsView vertices_;
-  double diagonal_ = 0;
+  std::shared_ptr<const Cloud> vertices_;
   Index count_ = 0;
 };
 

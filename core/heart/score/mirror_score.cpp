@@ -105,19 +105,18 @@ std::vector<UnitPlane> planes_beside(const UnitPlane& plane) {
 
 }  // namespace
 
-MirrorScore::MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context)
+MirrorScore::MirrorScore(const Cloud& cloud, const Context& context)
     : cloud_(cloud),
-      points_(points),
+      points_(cloud, context.stage(0, 0)),
       tolerance_{cloud.tolerance, far_off * cloud.tolerance},
-      coarse_(cloud, sample_count, context.stage(0, 0.5)) {
+      coarse_(cloud.patches(sample_count, context.stage(0, 0.5))) {
   const Index splits = std::clamp<Index>(many / cloud.points.size(), 1, most_splits);
   for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, coarse_, k);
   radius_ = radius_for(splits_.front());
   // A surface is no mirror of the noise on its two sides.
   noise_ = measured_noise();
   moved_ = std::clamp(moved_by_noise * noise_, least_moved, most_moved);
-  if (!cloud.faces.empty())
-    mesh_.emplace(cloud.vertices, cloud.faces, cloud.frame.size, context.stage(0.5, 0.5));
+  if (cloud.vertices) mesh_.emplace(*cloud.vertices, context.stage(0.5, 0.5));
   for (Index k = 0; k < coarse_.size(); ++k) {
     const Vector3& x = coarse_[k].sampled;
     const std::size_t split = k % splits;

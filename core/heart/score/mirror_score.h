@@ -55,8 +55,8 @@ struct PointFit {
 /// as all do of a mesh that the mirror maps onto itself.
 class MirrorScore {
  public:
-  /// The cloud and its points must outlive the score.
-  MirrorScore(const Cloud& cloud, const NearestPoints& points, const Context& context);
+  /// The cloud must outlive the score, and keep its tree.
+  MirrorScore(const Cloud& cloud, const Context& context);
 
   MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
   /// The share that a plane maps of what tells it from the planes beside it. A sheet slides over
@@ -103,9 +103,9 @@ class MirrorScore {
   ThinnedHalf mirrored(const ThinnedHalf& half, const Mirror& mirror) const;
 
   const Cloud& cloud_;
-  const NearestPoints& points_;
+  NearestPoints points_;
   Tolerance tolerance_;
-  Surfels coarse_;
+  const Surfels& coarse_;
   std::vector<CloudHalves> splits_;
   double radius_;     // of the balls
   double noise_ = 0;  // standard deviation, in diagonals

@@ -18,19 +18,17 @@ bool hold_all(PointsView points, const Holds& holds) {
 
 }  // namespace
 
-MeshSymmetry::MeshSymmetry(PointsView vertices, TrianglesView faces, double diagonal,
-                           const Context& context)
-    : vertices_(vertices),
-      diagonal_(diagonal),
-      tree_(vertices, context),
-      surface_(vertices, faces, context) {}
+MeshSymmetry::MeshSymmetry(const Cloud& mesh, const Context& context)
+    : mesh_(mesh), tree_(mesh.tree(context)), surface_(mesh.points, mesh.faces, context) {}
 
 bool MeshSymmetry::operator()(const Mirror& mirror, PointsView samples) const {
   // Of the diagonal.
   constexpr double exactly = 1e-6;  // single precision
   constexpr double nearly = 0.01;   // a sphere of 12 quads around, divided by either diagonal
-  const auto squared = [&](double share) { return share * share * diagonal_ * diagonal_; };
-  return hold_all(vertices_,
+  const auto squared = [&](double share) {
+    return share * share * mesh_.diagonal * mesh_.diagonal;
+  };
+  return hold_all(mesh_.points,
                   [&](const Vector3& x) {
                     return tree_.nearest(mirror.reflect(x), squared(exactly)).index >= 0;
                   }) &&

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cloud/closest_point_on_mesh.h"
+#include "cloud/cloud.h"
 #include "cloud/point_tree.h"
 
 namespace symsurf {
@@ -45,16 +46,15 @@ inline void judge(Result& result, bool has_mirror, double minimum_score) {
 /// nearly, as faces may divide its two sides along different diagonals.
 class MeshSymmetry {
  public:
-  /// `diagonal`: of the mesh. The vertices must outlive this.
-  MeshSymmetry(PointsView vertices, TrianglesView faces, double diagonal, const Context& context);
+  /// The mesh, its vertices the points, must outlive this.
+  MeshSymmetry(const Cloud& mesh, const Context& context);
 
   /// `samples`: of the surface.
   bool operator()(const Mirror& mirror, PointsView samples) const;
 
  private:
-  PointsView vertices_;
-  double diagonal_;
-  PointTree tree_;
+  const Cloud& mesh_;
+  const PointTree& tree_;
   ClosestPointOnMesh surface_;
 };
 

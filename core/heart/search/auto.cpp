@@ -12,7 +12,6 @@
 
 #include "base/linear_algebra.h"
 #include "cloud/cloud.h"
-#include "cloud/surface_points.h"
 #include "pairing/matching.h"
 #include "preprocess/boundary.h"
 #include "score/mirror_score.h"
@@ -51,25 +50,6 @@ bool may_hide_exact_one(const Cloud& cloud, const Context& context) {
 }
 
 std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
-
-// Points of the cloud, dense where it is dense.
-class ThinnedCloud {
- public:
-  ThinnedCloud(const Cloud& cloud, const Context& context) : cloud_(cloud) {
-    if (cloud.points.size() <= thinned_size) return;
-    const std::vector<Index> rows = spread_along_curve(cloud.points, thinned_size, context);
-    points_ = chosen_rows(cloud.points, rows);
-    normals_ = chosen_rows(cloud.normals, rows);
-    cloud_ = checked_cloud(points_, normals_, 1, context);
-    cloud_.seed = cloud.seed;
-    cloud_.tolerance = cloud.tolerance;
-  }
-  const Cloud& cloud() const { return cloud_; }
-
- private:
-  Points points_, normals_ = Points(0, 3);
-  Cloud cloud_;
-};
 
 ParameterValues usual_values(const MethodImplementation& method, bool pairs) {
   return {method.name, method.parameters, {{"pairs", pairs}}};
@@ -174,10 +154,8 @@ Contest::Run anew(const MethodImplementation& kind, bool pairs) {
 // of other kinds count. Elsewhere it comes first, as it says which of them may fit.
 void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const Context& context) {
   double done = 0;
-  std::optional<ThinnedCloud> thinned;
   const auto thinner = [&]() -> const Cloud& {
-    if (!thinned) thinned.emplace(cloud, context.stage(done, done));
-    return thinned->cloud();
+    return cloud.thinned(thinned_size, context.stage(done, done));
   };
   const MethodImplementation& bending = heart_method("perpendicular");
   const bool bends_all = cloud.points.size() <= bent_size;
@@ -214,8 +192,8 @@ void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& contex
   std::vector<Plane> planes{dynamic_cast<const Plane&>(*contest.best.mirror)};
   for (const Result& other : contest.best.candidates)
     if (planes.size() < planes_bent) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
-  const ThinnedCloud thinned(cloud, context.stage(0, 0.2));
-  const BentPlanes bent(thinned.cloud(), context.stage(0.2, 0.5));
+  const BentPlanes bent(cloud.thinned(thinned_size, context.stage(0, 0.2)),
+                        context.stage(0.2, 0.5));
   const Kinds kinds = simple_kinds(cloud.points.size());
   for (const Plane& plane : planes) {
     Result result = bent.best_of(kinds, plane);
@@ -283,12 +261,10 @@ constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal,
 
 BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
     : cloud_(cloud),
-      surfels_(cloud, sample_size, context.stage(0, 0.2)),
-      fine_(cloud, samples_a_patch * sample_size, context.stage(0.2, 0.3)),
-      tree_(cloud.points, context.stage(0.3, 0.6)),
-      points_(cloud.points, tree_, context),
-      refinement_(cloud, points_, surfels_, fine_),
-      score_(cloud, points_, context.stage(0.6, 1)) {}
+      points_(cloud, context.stage(0, 0.3)),
+      refinement_(cloud, points_, cloud.patches(sample_size, context.stage(0.3, 0.5)),
+                  cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6))),
+      score_(cloud, context.stage(0.6, 1)) {}
 
 Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
   const PlaneBend bend = bend_of(plane);
@@ -311,10 +287,10 @@ Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
 }
 
 Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& plane,
-                              const ParameterValues& values, const Context& context) && {
+                              const ParameterValues& values, const Context& context) const {
   Result result = best_of({&kind}, bend_of(plane));
   result.parameters = values.all();
-  add_pairs(result, cloud_, std::move(tree_), values, context);
+  add_pairs(result, cloud_, values, context);
   return result;
 }
 

@@ -27,15 +27,13 @@ class BentPlanes {
 
   /// That of one kind, with the kind's parameters.
   Result with_pairs(const MethodImplementation& kind, const Plane& plane,
-                    const ParameterValues& values, const Context& context) &&;
+                    const ParameterValues& values, const Context& context) const;
 
  private:
   PlaneBend bend_of(const Plane& plane) const;
   Result best_of(const Kinds& kinds, const PlaneBend& bend) const;
 
   const Cloud& cloud_;
-  Surfels surfels_, fine_;
-  PointTree tree_;
   NearestPoints points_;
   Refinement refinement_;
   MirrorScore score_;

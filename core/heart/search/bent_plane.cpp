@@ -371,7 +371,7 @@ std::vector<UnitPlane> half_way_planes() {
 }
 
 std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& context) {
-  const Surfels surfels(cloud, patches, context);
+  const Surfels& surfels = cloud.patches(patches, context);
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates =
       candidate_planes(surfels, map, usual_search, 2 * best_planes);
@@ -419,14 +419,10 @@ bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b
 
 bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
                       std::vector<GrownSurface>& surfaces, const Context& context) {
-  const PointTree tree(cloud.points, context.stage(0, 0.5));
-  const NearestPoints points(cloud.points, tree, context);
-  const Surfels surfels(cloud, patches, context.stage(0.5, 1));
-  std::vector<UnitPlane> planes = exact_planes(cloud, points, surfels);
-  planes.resize(std::min(planes.size(), most_bent));
-  for (const UnitPlane& plane : planes) {
+  const std::vector<Plane> planes = exact_planes(cloud, context);
+  for (std::size_t k = 0; k < std::min(planes.size(), most_bent); ++k) {
     GrownSurface surface;
-    surface.mirror = laid_on(search, in_input_units(plane, cloud.frame)).free_form();
+    surface.mirror = laid_on(search, planes[k]).free_form();
     match(search, bent_foot_precision, surface);
     surface.exact = surface.bent = true;
     surface.support = 1;

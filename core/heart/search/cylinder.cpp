@@ -91,15 +91,14 @@ std::vector<CylinderCandidate> refined_cylinders(const Surfels& surfels, std::ui
 Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   Result best;
   best.method = "cylinder";
-  const Surfels surfels(cloud, values.integer("sample_size"), context.stage(0, 0.1));
+  const Index sample_size = values.integer("sample_size");
+  const Surfels& surfels = cloud.patches(sample_size, context.stage(0, 0.1));
   std::vector<CylinderCandidate> candidates =
       refined_cylinders(surfels, cloud.seed, context.stage(0.1, 0.4));
   if (candidates.empty()) return best;
 
-  PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const NearestPoints points(cloud.points, tree, context);
-  const Surfels fine(cloud, samples_a_patch * values.integer("sample_size"),
-                     context.stage(0.5, 0.6));
+  const NearestPoints points(cloud, context.stage(0.4, 0.5));
+  const Surfels& fine = cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6));
   const Refinement refinement(cloud, points, surfels, fine);
   for (CylinderCandidate& candidate : candidates) candidate = refinement.fitted(candidate, of_each);
   suppress_non_maxima(surfels, candidates, alike_cylinders, fitted_to_all);
@@ -114,8 +113,8 @@ Result run_cylinder(const Cloud& cloud, const ParameterValues& values, const Con
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (const CylinderCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Cylinder>(in_input_units(candidate.shape, cloud.frame)));
-  best = MirrorScore(cloud, points, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
-  add_pairs(best, cloud, std::move(tree), values, context.stage(0.75, 1));
+  best = MirrorScore(cloud, context.stage(0.7, 0.75)).ranked("cylinder", mirrors);
+  add_pairs(best, cloud, values, context.stage(0.75, 1));
   return best;
 }
 

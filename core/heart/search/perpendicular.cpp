@@ -224,12 +224,12 @@ void drop_false_pairs(Result& result, const Cloud& cloud, bool exact, double spa
   keep_pairs(result, kept);
 }
 
-void pair_points(Result& result, const Cloud& cloud, PointTree tree, const SearchCloud& searched,
+void pair_points(Result& result, const Cloud& cloud, const SearchCloud& searched,
                  const GrownSurface& surface, double pair_distance, const Context& context) {
   const double spacing = searched.spacing * searched.diagonal;
   // Farther off there are only mere neighbours.
   const double limit = std::min(pair_distance * cloud.diagonal, reach(surface) * spacing);
-  add_pairs(result, cloud.points, std::move(tree), *result.mirror, limit, context.stage(0, 0.6));
+  add_pairs(result, cloud, *result.mirror, limit, context.stage(0, 0.6));
   if (!surface.exact)
     result.surface_points = result.mirror->project(result.surface_points, context.stage(0.6, 1));
   drop_false_pairs(result, cloud, surface.exact, spacing);
@@ -308,9 +308,7 @@ std::shared_ptr<Mirror> in_input_units(const Mirror& mirror, const SearchCloud& 
 void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
           const std::vector<Found>& found, const ParameterValues& values, const Context& context) {
   if (found.empty()) return;
-  PointTree tree(cloud.points, context.stage(0, 0.2));
-  const NearestPoints points(cloud.points, tree, context);
-  const MirrorScore score(cloud, points, context.stage(0.2, 0.4));
+  const MirrorScore score(cloud, context.stage(0, 0.4));
   const auto most = 1 + static_cast<std::size_t>(values.integer("max_candidates"));
   std::vector<std::shared_ptr<Mirror>> mirrors;
   for (std::size_t k = 0; k < std::min(most, found.size()); ++k) mirrors.push_back(found[k].mirror);
@@ -322,7 +320,7 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
   statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;
   result.statistics.merge(statistics);
   if (!values.boolean("pairs")) return;
-  pair_points(result, cloud, std::move(tree), searched, surface, values.real("pair_distance"),
+  pair_points(result, cloud, searched, surface, values.real("pair_distance"),
               context.stage(0.4, 0.9));
   tell_extrapolated(result, cloud, searched, context.stage(0.9, 1));
 }

@@ -303,13 +303,12 @@ std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfel
 // The planes of a mesh of which some vertices stand on both sides, as most do where a part of a
 // symmetric mesh was cut off or moved: through these, to rounding.
 void fit_to_vertices(std::vector<UnitPlane>& planes, const Cloud& cloud, const Context& context) {
-  const PointTree tree(cloud.vertices, context);
-  const NearestPoints vertices(cloud.vertices, tree, context);
-  const double spacing = surface_spacing(cloud.vertices, tree);
+  const Cloud& mesh = *cloud.vertices;
+  const NearestPoints vertices(mesh, context);
+  const double spacing = surface_spacing(mesh.points, mesh.tree(context));
   const PrincipalFrame& frame = cloud.frame;
   std::vector<Vector3> corners;
-  for (Index i = 0; i < cloud.vertices.size(); ++i)
-    corners.push_back(frame.to_frame(cloud.vertices[i]));
+  for (Index i = 0; i < mesh.points.size(); ++i) corners.push_back(frame.to_frame(mesh.points[i]));
   for (UnitPlane& plane : planes)
     plane = fitted_to_exact_pairs(plane, corners, vertices, frame, spacing / frame.size)
                 .value_or(plane);
@@ -331,16 +330,15 @@ void drop_known(std::vector<UnitPlane>& planes, const std::vector<UnitPlane>& kn
 
 Result run_plane(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const Index sample_size = values.integer("sample_size");
-  const Surfels coarse(cloud, sample_size, context.stage(0, 0.1));
-  const Surfels fine(cloud, coarse, context.stage(0.1, 0.2));
+  const Surfels& coarse = cloud.patches(sample_size, context.stage(0, 0.1));
+  const Surfels& fine = cloud.finer_patches(sample_size, context.stage(0.1, 0.2));
   const SurfelMap map(coarse);
   const std::vector<PlaneCandidate> promising =
       promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
 
-  PointTree tree(cloud.points, context.stage(0.25, 0.4));
-  const NearestPoints points(cloud.points, tree, context);
+  const NearestPoints points(cloud, context.stage(0.25, 0.4));
   const Refinement refinement(cloud, points, coarse, fine);
-  const MirrorScore score(cloud, points, context.stage(0.4, 0.45));
+  const MirrorScore score(cloud, context.stage(0.4, 0.45));
   const auto ranked = [&](std::vector<UnitPlane> planes) {
     longest_first(planes, cloud.frame);
     std::vector<std::shared_ptr<Mirror>> mirrors;
@@ -348,25 +346,25 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     return score.ranked("plane", mirrors);
   };
   const FullCloud whole(cloud, refinement, score);
+  const bool is_mesh = cloud.vertices != nullptr;
   std::vector<UnitPlane> planes;
-  for (const Plane& plane : cloud.vertex_planes) planes.push_back(in_frame(plane, cloud.frame));
-  if (cloud.vertices.empty()) {
-    planes = exact_planes(cloud, points, coarse);
-    for (UnitPlane& plane : planes) plane = refinement.exact(plane);
+  for (const Plane& plane : is_mesh ? cloud.vertex_planes : exact_planes(cloud, context)) {
+    const UnitPlane framed = in_frame(plane, cloud.frame);
+    planes.push_back(is_mesh ? framed : refinement.exact(framed));
   }
   Result best;
   if (!planes.empty()) best = ranked(planes);
   // Of planes of the vertices alone faces are missing on one side.
-  if (planes.empty() || (!cloud.vertices.empty() && best.score < 1)) {
+  if (planes.empty() || (is_mesh && best.score < 1)) {
     std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
                                                   context.stage(0.46, 0.55));
-    if (!cloud.vertices.empty()) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
+    if (is_mesh) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
     drop_known(more, planes);
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
     // Where much of a side is missing or unlike the other, the fit to partners is not the score's
     // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
-    if (cloud.vertices.empty() && best.score < worth_polishing) {
+    if (!is_mesh && best.score < worth_polishing) {
       const double enough = best.score + least_gain;
       bool any_gains = false;
       for (UnitPlane& plane : planes) {
@@ -380,7 +378,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
-  add_pairs(best, cloud, std::move(tree), values, context.stage(0.55, 1));
+  add_pairs(best, cloud, values, context.stage(0.55, 1));
   return best;
 }
 

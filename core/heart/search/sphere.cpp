@@ -182,14 +182,12 @@ std::vector<SphereCandidate> spheres_of_rest(const Cloud& cloud, const SphereCan
   const auto least = least_rest * static_cast<double>(cloud.points.size());
   if (static_cast<double>(unpaired.rows()) < least) return {};
   Cloud rest = cloud;
-  rest.points = unpaired;
-  rest.normals = {};
-  const Surfels surfels(rest, sample_size, context.stage(0, 0.2));
-  const PointTree tree(rest.points, context.stage(0.2, 0.2));
-  const NearestPoints points(rest.points, tree, context);
-  const Surfels fine(rest, samples_a_patch * sample_size, context.stage(0.8, 1));
+  rest.set_points(unpaired, {});
+  const Surfels& surfels = rest.patches(sample_size, context.stage(0, 0.2));
+  const NearestPoints points(rest, context.stage(0.2, 0.2));
+  const Surfels& fine = rest.patches(samples_a_patch * sample_size, context.stage(0.8, 1));
   const Refinement refinement(rest, points, surfels, fine);
-  const PartnerFit partner_fit(rest, points, tree, refinement.spacing(), context);
+  const PartnerFit partner_fit(rest, points, rest.tree(context), refinement.spacing(), context);
   std::vector<SphereCandidate> found = promising_spheres(surfels, SurfelMap(surfels), cloud.seed,
                                                          2 * finalists, context.stage(0.2, 0.8));
   fit_each(found, refinement, partner_fit);
@@ -206,7 +204,7 @@ std::vector<SphereCandidate> searched_spheres(const Cloud& cloud, const Surfels&
   fit_each(candidates, refinement, partner_fit);
   if (!any_partnered(candidates)) {
     const Context unreported = context.stage(0, 0);
-    const Surfels finer(cloud, patches_again * sample_size, unreported);
+    const Surfels& finer = cloud.patches(patches_again * sample_size, unreported);
     std::vector<SphereCandidate> more =
         promising_spheres(finer, SurfelMap(finer), cloud.seed, 2 * finalists, unreported);
     fit_each(more, refinement, partner_fit);
@@ -244,20 +242,19 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   Result best;
   best.method = "sphere";
   const Index sample_size = values.integer("sample_size");
-  const Surfels surfels(cloud, sample_size, context.stage(0, 0.1));
+  const Surfels& surfels = cloud.patches(sample_size, context.stage(0, 0.1));
   const std::vector<SphereCandidate> rough = promising_spheres(
       surfels, SurfelMap(surfels), cloud.seed, 2 * finalists, context.stage(0.1, 0.4));
 
-  PointTree tree(cloud.points, context.stage(0.4, 0.5));
-  const NearestPoints points(cloud.points, tree, context);
-  const Surfels fine(cloud, samples_a_patch * sample_size, context.stage(0.5, 0.6));
+  const NearestPoints points(cloud, context.stage(0.4, 0.5));
+  const Surfels& fine = cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6));
   const Refinement refinement(cloud, points, surfels, fine);
-  const PartnerFit partner_fit(cloud, points, tree, refinement.spacing(), context);
+  const PartnerFit partner_fit(cloud, points, cloud.tree(context), refinement.spacing(), context);
   std::vector<SphereCandidate> candidates = searched_spheres(
       cloud, surfels, rough, sample_size, refinement, partner_fit, context.stage(0.6, 0.7));
   if (candidates.empty()) return best;
   refine(candidates, surfels, refinement, partner_fit);
-  const MirrorScore score(cloud, points, context.stage(0.7, 0.75));
+  const MirrorScore score(cloud, context.stage(0.7, 0.75));
   drop_planes(refinement, score, cloud.frame, candidates);
   if (candidates.empty()) return best;
   suppress_non_maxima(surfels, candidates, alike_spheres, 1 + values.integer("max_candidates"));
@@ -265,7 +262,7 @@ Result run_sphere(const Cloud& cloud, const ParameterValues& values, const Conte
   for (const SphereCandidate& candidate : candidates)
     mirrors.push_back(std::make_shared<Sphere>(in_input_units(candidate.shape, cloud.frame)));
   best = score.ranked("sphere", mirrors);
-  add_pairs(best, cloud, std::move(tree), values, context.stage(0.75, 1));
+  add_pairs(best, cloud, values, context.stage(0.75, 1));
   return best;
 }
 

@@ -7,7 +7,6 @@
 #include "base/math.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_isometries.h"
-#include "cloud/surface_points.h"
 #include "embedding/factored_embedding.h"
 
 namespace symsurf {
@@ -29,15 +28,16 @@ using Maps = std::vector<NearSymmetry>;
 class NearSearch {
  public:
   NearSearch(PointsView points, const PointTree& tree, const Context& context)
-      : tree_(tree), context_(context) {
+      : points_(points), tree_(tree), context_(context) {
     found_.centre = points.matrix().colwise().mean().transpose();
     rows_ = (points.matrix().rowwise() - found_.centre.transpose()).transpose();
     radii_ = rows_.colwise().norm();
     found_.diameter = 2 * radii_.maxCoeff();
   }
 
-  NearSymmetries exact(PointsView points) {
-    const ExactIsometries isometries = exact_isometries(points, tree_, context_, most_exact);
+  NearSymmetries exact() {
+    const ExactIsometries isometries = exact_isometries(points_, tree_, context_, most_exact);
+    found_.centre = isometries.centre;
     for (const Matrix3& linear : isometries.maps) found_.maps.push_back({about_centre(linear), 0});
     for (const Matrix3& linear : isometries.generators) {
       found_.generators.push_back(about_centre(linear));
@@ -61,9 +61,7 @@ class NearSearch {
     return rows_.col(a).cross(rows_.col(b)).norm() > least_sine * radii_[a] * radii_[b];
   }
 
-  Vector3 image(const Eigen::Isometry3d& map, Index i) const {
-    return map * (Vector3(rows_.col(i)) + found_.centre);
-  }
+  Vector3 image(const Eigen::Isometry3d& map, Index i) const { return map * points_[i]; }
 
   Eigen::Isometry3d about_centre(const Matrix3& linear) const {
     return map_taking(linear, found_.centre, found_.centre);
@@ -165,6 +163,7 @@ class NearSearch {
     return nearest;
   }
 
+  PointsView points_;
   const PointTree& tree_;
   const Context& context_;
   Columns rows_;  // the points from their centroid
@@ -176,11 +175,13 @@ class NearSearch {
 
 NearSymmetries near_symmetries(PointsView points, const PointTree& tree, double tolerance,
                                const Context& context) {
-  NearSymmetries found = NearSearch(points, tree, context).exact(points);
+  NearSymmetries found = NearSearch(points, tree, context).exact();
   // Of a planar cloud the reflection in its plane keeps all points in their places.
   if (found.exact) return found;
-  const Points thinned =
-      points.matrix()(spread_along_curve(points, most_points, context), Eigen::indexing::all);
+  std::vector<std::int32_t> rows(std::min(points.size(), most_points));
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k] = tree.order()[k * tree.order().size() / rows.size()];
+  const Points thinned = chosen_rows(points, rows);
   return NearSearch(thinned, PointTree(thinned, context), context)
       .approximate(std::move(found), tolerance);
 }
@@ -240,7 +241,7 @@ void add_stationary_set(PointsView points, const Points& means, const NearSymmet
 void run_symmetry_embedding(const ColouredCloud& cloud, const ParameterValues& values,
                             const Context& context, AnalysisResult& result) {
   const PointsView points = cloud.points;
-  const PointTree tree(points, context.stage(0, 0.1));
+  const PointTree& tree = cloud.tree(context.stage(0, 0.1));
   const EmbeddingOptions options{values.real("localization"), values.real("power"),
                                  values.real("resolution"), shown_coordinates};
   const NearSymmetries symmetries =

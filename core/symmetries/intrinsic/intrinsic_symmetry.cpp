@@ -59,7 +59,7 @@ void require_surface(const Cloud& cloud, const Context& context) {
 std::vector<Index> images_of(const Cloud& cloud, bool in_frame, const PointTree& vertices,
                              const Patches::Extended& map, double reach, const Context& context) {
   constexpr Index grain = 1024;
-  const PointTree points(cloud.points, context);
+  const PointTree& points = cloud.tree(context);
   std::vector<Index> images(cloud.points.size(), -1);
   parallel_for(context, cloud.points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {

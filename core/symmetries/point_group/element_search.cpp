@@ -93,11 +93,10 @@ OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
 
 SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context)
     : minimum_score_(minimum_score),
-      tree_(cloud.points, context.stage(0, 0.2)),
-      points_(cloud.points, tree_, context.stage(0.2, 0.2)),
-      coarse_(cloud, surfels, context.stage(0.2, 0.4)),
-      fine_(cloud, coarse_, context.stage(0.4, 0.6)),
-      score_(cloud, points_, context.stage(0.6, 1)),
+      points_(cloud, context.stage(0, 0.2)),
+      coarse_(cloud.patches(surfels, context.stage(0.2, 0.4))),
+      fine_(cloud.finer_patches(surfels, context.stage(0.4, 0.6))),
+      score_(cloud, context.stage(0.6, 1)),
       fit_(cloud, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {

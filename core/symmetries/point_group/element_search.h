@@ -62,9 +62,8 @@ class SymmetryTest {
   bool may_be(const OrbitVote& vote) const;
 
   double minimum_score_;
-  PointTree tree_;
   NearestPoints points_;
-  Surfels coarse_, fine_;
+  const Surfels &coarse_, &fine_;
   MirrorScore score_;
   SymmetryFit fit_;
 };

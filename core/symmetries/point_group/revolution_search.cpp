@@ -253,10 +253,7 @@ double share_of_turn(const Points& points, const Line& line) {
 
 std::optional<Revolution> find_revolution(const Cloud& cloud, const SymmetryTest& test,
                                           const Context& context) {
-  Points all(cloud.points.size(), 3);
-  for (Index i = 0; i < all.rows(); ++i)
-    all.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
-  const SurfacePoints samples(all, sampled, context);
+  const SurfacePoints samples(cloud.frame.to_frame(cloud.points, context), sampled, context);
   std::vector<OrientedPoint> patches;
   for (Index i = 0; i < test.coarse().size(); ++i)
     if (const Surfel& s = test.coarse()[i]; s.flatness > least_flatness)

@@ -299,10 +299,10 @@ class SymmetrySearch {
 PointGroup exact_group(const Cloud& cloud, const Context& context) {
   constexpr Index most_points = 1000;
   if (cloud.points.size() > most_points) return {};
-  Points points(cloud.points.size(), 3);
-  for (Index i = 0; i < points.rows(); ++i)
-    points.row(i) = cloud.frame.to_frame(cloud.points[i]).transpose();
-  return PointGroup(exact_isometries(points, PointTree(points, context), context).maps);
+  std::vector<Matrix3> elements;
+  for (const Matrix3& map : exact_isometries(cloud.points, cloud.tree(context), context).maps)
+    elements.push_back(cloud.frame.axes.transpose() * map * cloud.frame.axes);
+  return PointGroup(elements);
 }
 
 }  // namespace
@@ -350,8 +350,8 @@ namespace {
 // a symmetry up to a limit of it).
 class Deviation {
  public:
-  // The points must stay alive.
-  Deviation(PointsView points, TrianglesView faces, const Context& context);
+  // A cloud, or a mesh with its vertices as points.
+  Deviation(const Cloud& shape, const Context& context);
 
   // Of each map, in the unit of the points; looks at about as many images in all.
   std::vector<double> of(const std::vector<Matrix4>& maps, Index looked,
@@ -360,14 +360,16 @@ class Deviation {
  private:
   double squared_distance(const Vector3& x) const;
 
-  PointsView points_;
+  Cloud shape_;
+  const PointTree& tree_;
   std::vector<Index> vertices_;
-  PointTree tree_;
   std::optional<ClosestPointOnMesh> surface_;
 };
 
-Deviation::Deviation(PointsView points, TrianglesView faces, const Context& context)
-    : points_(points), tree_(points, context) {
+Deviation::Deviation(const Cloud& shape, const Context& context)
+    : shape_(shape), tree_(shape.tree(context)) {
+  const PointsView points = shape.points;
+  const TrianglesView faces = shape.faces;
   if (!faces.empty()) surface_.emplace(points, faces, context);
   std::vector<bool> is_vertex(points.size(), faces.empty());
   for (Index f = 0; f < faces.size(); ++f)
@@ -391,7 +393,7 @@ std::vector<double> Deviation::of(const std::vector<Matrix4>& maps, Index looked
       double greatest = 0;
       for (Index k = 0; k < count; k += stride) {
         context.check();
-        const Vector3 image = (maps[m] * points_[vertices_[k]].homogeneous()).head<3>();
+        const Vector3 image = (maps[m] * shape_.points[vertices_[k]].homogeneous()).head<3>();
         greatest = std::max(greatest, squared_distance(image));
       }
       deviations[m] = std::sqrt(greatest);
@@ -472,8 +474,7 @@ void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
     search(cloud, running);
     return Result{};
   };
-  Cloud cloud;
-  cloud.points = points;
+  Cloud cloud(points);
   cloud.faces = faces;
   run_pipeline(searching, {}, cloud, refuse_nonfinite, context);
 }
@@ -491,9 +492,11 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   require_colours(points, options.colours);
   const auto start = std::chrono::steady_clock::now();
   Symmetries found;
+  Cloud whole(points);
+  whole.faces = options.faces;
   const auto search = [&](const Cloud& cloud, const Context& running) {
     const bool is_cloud = options.faces.empty();
-    const Deviation deviation(is_cloud ? cloud.points : points, options.faces, running.stage(0, 0));
+    const Deviation deviation(is_cloud ? cloud : whole, running.stage(0, 0));
     const auto accepts = [&](Symmetries& group) {
       return deviates_little(group, deviation, options.tolerance, running.stage(1, 1));
     };
