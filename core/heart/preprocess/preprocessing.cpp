@@ -43,61 +43,57 @@ std::vector<std::unique_ptr<Stage>> make_stages(const Preprocessing& policy, Ind
   return stages;
 }
 
+void RowStage::map_back(Result& result, PairDistance, const Context&) const {
+  std::vector<Index> row_of(rows_.first.size(), -1), paired, rows;
+  for (Index row = 0; row < result.pairs.rows(); ++row) row_of[result.pairs(row, 0)] = row;
+  for (std::size_t i = 0; i < rows_.number.size(); ++i) {
+    if (rows_.number[i] < 0) continue;
+    const Index row = row_of[rows_.number[i]];
+    if (row < 0) continue;
+    paired.push_back(static_cast<Index>(i));
+    rows.push_back(row);
+  }
+  keep_pairs(result, rows);
+  for (Index row = 0; row < result.pairs.rows(); ++row)
+    result.pairs.row(row) << paired[row], rows_.first[result.pairs(row, 1)];
+}
+
 bool RowRemoval::remove(Cloud& cloud, const std::vector<Index>& own) {
-  removed_ = own;
-  if (removed_.empty()) return false;
-  faces_ = without(cloud.faces, own, cloud.points.size());
+  if (own.empty()) return false;
+  rows_ = without(cloud.points.size(), own);
+  faces_ = renumbered(cloud.faces, rows_);
   cloud.faces = faces_;
-  replace(cloud, without(cloud.points, own),
-          cloud.normals.empty() ? Points(0, 3) : without(cloud.normals, own));
+  replace(cloud, chosen_rows(cloud.points, rows_.first), chosen_rows(cloud.normals, rows_.first));
   return true;
 }
 
-Points RowRemoval::without(PointsView rows, const std::vector<Index>& removed) {
-  Points left(rows.size() - static_cast<Index>(removed.size()), 3);
-  Index begin = 0, written = 0;
-  const auto copy_up_to = [&](Index end) {
-    left.middleRows(written, end - begin) = rows.matrix().middleRows(begin, end - begin);
-    written += end - begin;
-    begin = end + 1;
-  };
-  for (const Index i : removed) copy_up_to(i);
-  copy_up_to(rows.size());
-  return left;
+DistinctPoints RowRemoval::without(Index points, const std::vector<Index>& removed) {
+  DistinctPoints kept;
+  kept.number.resize(points, 0);
+  for (const Index i : removed) kept.number[i] = -1;
+  for (Index i = 0; i < points; ++i) {
+    if (kept.number[i] < 0) continue;
+    kept.number[i] = static_cast<std::int32_t>(kept.first.size());
+    kept.first.push_back(static_cast<std::int32_t>(i));
+  }
+  return kept;
 }
 
-Triangles RowRemoval::without(TrianglesView faces, const std::vector<Index>& removed,
-                              Index points) {
-  if (faces.empty()) return Triangles(0, 3);
-  std::vector<Index> number(points);
-  auto next = removed.begin();
-  for (Index i = 0, left = 0; i < points; ++i) {
-    const bool is_removed = next != removed.end() && *next == i;
-    number[i] = is_removed ? -1 : left++;
-    if (is_removed) ++next;
-  }
+Triangles RowRemoval::renumbered(TrianglesView faces, const DistinctPoints& kept) {
   Triangles left(faces.size(), 3);
   Index row = 0;
   for (Index f = 0; f < faces.size(); ++f) {
-    const Index* corner = faces[f];
-    left.row(row) << number[corner[0]], number[corner[1]], number[corner[2]];
+    for (int c = 0; c < 3; ++c) left(row, c) = kept.number[faces[f][c]];
     row += left.row(row).minCoeff() >= 0;
   }
   left.conservativeResize(row, 3);
   return left;
 }
 
-void RowRemoval::map_back(Result& result, PairDistance, const Context&) const {
-  // As many removed points are before a point as have no more others before them than it has.
-  const auto numbered = [&](Index other) {
-    const auto is_before = [&](const Index& removed) {
-      return removed - (&removed - removed_.data()) <= other;
-    };
-    const auto after = std::partition_point(removed_.begin(), removed_.end(), is_before);
-    return other + (after - removed_.begin());
-  };
-  result.pairs = result.pairs.unaryExpr(numbered).eval();
-  result.statistics[statistic_] = static_cast<Index>(removed_.size());
+void RowRemoval::map_back(Result& result, PairDistance pair_distance,
+                          const Context& context) const {
+  RowStage::map_back(result, pair_distance, context);
+  result.statistics[statistic_] = static_cast<Index>(rows_.number.size() - rows_.first.size());
 }
 
 bool NonfiniteRemoval::apply(Cloud& cloud, const Context&) {
@@ -119,56 +115,34 @@ bool NonfiniteRemoval::apply(Cloud& cloud, const Context&) {
 
 bool DuplicateMerge::apply(Cloud& cloud, const Context& context) {
   if (!has_many_duplicates(cloud.points, context)) return false;
-  distinct_ = distinct_points(cloud.points, context);
-  if (static_cast<Index>(distinct_.first.size()) < minimum_points_)
+  rows_ = distinct_points(cloud.points, context);
+  if (static_cast<Index>(rows_.first.size()) < minimum_points_)
     throw InvalidInput(std::to_string(cloud.points.size()) + " points given, " +
-                       std::to_string(distinct_.first.size()) + " of them distinct; at least " +
+                       std::to_string(rows_.first.size()) + " of them distinct; at least " +
                        std::to_string(minimum_points_) + " distinct points are needed");
-  keep(cloud, distinct_.first);
+  keep(cloud, rows_.first);
   return true;
-}
-
-void DuplicateMerge::map_back(Result& result, PairDistance, const Context&) const {
-  std::vector<Index> row_of(distinct_.first.size(), -1);
-  for (Index row = 0; row < result.pairs.rows(); ++row) row_of[result.pairs(row, 0)] = row;
-  std::vector<Index> paired, rows;
-  for (std::size_t i = 0; i < distinct_.number.size(); ++i) {
-    const Index row = row_of[distinct_.number[i]];
-    if (row < 0) continue;
-    paired.push_back(static_cast<Index>(i));
-    rows.push_back(row);
-  }
-  keep_pairs(result, rows);
-  for (Index row = 0; row < result.pairs.rows(); ++row)
-    result.pairs.row(row) << paired[row], distinct_.first[result.pairs(row, 1)];
 }
 
 bool PositionOrder::apply(Cloud& cloud, const Context& context) {
   const PointsView points = cloud.points;
-  order_.resize(points.size());
-  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<std::int32_t>& order = rows_.first;
+  order.resize(points.size());
+  std::iota(order.begin(), order.end(), 0);
   std::vector<std::uint64_t> keys(points.size());
   for (const int axis : {2, 1, 0}) {
     interruptible_for(context, points.size(), [&](Index row) {
-      keys[row] = static_cast<std::uint64_t>(ordered_bits(points[order_[row]])[axis]) ^
+      keys[row] = static_cast<std::uint64_t>(ordered_bits(points[order[row]])[axis]) ^
                   std::uint64_t{1} << 63;
     });
-    radix_sort(keys, order_, context);
+    radix_sort(keys, order, context);
   }
-  if (std::is_sorted(order_.begin(), order_.end())) return false;
-  keep(cloud, order_);
+  if (std::is_sorted(order.begin(), order.end())) return false;
+  rows_.number.resize(order.size());
+  for (std::size_t row = 0; row < order.size(); ++row)
+    rows_.number[order[row]] = static_cast<std::int32_t>(row);
+  keep(cloud, order);
   return true;
-}
-
-void PositionOrder::map_back(Result& result, PairDistance, const Context&) const {
-  std::vector<Index> row_of(order_.size(), -1), rows;
-  for (Index row = 0; row < result.pairs.rows(); ++row) {
-    for (Index& point : result.pairs.row(row)) point = order_[point];
-    row_of[result.pairs(row, 0)] = row;
-  }
-  std::copy_if(row_of.begin(), row_of.end(), std::back_inserter(rows),
-               [](Index row) { return row >= 0; });
-  keep_pairs(result, rows);
 }
 
 namespace {
@@ -317,7 +291,7 @@ std::vector<Index> OutlierRemoval::outliers_of(PointsView points, const Cloud& c
       if (is_known) ++next;
       if (is_known || !body.holds(points[i])) own.push_back(i);
     });
-    const Points left = without(points, own);
+    const Points left = chosen_rows(points, without(points.size(), own).first);
     const PrincipalFrame frame = principal_frame(left, context);
     if (!fills_area(frame)) return known;
     body = Body(left, frame, context);
@@ -326,8 +300,9 @@ std::vector<Index> OutlierRemoval::outliers_of(PointsView points, const Cloud& c
 }
 
 bool OutlierRemoval::hold_surface(const std::vector<Index>& own, const Cloud& cloud) {
-  const Points rest = without(cloud.points, own);
-  const double left = surface_area(rest, without(cloud.faces, own, cloud.points.size()));
+  const DistinctPoints rest = without(cloud.points.size(), own);
+  const double left =
+      surface_area(chosen_rows(cloud.points, rest.first), renumbered(cloud.faces, rest));
   return left < (1 - least_part) * surface_area(cloud.points, cloud.faces);
 }
 

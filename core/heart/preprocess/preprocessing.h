@@ -64,24 +64,33 @@ std::vector<std::unique_ptr<Stage>> make_stages(const Preprocessing& policy, Ind
                                                 const ParameterValues& values,
                                                 bool refuse_nonfinite);
 
+/// A stage that keeps some of the points, in any order. Each point gets the partner of the one that
+/// it is kept as.
+class RowStage : public Stage {
+ public:
+  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
+
+ protected:
+  DistinctPoints rows_;  ///< number -1: not kept
+};
+
 /// A stage that removes points: they have no partners, and `statistic` counts them.
-class RowRemoval : public Stage {
+class RowRemoval : public RowStage {
  public:
   void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  protected:
   explicit RowRemoval(const char* statistic) : statistic_(statistic) {}
 
-  /// `own`: the points of this process to remove, ascending. False: there are none in any process.
+  /// `own`: the points of this process to remove. False: there are none in any process.
   bool remove(Cloud& cloud, const std::vector<Index>& own);
 
-  static Points without(PointsView rows, const std::vector<Index>& removed);
-  /// The faces between points that stay, by their new indices. `points`: how many there were.
-  static Triangles without(TrianglesView faces, const std::vector<Index>& removed, Index points);
+  static DistinctPoints without(Index points, const std::vector<Index>& removed);
+  /// The faces between points that are kept, by their new indices.
+  static Triangles renumbered(TrianglesView faces, const DistinctPoints& kept);
 
  private:
   const char* statistic_;
-  std::vector<Index> removed_;  // ascending
   Triangles faces_;
 };
 
@@ -104,27 +113,21 @@ class NonfiniteRemoval : public RowRemoval {
 /// Merging of equal points: corners of triangles that nobody merged, a scan appended to itself.
 /// Only where there are many; fewer than minimum_points distinct ones are InvalidInput. Each point
 /// gets the partner of the one that it was merged with.
-class DuplicateMerge : public Stage {
+class DuplicateMerge : public RowStage {
  public:
   explicit DuplicateMerge(Index minimum_points) : minimum_points_(minimum_points) {}
 
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
 
  private:
   Index minimum_points_;
-  DistinctPoints distinct_;
 };
 
 /// Sorting of the points by x, then y, then z: for methods that take the first of equals, which so
 /// is the same one in whatever order the points were given. Copies keep their order.
-class PositionOrder : public Stage {
+class PositionOrder : public RowStage {
  public:
   bool apply(Cloud& cloud, const Context& context) override;
-  void map_back(Result& result, PairDistance pair_distance, const Context& context) const override;
-
- private:
-  std::vector<std::int32_t> order_;  // of each point sorted, which it is of those given
 };
 
 /// Removal of the few points far off the rest, which would set the scale of everything else.
