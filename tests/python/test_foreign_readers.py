@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import struct
 import subprocess
@@ -41,10 +42,25 @@ def test_a_packed_scan_that_promises_more_than_it_holds(count, at, tmp_path):
         symsurf.read(path)
 
 
-def test_what_may_die_has_a_process_of_its_own():
-    assert {suffix for suffix, each in FORMATS.items() if each.has_own_process} == {
-        ".vtp", ".vtu", ".vti", ".vtk", ".laz", ".nrrd", ".nii", ".3mf",
-    }  # fmt: skip
+def test_what_may_die_has_a_process_of_its_own(tmp_path, monkeypatch):
+    """Readers of others, and whatever unpacks."""
+    begun = []
+
+    class Watched(own_process.Processes):
+        def call(self, *given, **limits):
+            begun.append(given[3])
+            return super().call(*given, **limits)
+
+    with Watched() as processes:
+        monkeypatch.setattr(own_process, "call", processes.call)
+        for suffix in (*FORMATS, *(f"{suffix}.gz" for suffix in FORMATS)):
+            path = tmp_path / f"a{suffix}"
+            path.write_bytes(gzip.compress(b"none") if suffix.endswith(".gz") else b"none")
+            with pytest.raises(symsurf.InvalidInput, match=f"a{suffix}"):
+                symsurf.read(path)
+            others = (".vtp", ".vtu", ".vti", ".vtk", ".laz", ".nrrd", ".nii", ".3mf")
+            assert len(begun) == (suffix.endswith((".gz", *others)))
+            begun.clear()
 
 
 def test_a_process_that_died_is_followed_by_another():

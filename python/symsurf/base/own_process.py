@@ -279,7 +279,10 @@ def _python() -> str | None:
 
 def _import_paths() -> list[str]:
     """Where this process imports from, without the current folder."""
-    here = os.path.realpath(os.curdir)
+    try:
+        here = os.path.realpath(os.curdir)
+    except OSError:  # it was removed
+        here = ""
     own = str(Path(__file__).parents[2])
     paths = [path for path in sys.path if os.path.isabs(path) and os.path.realpath(path) != here]
     return paths if own in paths else [own, *paths]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .._core import InvalidInput, InvalidParameter, Mirror, analyses, needs_mirror
 from ..base.options import Reading, Search, part
 from ..base.plain import plain
+from ..base.printable import printable
 from ..base.progress import Progress, share
 from ..detection import detect
 from ..detection.chunks import detect_chunks
@@ -363,4 +364,5 @@ def _shown(value: Any) -> str:
 
 def _one_line(file: Path, error: BaseException) -> str:
     reason = str(error) or type(error).__name__
-    return " ".join((reason if str(file) in reason else f"{file}: {reason}").split())
+    whole = reason if str(file) in reason else f"{file}: {reason}"
+    return printable(" ".join(whole.split()))

@@ -11,6 +11,7 @@ from typing import Any
 
 from .._core import Analysis, InvalidParameter
 from ..base.options import Search
+from ..base.printable import printable
 from ..batching.file_task import FileTask, Record
 from ..results import Symmetries
 from ..saving import ANALYSIS_FORMATS
@@ -27,7 +28,7 @@ from .batch_options import (
 )
 from .described_options import add_parameters, given_values
 from .shared_options import add_options
-from .terminal import printable, say
+from .terminal import say
 from .values import shown
 
 # What pose estimators read, by the record's name for it.

@@ -13,6 +13,7 @@ from typing import Any
 
 from .._core import InvalidParameter, require_found_parameter
 from ..base.options import Reading, Search
+from ..base.printable import printable
 from ..batching import require_jobs, threads_of_each
 from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, perform
 from ..batching.growing_table import GrowingTable
@@ -26,7 +27,7 @@ from ..saving.sole_writer import sole_writer
 from .output_paths import require_apart, require_suffix
 from .progress_bar import ProgressBar
 from .shared_options import add_options, given_options
-from .terminal import complain, printable, say, standard_input
+from .terminal import complain, say, standard_input
 from .values import whole
 
 STANDARD_INPUT = Path("-")

@@ -10,6 +10,7 @@ from typing import Any
 
 from .._core import InvalidParameter
 from ..base.options import Search
+from ..base.printable import printable
 from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
 from .batch_options import (
@@ -23,7 +24,6 @@ from .batch_options import (
 )
 from .method_options import add_method_options, given_parameters
 from .shared_options import add_options
-from .terminal import printable
 from .values import shown
 
 SUMMARY = "Finds the mirror of each file."

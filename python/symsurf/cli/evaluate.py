@@ -9,12 +9,13 @@ from pathlib import Path
 from .. import metrics
 from .._core import InvalidInput, InvalidParameter, Sphere, SurfaceMirror
 from ..base.plain import plain
+from ..base.printable import printable
 from ..reading import read
 from ..reading.saved_text import read_text
 from ..saving.truth import read_truth, truth_path
 from . import evaluate_benchmark
 from .each_file import for_each_file
-from .terminal import printable, say
+from .terminal import say
 
 SUMMARY = "Compares results with the truth of the sample, or the benchmark, they were found in."
 

@@ -9,12 +9,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..base.plain import plain
+from ..base.printable import printable
 from ..benchmark import BenchmarkSample
 from ..benchmark.answers import answer_in
 from ..benchmark.files import read_benchmark
 from ..benchmark.scores import Figures, figures_of, summary
 from ..saving import write_whole
-from .terminal import printable, say
+from .terminal import say
 
 Scored = tuple[BenchmarkSample, Figures]
 GROUPS: tuple[tuple[str, Callable[[BenchmarkSample], str]], ...] = (

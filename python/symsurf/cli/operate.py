@@ -8,6 +8,7 @@ from pathlib import Path
 
 from .._core import Operation
 from ..base.options import Search, part
+from ..base.printable import printable
 from ..batching.file_task import Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
@@ -26,7 +27,6 @@ from .batch_options import (
 )
 from .described_options import add_parameters, given_values
 from .shared_options import given_options
-from .terminal import printable
 from .values import shown
 
 

@@ -6,30 +6,16 @@ import argparse
 import codecs
 import errno
 import os
-import re
 import sys
 from io import TextIOWrapper
 from typing import Any
 
-# All of Unicode's control characters but tabs and ends of lines, the bytes of names that may stand
-# for such, what else ends lines, and what turns the direction of writing.
-_CONTROLS = re.compile(
-    "[\0-\x08\x0b-\x1f\x7f-\x9f\udc80-\udc9f\u200e\u200f\u2028-\u202e\u2066-\u2069]"
-)
-
-
-def _escaped(text: str) -> str:
-    return _CONTROLS.sub(lambda found: ascii(found[0])[1:-1], text)
-
-
-def printable(text: str) -> str:
-    """The text on one line, with control characters as "\\x1b"."""
-    return _escaped(text).replace("\t", "\\t").replace("\n", "\\n")
+from ..base.printable import escaped, printable
 
 
 def say(text: str) -> None:
     """On standard output, at once."""
-    print(_escaped(text), flush=True)
+    print(escaped(text), flush=True)
 
 
 def complain(text: str) -> None:
@@ -41,7 +27,7 @@ class Parser(argparse.ArgumentParser):
     """Of the command line, whose words may be names of files."""
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        super()._print_message(_escaped(message), file)
+        super()._print_message(escaped(message), file)
 
 
 def open_streams() -> None:

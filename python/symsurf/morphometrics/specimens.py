@@ -15,7 +15,9 @@ from .._core import InvalidInput, InvalidParameter
 from ..detection import detect
 from ..mirror_operations.operate import operate
 from ..reading import read, stem_of
+from ..reading.errors import broken, naming
 from ..reading.landmarks import is_landmark_file, read_landmark_sets
+from ..reading.location import text_of
 from ..results import Correspondences, found_mirror
 from ..shapes import Landmarks, Shape
 from .checks import listed
@@ -230,22 +232,18 @@ def _of_vertices(index: NDArray[np.int64]) -> LandmarkPairs:
 def read_pairs(path: Path, specimens: Specimens) -> LandmarkPairs:
     """The pairs of a table: two names a row, or two numbers of landmarks, from 0 on. All others are
     on the midline. Raises InvalidInput, naming the file and the line."""
-    try:
-        lines = path.read_text("utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{path}: {getattr(error, 'strerror', None) or error}") from error
     index_of = {name: i for i, name in enumerate(specimens.names)}
     rows: list[list[int]] = []
     taken: set[int] = set()
-    for line, cells in enumerate(csv.reader(lines, skipinitialspace=True), 1):
-        if cells and not cells[0].startswith("#"):
-            row = _row(f"{path}: line {line}", cells, index_of, specimens.points.shape[1])
-            if row[0] == row[1] or not taken.isdisjoint(row):
-                raise InvalidInput(
-                    f"{path}: line {line}: one of the two stands twice; allowed is once"
-                )
-            rows.append(row)
-            taken.update(row)
+    with naming(path), broken("CSV"):
+        lines = text_of(path).splitlines()
+        for line, cells in enumerate(csv.reader(lines, skipinitialspace=True), 1):
+            if cells and not cells[0].startswith("#"):
+                row = _row(f"line {line}", cells, index_of, specimens.points.shape[1])
+                if row[0] == row[1] or not taken.isdisjoint(row):
+                    raise InvalidInput(f"line {line}: one of the two stands twice; allowed is once")
+                rows.append(row)
+                taken.update(row)
     pairs = np.array(rows, dtype=np.int64).reshape(-1, 2)
     rest = np.setdiff1d(np.arange(specimens.points.shape[1]), pairs)
     return LandmarkPairs(pairs, rest, np.empty(0, np.int64))

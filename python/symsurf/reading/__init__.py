@@ -105,12 +105,14 @@ def _read(name: str, suffix: str, stream: BinaryIO | None, reading: Reading) -> 
             )
     with naming(name):
         try:
-            reader = described.load()
+            described.require_packages()
         except ImportError as error:
             raise InvalidInput(str(error)) from error
         with broken(described.name):
             with located(name, suffix, stream) as file:
-                shape = reader(file.absolute(), reading)
+                is_packed = stream is None and suffix != described.suffix
+                size = os.path.getsize(name) if is_packed else file.stat().st_size
+                shape = described.read(file.absolute(), reading, size, suffix != described.suffix)
             _require_sound(shape)
     return shape
 

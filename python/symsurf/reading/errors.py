@@ -8,15 +8,17 @@ from types import ModuleType
 
 from .._core import InvalidInput, InvalidParameter
 from ..base.own_process import ProcessDied
+from ..base.printable import printable
 
 
 @contextmanager
 def naming(name: object) -> Iterator[None]:
-    """InvalidInput raised within begins with the name of the file."""
+    """InvalidInput raised within begins with the name of the file; its reason may have texts of the
+    file, which are escaped."""
     try:
         yield
     except InvalidInput as error:
-        raise InvalidInput(f"{name}: {error}") from error
+        raise InvalidInput(f"{name}: {printable(str(error))}") from error
 
 
 @contextmanager

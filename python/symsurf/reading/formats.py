@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,16 +16,13 @@ from .errors import broken
 
 PACKED = ".gz"
 
-Reader = Callable[[Path, Reading], Shape]
-
 # What a reader's own process may take: a packed mask unpacks to a thousand times its bytes, by zlib.
 _MEMORY, _MEMORY_A_BYTE = 2 << 30, 1000
 _SECONDS, _SECONDS_A_BYTE = 15, 1e-5
 
 
-def limits_of(path: Path) -> dict[str, Any]:
-    """For the process of a reader of others: the memory and the time that the file may take."""
-    size = path.stat().st_size
+def limits_of(size: int) -> dict[str, Any]:
+    """For a process of a reader: the memory and the time that a file of so many bytes may take."""
     return {
         "memory": _MEMORY + _MEMORY_A_BYTE * size,
         "seconds": _SECONDS + _SECONDS_A_BYTE * size,
@@ -65,25 +61,24 @@ class Format:
     """Whether few bytes may stand for very many."""
 
     @property
-    def has_own_process(self) -> bool:
-        """Of its reader: a damaged file may end those of others, or take any memory and time."""
-        return self.unpacks or bool(self.packages)
-
-    @property
     def name(self) -> str:
         return self.suffix[1:].upper()
 
-    def load(self) -> Reader:
-        """The function that reads it. Raises ImportError, naming the extra, without a package."""
+    def require_packages(self) -> None:
+        """Raises ImportError, naming the extra, without one."""
         require_packages(self.name, self.packages, f"'symsurf[{self.extra}]'")
-        read = partial(read_by, f"{__package__}.{self.reader}", self.name)
-        return partial(_in_own_process, read) if self.has_own_process else read
 
+    def read(self, path: Path, reading: Reading, size: int, is_packed: bool) -> Shape:
+        """What the file holds. Where it is packed, or its reader is of others, it is read by a process of
+        its own: a damaged one may end that, or take any memory and time.
 
-def _in_own_process(read: partial[Shape], path: Path, reading: Reading) -> Shape:
-    return own_process.call(
-        __name__, read_by.__name__, *read.args, path, reading, **limits_of(path)
-    )
+        Args:
+            size: of the file as it was given.
+        """
+        given = f"{__package__}.{self.reader}", self.name, path, reading
+        if not (is_packed or self.unpacks or self.packages):
+            return read_by(*given)
+        return own_process.call(__name__, read_by.__name__, *given, **limits_of(size))
 
 
 _CORE = (".ply", ".obj", ".off", ".stl", ".xyz", ".csv", ".txt", ".fcsv")

@@ -102,6 +102,7 @@ def require_file(name: str) -> None:
         raise InvalidInput("the file is empty")
 
 
+_LONGEST_TABLE = 1 << 25  # bytes, of a million landmarks: Python takes thirty times as many
 # What a file may honestly stand for: of a small one this, of others zlib's most for each byte.
 _HONEST, _HONEST_A_BYTE = 1 << 29, 1000
 
@@ -123,8 +124,10 @@ def content_of(path: Path) -> bytes:
 
 
 def text_of(path: Path) -> str:
-    """The same as text."""
-    return content_of(path).decode("utf-8-sig")
+    """The text of a table of landmarks. Raises InvalidInput where it is longer than any of these."""
+    if (size := path.stat().st_size) > _LONGEST_TABLE:
+        raise InvalidInput(f"it has {size} bytes; allowed are {_LONGEST_TABLE}")
+    return path.read_text("utf-8-sig")
 
 
 def copy_bounded(content: BinaryIO, copy: IO[bytes]) -> None:

@@ -66,7 +66,7 @@ def chunks_of(path: Path, reading: Reading | None = None) -> FileChunks:
     def start() -> Iterator[NDArray[np.float64]]:
         with naming(path), broken(suffix[1:].upper()):
             if packages:
-                limits = limits_of(path)
+                limits = limits_of(path.stat().st_size)
                 yield from own_process.stream(__name__, rows.__name__, *given, **limits)
             else:
                 yield from rows(*given)
@@ -78,7 +78,7 @@ def chunks_of(path: Path, reading: Reading | None = None) -> FileChunks:
         except ImportError as error:
             raise InvalidInput(str(error)) from error
         count, system = (
-            own_process.call(__name__, head.__name__, *given, **limits_of(path))
+            own_process.call(__name__, head.__name__, *given, **limits_of(path.stat().st_size))
             if packages
             else head(*given)
         )
