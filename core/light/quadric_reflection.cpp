@@ -200,14 +200,18 @@ class Search {
     }
   }
 
-  // Halves, until Newton's steps on the surface lead to it.
+  // Regula falsi (the Illinois variant), then Newton's steps on the surface.
   void root(Sample a, Sample b) {
+    int side = 0;
     for (int step = 0; step < 60; ++step) {
       const double share = a.law / (a.law - b.law);
       if (settle(a.point + share * (b.point - a.point), (a.point - b.point).norm())) return;
-      const Sample next = sample((a.at + b.at) / 2);
+      const Sample next = sample(a.at + share * (b.at - a.at));
       if (!next.is_real || next.at == a.at || next.at == b.at) return;
-      ((next.law < 0) == (a.law < 0) ? a : b) = next;
+      const bool is_after = (next.law < 0) == (a.law < 0);
+      if (is_after == (side == 1) && side != 0) (is_after ? b : a).law /= 2;
+      (is_after ? a : b) = next;
+      side = is_after ? 1 : 2;
     }
   }
 

@@ -145,9 +145,9 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& semidefinite, const Eigen::VectorX
 }
 
 template <int n>
-requires((n >= 3 && n <= 7) ||
-         n == 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
-                                                  const Eigen::Vector<double, n>& right) {
+requires(n >= 3 &&
+         n <= 7) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
+                                                 const Eigen::Vector<double, n>& right) {
   return semidefinite.ldlt().solve(right);
 }
 
@@ -159,7 +159,6 @@ SYMSURF_SOLVED(4);
 SYMSURF_SOLVED(5);
 SYMSURF_SOLVED(6);
 SYMSURF_SOLVED(7);
-SYMSURF_SOLVED(10);
 #undef SYMSURF_SOLVED
 
 namespace {

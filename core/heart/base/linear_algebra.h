@@ -66,9 +66,9 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& semidefinite, const Eigen::VectorX
 
 /// The same in less time, where many are solved.
 template <int n>
-requires((n >= 3 && n <= 7) ||
-         n == 10) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
-                                                  const Eigen::Vector<double, n>& right);
+requires(n >= 3 &&
+         n <= 7) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
+                                                 const Eigen::Vector<double, n>& right);
 
 /// Centre and, last, radius of the sphere, or of the circle, about which |x - c|^2 - r^2 of the
 /// rows has the least squares; 0 where r^2 is not above 0. For rows that are about 1 in size.

@@ -223,9 +223,6 @@ class NearestPoints {
  public:
   /// Until the cloud's tree is released.
   NearestPoints(const Cloud& cloud, const Context& context);
-  /// The tree is that of the points.
-  NearestPoints(PointsView points, const PointTree& tree, const Context& context)
-      : points_(points), tree_(tree), context_(context) {}
 
   /// The nearest point to each query, NaN where none is within `reach`.
   std::vector<Vector3> nearest(const std::vector<Vector3>& queries, double reach) const;

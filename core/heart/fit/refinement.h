@@ -82,7 +82,22 @@ class Refinement {
     std::uint32_t position;    // along a curve that fills space
     Vector3 smoothed = point;  // less its noise
   };
-  class Matching;
+  // Matches on every so many samples.
+  class Matching {
+   public:
+    Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
+
+    double spacing() const { return cloud_.spacing_; }
+    double along_surface() const { return 0.01; }
+    template <typename Map>
+    std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
+      return cloud_.matches(maps, limit, stride_);
+    }
+
+   private:
+    const Refinement& cloud_;
+    Index stride_;
+  };
 
   // The stride between samples, for about so many.
   Index stride_for(Index wanted) const;
@@ -149,23 +164,6 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
   }
   return found;
 }
-
-// Matches on every so many samples.
-class Refinement::Matching {
- public:
-  Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
-
-  double spacing() const { return cloud_.spacing_; }
-  double along_surface() const { return 0.01; }
-  template <typename Map>
-  std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
-    return cloud_.matches(maps, limit, stride_);
-  }
-
- private:
-  const Refinement& cloud_;
-  Index stride_;
-};
 
 template <typename Map>
 std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit) const {

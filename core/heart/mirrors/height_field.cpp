@@ -122,7 +122,7 @@ HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
     fit.add(offset[0] / radius, offset[1] / radius, offset[2], inside * inside / (d * d));
   }
   const double ridge = least_curvature_weight * slopes;
-  const QuadraticFit::Coefficients h = fit.coefficients(ridge, 1e-3 * ridge, 1e9 * fit.weight());
+  const QuadraticFit::Coefficients h = fit.coefficients(ridge, 1e-3 * ridge, 1e12 * fit.weight());
   if (!h.allFinite()) return quadratic;
   quadratic.slope = h.segment<2>(1) / radius;
   quadratic.curvature = Eigen::Vector3d(2 * h[3], h[4], 2 * h[5]) / (radius * radius);

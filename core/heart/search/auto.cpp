@@ -262,8 +262,9 @@ constexpr double least_bend = 0.01;  // inverse diagonals: over half a diagonal,
 BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
     : cloud_(cloud),
       points_(cloud, context.stage(0, 0.3)),
-      refinement_(cloud, points_, cloud.patches(sample_size, context.stage(0.3, 0.5)),
-                  cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6))),
+      // In braces the patches are made in this order, as they report their progress.
+      refinement_{cloud, points_, cloud.patches(sample_size, context.stage(0.3, 0.5)),
+                  cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6))},
       score_(cloud, context.stage(0.6, 1)) {}
 
 Result BentPlanes::best_of(const Kinds& kinds, const Mirror& plane) const {

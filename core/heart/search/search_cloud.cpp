@@ -205,21 +205,4 @@ void SearchCloud::smooth(const Context& progress) {
   normals = std::move(fitted);
 }
 
-Index SearchMatcher::partner_of(const Vector3& image, const Vector3& normal, double limit) const {
-  constexpr Index nearest = 6;
-  std::vector<Neighbour> near;
-  cloud_.tree.nearest(image, std::min(nearest, cloud_.size()), near);
-  Index best = -1;
-  double least = infinity;
-  for (const Neighbour& other : near) {
-    if (other.squared_distance > limit * limit) break;
-    const double cosine = cloud_.normal(other.index).dot(normal);
-    const double cost = other.squared_distance + limit * limit / 9 * (1 - cosine * cosine);
-    if (cost >= least) continue;
-    least = cost;
-    best = other.index;
-  }
-  return best;
-}
-
 }  // namespace symsurf::perpendicular

@@ -4,7 +4,6 @@
 
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
-#include "fit/fitted.h"
 
 namespace symsurf::perpendicular {
 
@@ -40,40 +39,6 @@ struct SearchCloud : SurfacePoints {
               const Context& context);
 
   bool given_normals_;
-};
-
-/// The points of a search as what images meet, for fits: of the nearest few the one whose normal
-/// fits as well, as across a thin part lies its other side.
-class SearchMatcher {
- public:
-  explicit SearchMatcher(const SearchCloud& cloud) : cloud_(cloud) {}
-
-  double spacing() const { return cloud_.spacing; }
-  double along_surface() const { return 0.08; }
-
-  /// Of one map.
-  template <typename Map>
-  std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
-    const Map& map = maps.front();
-    std::vector<Match> found;
-    for (const Index i : cloud_.tree.order()) {
-      cloud_.context.check();
-      const Vector3 x = cloud_.point(i), image = map.reflect(x);
-      if (!image.allFinite()) continue;
-      const Vector3 turned = map.reflect_direction(x, cloud_.normal(i));
-      const Index partner = partner_of(image, turned, limit);
-      if (partner >= 0)
-        found.push_back(
-            {x, {cloud_.normal(i), 1}, cloud_.point(partner), {cloud_.normal(partner), 1}});
-    }
-    return found;
-  }
-
-  /// The point that fits an image with this normal best, none farther off than the limit; -1: none.
-  Index partner_of(const Vector3& image, const Vector3& normal, double limit) const;
-
- private:
-  const SearchCloud& cloud_;
 };
 
 }  // namespace symsurf::perpendicular
