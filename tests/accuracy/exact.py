@@ -1,4 +1,5 @@
-"""``auto`` where every point has an exact partner: it says so, and scores it 1."""
+"""``auto``, and ``perpendicular``, where every point has an exact partner: it says so, and scores
+it 1."""
 
 from __future__ import annotations
 
@@ -29,9 +30,9 @@ def exact_share(mirror: Mirror | None, points: Points) -> float:
     return float((distances <= EXACT * diagonal(points)).sum() / len(points))
 
 
-def _judged(points: Points, kind: str, rng: np.random.Generator) -> Figures:
+def _judged(points: Points, kind: str, rng: np.random.Generator, method: str = "auto") -> Figures:
     points = rng.permutation(points) @ random_rotation(rng).T
-    result, seconds = timed_detect(points, "auto")
+    result, seconds = timed_detect(points, method)
     partners = exact_share(result.mirror, points)
     found = result.statistics["verdict"] == "found"
     right = found and partners == 1 and result.score >= 1 - EXACT
@@ -86,7 +87,7 @@ def _mirror(kind: str, points: Points, on_grid: bool, rng: np.random.Generator) 
     return Sphere(centre, radius) if kind == "sphere" else Cylinder(centre, axis, radius)
 
 
-def _mirrored(kind: str) -> Callable[[str, np.random.Generator], Figures]:
+def _mirrored(kind: str, method: str = "auto") -> Callable[[str, np.random.Generator], Figures]:
     def run(subject: str, rng: np.random.Generator) -> Figures:
         half = round(np.exp(rng.uniform(np.log(LEAST), np.log(MOST))) / 2)
         # More than asked for: some lie where the mirror sends nothing.
@@ -99,7 +100,7 @@ def _mirrored(kind: str) -> Callable[[str, np.random.Generator], Figures]:
         points = np.vstack([points, mirror.reflect(points)])
         if subject == "lattice":
             points = np.unique(points, axis=0)
-        return _judged(points, kind, rng)
+        return _judged(points, kind, rng, method)
 
     return run
 
@@ -128,6 +129,8 @@ _RIGHT = {"right": at_least(1)}
 CASES = (
     *(Case(f"auto, exact {kind}", tuple(CLOUDS), _mirrored(kind), _RIGHT, trials=35)
       for kind in ("plane", "sphere", "cylinder")),
+    Case("perpendicular, exact plane", tuple(CLOUDS), _mirrored("plane", "perpendicular"), _RIGHT,
+         trials=35),
     Case("auto, a random half and its image",
          tuple(f"{cloud} {n}" for cloud in ("Gaussian", "uniform") for n in (100, 300, 1000)),
          _random_half, {**_RIGHT, "named": at_least(1)}),

@@ -84,6 +84,8 @@ CASES = (
     _case("all three", "noise missing density", "found", 0.95, MESHES),
     _case("10 % clutter", "clutter", "found", 0.95),
     _case("10 % clutter, 50000 points", "clutter", "found", 0.95, count=50000),
+    _case("1000 points", "", "found", 0.95, count=1000),
+    _case("1000 points, noise 1 %", "noise", "found", 0.95, count=1000),
     _case("half, a compact 30 % of the other half", "half", "right", 0.9, MESHES),
     _case("half, a thinned 30 % of the other half", "half thinned", "right", 0.9, MESHES),
     _case("half, the 30 % next to the cut", "half slab", "right", 0.9, MESHES),
