@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/linear_algebra.h"
@@ -31,41 +30,7 @@ constexpr double facing_cosine = 0.88;                           // 28 degrees
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
 constexpr double search_tolerance = 0.015;
 constexpr double least_explained = 0.1;
-constexpr double many = 1000;  // surfels; see Search
 constexpr double blind = 0.6;  // of a pair with normals: more are tried where there are none
-
-// The mean of similar planes, each weighted by what it explains: Hruda et al. add the vectors
-// (a, b, c, d) of two planes, or subtract them where their normals point apart.
-struct Average {
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  double weight = 0;
-
-  void add(const UnitPlane& plane, double support) {
-    const double sign = plane.normal.dot(sum.head<3>()) < 0 ? -1 : 1;
-    sum.head<3>() += sign * support * plane.normal;
-    sum[3] += sign * support * plane.offset;
-    weight += support;
-  }
-  UnitPlane plane() const {
-    const double length = sum.head<3>().norm();
-    return {sum.head<3>() / length, sum[3] / length};
-  }
-};
-
-// Planes with normals within about 10 degrees and offsets within a 25th of the size share a bin.
-std::int32_t bin(const UnitPlane& plane) {
-  constexpr double normal_bins = 6, offset_bins = 25;
-  int axis;
-  plane.normal.cwiseAbs().maxCoeff(&axis);
-  const double major = plane.normal[axis];
-  const auto cell = [](double value, double scale) {
-    return static_cast<std::int32_t>(std::lround(value * scale));
-  };
-  const std::int32_t u = cell(plane.normal[(axis + 1) % 3] / major, normal_bins) + 8;
-  const std::int32_t v = cell(plane.normal[(axis + 2) % 3] / major, normal_bins) + 8;
-  const std::int32_t w = cell(plane.offset / major * std::abs(major), offset_bins) + 64;
-  return ((axis * 16 + u) * 16 + v) * 128 + w;
-}
 
 // Thins pairs evenly and each by itself, so that one pair more or less changes no other's lot.
 std::uint32_t ticket(Index i, Index j) {
@@ -113,9 +78,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
     }
 
   std::vector<PlaneCandidate> found;
-  const double sparser = std::max(1.0, many / static_cast<double>(surfels.size()));
-  const double last_ticket =
-      sparser * search.pairs / informative * std::numeric_limits<std::uint32_t>::max();
+  const double last_ticket = search.pairs / informative * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
@@ -123,17 +86,13 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
         support_share(surfels, map, plane, search_tolerance, glancing, contradiction);
     if (support > least_explained) found.push_back({plane, support});
   }
-  keep_best(found, sparser * search.promising);
+  keep_best(found, search.promising);
 
-  std::map<std::int32_t, Average> bins;
-  for (const auto& [plane, glanced, partnered] : found) {
-    const double support =
-        support_share(surfels, map, plane, search_tolerance, coarse, contradiction);
-    if (support > least_explained) bins[bin(plane)].add(plane, support);
-  }
-  found.clear();
-  for (const auto& [key, average] : bins) found.push_back({average.plane(), average.weight});
-  keep_best(found, sparser * search.averages);
+  for (PlaneCandidate& candidate : found)
+    candidate.support =
+        support_share(surfels, map, candidate.shape, search_tolerance, coarse, contradiction);
+  std::erase_if(found, [](const PlaneCandidate& c) { return c.support <= least_explained; });
+  keep_best(found, search.closer);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
     candidate.support =
@@ -165,17 +124,16 @@ constexpr double alike_planes = 0.05;  // planes closer than this are one
 struct Effort {
   Search search;
   Index started;          // candidates that are refined on the surfels, roughly
-  Index refined_well;     // of these, are refined closely
-  Index quickly_fitted;   // of these, are fitted to the full cloud
+  Index fitted;           // of these, are fitted to the full cloud
   Index finalists;        // of these, are fitted carefully
   double far_below_best;  // below the best by this share of it: not worth fitting
 };
 
-constexpr Effort usual{usual_search, 20, 14, 10, 6, 0.6};
+constexpr Effort usual{usual_search, 20, 10, 6, 0.6};
 // For clouds that a usual search explains no better than this: where most of one side is missing,
 // few pairs define the mirror, and patches distinguish it badly from others.
 constexpr double unexplained = 0.15;
-constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 40, 30, 12, 0.7};
+constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 30, 12, 0.7};
 
 std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
   return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
@@ -199,10 +157,7 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
   suppress_non_maxima(candidates, alike_planes, effort.started);
   context.report(0.5);
   drop_far_below_best(candidates, effort.far_below_best);
-  suppress_non_maxima(candidates, alike_planes, effort.refined_well);
-  for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.02, 0.012, 4, 3, contradiction);
-  suppress_non_maxima(candidates, alike_planes, effort.quickly_fitted);
+  suppress_non_maxima(candidates, alike_planes, effort.fitted);
   context.report(1);
   return candidates;
 }
