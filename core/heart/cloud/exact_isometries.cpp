@@ -233,7 +233,18 @@ std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {
       ++i;
     if (i < cloud.points.size()) planes.push_back(plane);
   }
+  longest_first(planes, cloud.frame);
   return planes;
+}
+
+void longest_first(std::vector<Plane>& planes, const PrincipalFrame& frame) {
+  constexpr double same = 1e-9;  // of the greatest variance
+  const auto variance = [&](const Plane& plane) {
+    const Vector3 normal = frame.axes.transpose() * plane.normal();
+    return std::round(frame.variance.dot(normal.cwiseAbs2()) / (same * frame.variance.maxCoeff()));
+  };
+  std::stable_sort(planes.begin(), planes.end(),
+                   [&](const Plane& a, const Plane& b) { return variance(a) > variance(b); });
 }
 
 Matrix3 basis_of(const Vector3& one, const Vector3& other) {

@@ -31,6 +31,10 @@ ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const
 /// for one that all points lie on.
 std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context);
 
+/// Of planes that are worth the same, as those of a box are, the one across the longer extent comes
+/// first, whatever the order of the points.
+void longest_first(std::vector<Plane>& planes, const PrincipalFrame& frame);
+
 /// The orthonormal basis with its first axis along one vector and its second on the side of
 /// another.
 Matrix3 basis_of(const Vector3& one, const Vector3& other);

@@ -135,10 +135,6 @@ constexpr Effort usual{usual_search, 20, 10, 6, 0.6};
 constexpr double unexplained = 0.15;
 constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 30, 12, 0.7};
 
-std::shared_ptr<Plane> mirror_of(const UnitPlane& plane, const Cloud& cloud) {
-  return std::make_shared<Plane>(in_input_units(plane, cloud.frame));
-}
-
 double below(double best, double share) { return best - share * std::max(best, least_best); }
 
 void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) {
@@ -213,19 +209,6 @@ class FullCloud {
   const MirrorScore& score_;
 };
 
-// Of planes that score alike, as those of a box do, the one across the longer extent comes first,
-// whatever the order of the points.
-void longest_first(std::vector<UnitPlane>& planes, const PrincipalFrame& frame) {
-  constexpr double same = 1e-9;  // of the greatest variance
-  const auto variance = [&](const UnitPlane& plane) {
-    const double along = frame.variance.dot(plane.normal.cwiseAbs2());
-    return std::round(along / (same * frame.variance.maxCoeff()));
-  };
-  std::stable_sort(planes.begin(), planes.end(), [&](const UnitPlane& a, const UnitPlane& b) {
-    return variance(a) > variance(b);
-  });
-}
-
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
@@ -294,10 +277,12 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const NearestPoints points(cloud, context.stage(0.25, 0.4));
   const Refinement refinement(cloud, points, coarse, fine);
   const MirrorScore score(cloud, context.stage(0.4, 0.45));
-  const auto ranked = [&](std::vector<UnitPlane> planes) {
-    longest_first(planes, cloud.frame);
+  const auto ranked = [&](const std::vector<UnitPlane>& planes) {
+    std::vector<Plane> posed;
+    for (const UnitPlane& plane : planes) posed.push_back(in_input_units(plane, cloud.frame));
+    longest_first(posed, cloud.frame);
     std::vector<std::shared_ptr<Mirror>> mirrors;
-    for (const UnitPlane& plane : planes) mirrors.push_back(mirror_of(plane, cloud));
+    for (const Plane& plane : posed) mirrors.push_back(std::make_shared<Plane>(plane));
     return score.ranked("plane", mirrors);
   };
   const FullCloud whole(cloud, refinement, score);

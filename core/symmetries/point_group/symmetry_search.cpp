@@ -301,7 +301,8 @@ PointGroup exact_group(const Cloud& cloud, const Context& context) {
   if (cloud.points.size() > most_points) return {};
   std::vector<Matrix3> elements;
   for (const Matrix3& map : exact_isometries(cloud.points, cloud.tree(context), context).maps)
-    elements.push_back(cloud.frame.axes.transpose() * map * cloud.frame.axes);
+    elements.push_back(
+        map.isIdentity(0) ? map : Matrix3(cloud.frame.axes.transpose() * map * cloud.frame.axes));
   return PointGroup(elements);
 }
 
