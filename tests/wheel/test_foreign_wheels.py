@@ -55,18 +55,25 @@ def install(wheel: Path, folder: Path, *platforms: str) -> Path:
     return folder
 
 
-def first_mirror(*command: object, site: Path, **variables: str) -> str:
+def said_by(script: str, *command: object, site: Path, **variables: str) -> str:
     environment = os.environ | {"PYTHONPATH": str(site)} | variables
     done = subprocess.run(
-        [str(each) for each in (*command, ROOT / "tests/wheel/first_mirror.py")],
+        [str(each) for each in (*command, ROOT / "tests/wheel" / script)],
         env=environment, capture_output=True, text=True, timeout=LONGEST, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
+SCRIPTS = {
+    "first_mirror.py": "symsurf",
+    "files_and_commands.py": "13 formats, processes and commands",
+}
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
 @pytest.mark.parametrize("wheel", wheels("*-win_amd64.whl"), ids=name)
-def test_first_mirror_on_windows(wheel, tmp_path):
+def test_windows(wheel, script, tmp_path):
     if shutil.which("wine") is None:
         pytest.skip("wine is not installed")
     if version(wheel) in ("3.13", "3.14"):
@@ -75,7 +82,7 @@ def test_first_mirror_on_windows(wheel, tmp_path):
     python = MADE / "pythons/windows-x86_64" / version(wheel) / "python.exe"
     prefix = {"WINEPREFIX": str(MADE / "wine"), "WINEDEBUG": "-all"}
     windows_path = "Z:" + str(site).replace("/", "\\")
-    assert "symsurf" in first_mirror("wine", python, site=Path(windows_path), **prefix)
+    assert SCRIPTS[script] in said_by(script, "wine", python, site=Path(windows_path), **prefix)
 
 
 @pytest.mark.parametrize("wheel", wheels("*_aarch64.whl"), ids=name)
@@ -89,7 +96,8 @@ def test_first_mirror_on_arm(wheel, tmp_path):
     system = "/usr/aarch64-linux-gnu"
     libraries = ":".join(str(each) for each in (MADE / "zlib-arm64").glob("**/aarch64-linux-gnu"))
     setting = {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={libraries}"}
-    assert "symsurf" in first_mirror("qemu-aarch64", "-L", system, python, site=site, **setting)
+    said = said_by("first_mirror.py", "qemu-aarch64", "-L", system, python, site=site, **setting)
+    assert "symsurf" in said
 
 
 @pytest.mark.parametrize("wheel", wheels("*.whl"), ids=name)
