@@ -15,12 +15,14 @@ PREFIX = "compute_mirror_"
 # What only a host with selections, stored normals and layers has to ask.
 OF_THE_HOST = {"only_selected", "use_normals", "show_candidates"}
 # What a dialog has no use for: the layer is the input, the filter the method, the bar the progress.
-# MeshLab's layers bring their faces, are no grids, and log what is left out.
+# MeshLab's layers bring their faces, are no grids or files of other programs, and log what is left out.
 OF_PYTHON = {"absolute", "points", "method", "normals", "progress", "parameters"} | {
     "faces",
     "threshold",
     "scalars",
     "nonfinite",
+    "label",
+    "external_files",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -61,5 +62,6 @@ def test_wrapping_beside_the_plugin(
         "SYMSURF_PLUGIN": str(installed_plugin(prefix)),
         "PYTHONPATH": str(modules),
     }
-    said = run_host("pvpython", "properties.py", "MirrorDetection", '{"PlanePairDistance": 0.125}')
-    assert said["after"] == {"PlanePairDistance": 0.125}
+    values = {"PlanePairDistance": 0.125}
+    said = run_host("pvpython", "properties.py", json.dumps({"MirrorDetection": values}))
+    assert said["MirrorDetection"]["after"] == values

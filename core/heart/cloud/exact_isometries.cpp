@@ -218,8 +218,9 @@ ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const
 
 std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {
   constexpr Index checked = 1000;
-  const ExactIsometries found = exact_isometries(cloud.points, cloud.tree(context), context,
-                                                 std::numeric_limits<std::size_t>::max(), checked);
+  constexpr std::size_t most = 2000;  // points near a line turn about it by any angle
+  const ExactIsometries found =
+      exact_isometries(cloud.points, cloud.tree(context), context, most, checked);
   std::vector<Plane> planes;
   for (const Matrix3& map : found.maps) {
     const std::optional<Vector3> normal = reflected_normal(map);

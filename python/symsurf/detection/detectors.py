@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .._core import Method, methods
-from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.descriptions import keyword, name_function, parameter_texts
 from ..results import Result
 from . import detect
 
@@ -49,7 +49,11 @@ def _documentation(method: Method) -> list[str]:
         "Args:",
         f"    points: {least}, or a mesh, as ``detect`` takes them.",
         *parameter_texts(method.parameters),
-        argument_text(f"{', '.join(_OPTIONS)}: as for ``detect``."),
+        # A name list that breaks over a line is no entry to the documentation's reader.
+        *(
+            f"    {', '.join(names)}: as for ``detect``."
+            for names in (list(_OPTIONS)[:6], list(_OPTIONS)[6:])
+        ),
     ]
 
 
