@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/linear_algebra.h"
@@ -15,11 +16,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr int most_halves = 40;
-constexpr int halves_at_end = 12;
 constexpr int most_splits = 500;  // between two nodes: where rounding is all that moves, it ends
 constexpr double smooth = 0.95;   // cosine between neighbouring samples' normals and views
 constexpr double clear = 0.1;     // the least value against the greatest, where none is a root
-constexpr double gap = 1e-9;      // of an interval, beside its nodes, where a plane may be singular
+constexpr double gap = 1e-11;     // of an interval, beside its nodes, where a plane may be singular
 constexpr double degenerate = 1e-9;  // of the numbers that are compared
 constexpr double at_apex = 1e-6;     // sizes: nearer to a cone's apex the normal is rounding
 
@@ -41,19 +41,18 @@ struct Frame {
            (slope > 0 ? std::abs(constant) / slope : 0);
   }
 
-  // The quadric's point next to y; false far from any.
-  bool operator()(const Vector3& y, SurfacePoint& at) const {
-    at.position = y;
+  // The quadric's point next to y; none far from any.
+  std::optional<SurfacePoint> operator()(Vector3 y) const {
     for (int k = 0; k < 3; ++k) {
-      const Vector3 g = gradient(at.position);
-      at.position -= value(at.position) / g.squaredNorm() * g;
+      const Vector3 g = gradient(y);
+      y -= value(y) / g.squaredNorm() * g;
     }
-    const Vector3 g = gradient(at.position);
+    const Vector3 g = gradient(y);
     const double length = g.norm();
-    at.normal = g / length;
-    const Matrix3 tangent = Matrix3::Identity() - at.normal * at.normal.transpose();
-    at.shape = tangent * (2 / length * curves).asDiagonal() * tangent;
-    return at.normal.allFinite() && length > at_apex * greatest * size;
+    const Vector3 normal = g / length;
+    if (!normal.allFinite() || !(length > at_apex * greatest * size)) return std::nullopt;
+    const Matrix3 tangent = Matrix3::Identity() - normal * normal.transpose();
+    return SurfacePoint{y, normal, tangent * (2 / length * curves).asDiagonal() * tangent};
   }
 };
 
@@ -189,8 +188,7 @@ class Search {
     if (!a.is_real && !b.is_real) return;
     // Nodes are the ends of the curve; rounding may move them.
     const bool is_end = a.is_real != b.is_real;
-    const int most = is_end ? halves_at_end : most_halves;
-    if ((is_end || !is_smooth(a, b) || !is_clear(a, b)) && halves < most &&
+    if ((is_end || !is_smooth(a, b) || !is_clear(a, b)) && halves < most_halves &&
         splits_++ < most_splits) {
       const Sample middle = sample((a.at + b.at) / 2);
       between(a, middle, halves + 1);
@@ -200,31 +198,27 @@ class Search {
     }
   }
 
-  // Regula falsi (the Illinois variant), then Newton's steps on the surface.
+  // Halves, until Newton's steps on the surface lead to it.
   void root(Sample a, Sample b) {
-    int side = 0;
     for (int step = 0; step < 60; ++step) {
       const double share = a.law / (a.law - b.law);
       if (settle(a.point + share * (b.point - a.point), (a.point - b.point).norm())) return;
-      const Sample next = sample(a.at + share * (b.at - a.at));
+      const Sample next = sample((a.at + b.at) / 2);
       if (!next.is_real || next.at == a.at || next.at == b.at) return;
-      const bool is_after = (next.law < 0) == (a.law < 0);
-      if (is_after == (side == 1) && side != 0) (is_after ? b : a).law /= 2;
-      (is_after ? a : b) = next;
-      side = is_after ? 1 : 2;
+      ((next.law < 0) == (a.law < 0) ? a : b) = next;
     }
   }
 
   // Whether light is reflected within `apart` of the guess.
   bool settle(const Vector3& guess, double apart) {
-    const double reach = apart + 1e-9 * frame_.size;
-    const auto near = [&](const Vector3& y, SurfacePoint& at) {
-      return frame_(y, at) && (at.position - guess).norm() <= reach;
+    const auto near = [&](const Vector3& y) {
+      std::optional<SurfacePoint> at = frame_(y);
+      if (at && !((at->position - guess).norm() <= apart + 1e-9 * frame_.size)) at.reset();
+      return at;
     };
-    SurfacePoint at;
-    if (!converges(path_, near, guess, apart, at)) return false;
-    found_.push_back(at);
-    return true;
+    const std::optional<SurfacePoint> at = converged(path_, near, guess, apart);
+    if (at) found_.push_back(*at);
+    return at.has_value();
   }
 
   const Frame& frame_;
@@ -267,15 +261,13 @@ struct PlaneOfLines {
 // determine it.
 template <typename Form>
 void add_zeros(const Form& form, std::vector<double>& angles) {
-  TurnPolynomial p{0, 0, 0, 0, 0};  // of twice the angle
+  TurnPolynomial p{0, 0, 0};  // of twice the angle
   for (int k = 0; k < 5; ++k) {
     const double angle = 2 * pi * k / 5;
     const double value = form(std::cos(angle / 2), std::sin(angle / 2)) / 5;
     p.constant += value;
-    p.c1 += 2 * value * std::cos(angle);
-    p.s1 += 2 * value * std::sin(angle);
-    p.c2 += 2 * value * std::cos(2 * angle);
-    p.s2 += 2 * value * std::sin(2 * angle);
+    p.one += 2 * value * std::polar(1.0, angle);
+    p.two += 2 * value * std::polar(1.0, 2 * angle);
   }
   for (const double angle : p.zeros()) angles.push_back(angle / 2);
 }
@@ -368,31 +360,25 @@ std::vector<Vector3> mirroring_planes(const Frame& f, const Vector3& ends) {
 
 }  // namespace
 
-QuadricReflection::QuadricReflection(const Quadric& quadric, const Vector3& eye) : eye_(eye) {
-  const SymmetricEigen<3> eigen = eigen_of(quadric.matrix());
-  axes_ = eigen.vectors;
+ReflectionFinder quadric_reflection(const Quadric& quadric, const Vector3& eye) {
+  const auto [values, axes] = eigen_of(quadric.matrix());
   constexpr double rounding = 1e-14;
-  const double greatest = eigen.values.cwiseAbs().maxCoeff();
-  curves_ = (eigen.values.array().abs() > rounding * greatest).select(eigen.values, 0);
-  linear_ = axes_.transpose() * quadric.gradient(eye);
-  constant_ = quadric.value(eye);
-}
-
-std::vector<SurfacePoint> QuadricReflection::operator()(const Vector3& source) const {
-  const Frame frame{curves_, linear_, constant_, axes_.transpose() * (source - eye_)};
-  // Where the ends coincide a plane through any line through them does.
-  const double apart = frame.source.norm();
-  const Vector3 ends =
-      apart > degenerate * frame.size ? Vector3(frame.source / apart) : Vector3(2, 3, 6) / 7;
-  std::vector<SurfacePoint> found;
-  for (const Vector3& m : mirroring_planes(frame, ends)) search_conic(frame, m, found);
-  search_planes(frame, ends, found);
-  for (SurfacePoint& at : found) {
-    at.position = eye_ + axes_ * at.position;
-    at.normal = axes_ * at.normal;
-    at.shape = axes_ * at.shape * axes_.transpose();
-  }
-  return found;
+  const Vector3 curves =
+      (values.array().abs() > rounding * values.cwiseAbs().maxCoeff()).select(values, 0);
+  return [curves, axes = axes, linear = Vector3(axes.transpose() * quadric.gradient(eye)),
+          constant = quadric.value(eye)](const LightPath& path) {
+    const Frame frame{curves, linear, constant, axes.transpose() * (path.source - path.eye)};
+    // Where the ends coincide a plane through any line through them does.
+    const double apart = frame.source.norm();
+    const Vector3 ends =
+        apart > degenerate * frame.size ? Vector3(frame.source / apart) : Vector3(2, 3, 6) / 7;
+    std::vector<SurfacePoint> found;
+    for (const Vector3& m : mirroring_planes(frame, ends)) search_conic(frame, m, found);
+    search_planes(frame, ends, found);
+    for (SurfacePoint& at : found)
+      at = {path.eye + axes * at.position, axes * at.normal, axes * at.shape * axes.transpose()};
+    return found;
+  };
 }
 
 }  // namespace symsurf

@@ -1,12 +1,17 @@
 #pragma once
 
-#include <symsurf/mirror.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/points.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <functional>
+#include <optional>
 #include <vector>
+
+#include "base/math.h"
 
 namespace symsurf {
 
@@ -16,6 +21,9 @@ struct SurfacePoint {
   Matrix3 shape;  ///< the derivative of the unit normal (shape operator), in input units
 };
 
+/// A path is stationary where its length changes by less than this, times the way along the mirror.
+inline constexpr double stationary = 1e-10;
+
 /// The way of light from a source to an eye over a point of a surface.
 struct LightPath {
   Vector3 source, eye;
@@ -24,71 +32,95 @@ struct LightPath {
 
   /// How fast the path gets shorter along the surface: minus the gradient of its length, a number
   /// without unit.
-  Vector3 descent(const Vector3& x, const Vector3& normal) const;
+  Vector3 descent(const Vector3& x, const Vector3& normal) const {
+    const Vector3 sum = (source - x).normalized() + (eye - x).normalized();
+    return sum - sum.dot(normal) * normal;
+  }
+
+  /// Of the length of x + d - (d . shape d / 2) n by the tangent d: that of each part in space,
+  /// (I - u u') / |.|, and the curvature's, as the length falls by u + v towards n.
+  Eigen::Matrix2d hessian(const SurfacePoint& at, const Eigen::Matrix<double, 3, 2>& basis) const {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    double towards = 0;
+    for (const Vector3& end : {source, eye}) {
+      const Vector3 way = end - at.position;
+      const double distance = way.norm();
+      const Eigen::Vector2d along = basis.transpose() * way / distance;
+      sum += (Eigen::Matrix2d::Identity() - along * along.transpose()) / distance;
+      towards += way.dot(at.normal) / distance;
+    }
+    return sum + towards * (basis.transpose() * at.shape * basis);
+  }
 
   /// The tangent step to where the length is stationary, by Newton's method; not finite where
   /// there is none.
-  Vector3 step(const SurfacePoint& at) const;
+  Vector3 step(const SurfacePoint& at) const {
+    const auto basis = orthogonal_to(at.normal);
+    const Vector3 way = descent(at.position, at.normal);
+    return basis * (hessian(at, basis).inverse() * (basis.transpose() * way));
+  }
 
   /// Whether light is reflected there: the length is stationary, and source and eye lie on the same
   /// side of the tangent plane.
-  bool is_reflected(const SurfacePoint& at) const;
+  bool is_reflected(const SurfacePoint& at) const {
+    const double sides = (source - at.position).normalized().dot(at.normal) *
+                         (eye - at.position).normalized().dot(at.normal);
+    constexpr double grazing = 1e-16;  // the square of the sine of the angle with the surface
+    return sides > grazing && descent(at.position, at.normal).norm() <= stationary;
+  }
 
-  /// At the eye, of a source of unit intensity: reflection_points.h.
-  double irradiance(const SurfacePoint& at) const;
-
- private:
-  Eigen::Matrix2d hessian(const SurfacePoint& at, const Eigen::Matrix<double, 3, 2>& basis) const;
+  /// At the eye, of a source of unit intensity: ReflectionPoints.
+  double irradiance(const SurfacePoint& at) const {
+    const double to_source = (source - at.position).norm(), to_eye = (eye - at.position).norm();
+    const double cosine = (source - at.position).dot(at.normal) / to_source;
+    const double ratio = cosine / (to_source * to_eye);
+    return ratio * ratio / std::abs(hessian(at, orthogonal_to(at.normal)).determinant());
+  }
 };
 
-/// A path is stationary where its length changes by less than this, times the way along the mirror.
-inline constexpr double stationary = 1e-10;
-
 /// Newton's steps, none longer than `trust`, from near a point at which light is reflected to that
-/// point. `surface(x, at)` gives the surface's point next to x, false where it has none.
+/// point. `surface(x)` is the surface's point next to x, if it has one.
 template <typename Surface>
-bool converges(const LightPath& path, const Surface& surface, Vector3 x, double trust,
-               SurfacePoint& at) {
+std::optional<SurfacePoint> converged(const LightPath& path, const Surface& surface, Vector3 x,
+                                      double trust) {
   constexpr int most_steps = 20;
   constexpr double rounding = 1e-14;
   double least = stationary;
-  SurfacePoint here;
-  for (int k = 0; k < most_steps && surface(x, here); ++k) {
-    const double descent = path.descent(here.position, here.normal).norm();
+  std::optional<SurfacePoint> best;
+  for (int k = 0; k < most_steps; ++k) {
+    const std::optional<SurfacePoint> here = surface(x);
+    if (!here) break;
+    const double descent = path.descent(here->position, here->normal).norm();
     if (descent <= least) {
       least = descent;
-      at = here;
-    } else if (least < stationary) {
+      best = here;
+    } else if (best) {
       break;  // rounding is all that moves
     }
     if (descent <= rounding) break;
-    const Vector3 step = path.step(here);
+    const Vector3 step = path.step(*here);
     const double length = step.norm();
     if (!(length < 1e300)) break;
-    x = here.position + std::min(1.0, trust / length) * step;
+    x = here->position + std::min(1.0, trust / length) * step;
   }
-  return least < stationary && path.is_reflected(at);
+  if (best && !path.is_reflected(*best)) best.reset();
+  return best;
 }
 
-/// A function of an angle: constant + c1 cos + s1 sin + c2 cos 2 + s2 sin 2.
+/// A function of an angle t: constant + Re(one exp(-i t) + two exp(-2 i t)).
 struct TurnPolynomial {
-  double constant, c1, s1, c2, s2;
+  double constant;
+  std::complex<double> one, two;
 
   /// Its zeros within one turn, in radians: at most four, the roots of a quartic in the tangent of
   /// half the angle. None where it is zero everywhere.
   std::vector<double> zeros() const;
 };
 
-/// The points of the unit circle, as unit vectors, at which light is reflected from a source to an
-/// eye in its plane (Alhazen's problem): at most four.
-///
-/// With complex numbers s, e and z on the circle, s / z - 1 and e / z - 1 are where they are seen
-/// from z along the normal. Light is reflected where these have opposite angles, so that their
-/// product is real and positive: Im(s e / z^2 - (s + e) / z) = 0.
-std::vector<Eigen::Vector2d> circle_reflection(const Eigen::Vector2d& source,
-                                               const Eigen::Vector2d& eye);
+/// Finds the points at which a mirror reflects light, in no order; some twice.
+using ReflectionFinder = std::function<std::vector<SurfacePoint>(const LightPath&)>;
 
-/// The points at which a quadric reflects light to an eye, by a search in one dimension.
+/// Finds those of a quadric for paths to the eye, by a search in one dimension.
 ///
 /// There the surface's normal n lies in one plane with source and eye. That holds on a curve, the
 /// intersection of the mirror with a second quadric (Miguel et al.). A plane through source and
@@ -101,45 +133,6 @@ std::vector<Eigen::Vector2d> circle_reflection(const Eigen::Vector2d& source,
 /// is halved until the cubic of its values and slopes rises, falls or stays away from 0. A plane
 /// through both ends that mirrors the quadric holds a conic of the curve, which is searched
 /// likewise, by the angle of a line through the eye.
-class QuadricReflection {
- public:
-  QuadricReflection(const Quadric& quadric, const Vector3& eye);
-
-  /// In no order; some twice.
-  std::vector<SurfacePoint> operator()(const Vector3& source) const;
-
- private:
-  Vector3 eye_;
-  Matrix3 axes_;  // eigenvectors, columns
-  // f = y . (curves * y) + linear . y + constant in the frame of the axes about the eye.
-  Vector3 curves_, linear_;
-  double constant_;
-};
-
-/// The points at which a mirror without a formula reflects light to an eye: Newton's steps from the
-/// triangles of a mesh over its footprint on which the path length, whose gradient is interpolated,
-/// is stationary or nearly so.
-class FootprintReflection {
- public:
-  /// Height fields, free forms and surface mirrors. Throws InvalidInput where there is no
-  /// footprint, nor nodes or patches to stand for it.
-  FootprintReflection(const Mirror& mirror, const Vector3& eye);
-
-  /// In no order; some twice.
-  std::vector<SurfacePoint> operator()(const Vector3& source) const;
-
- private:
-  // The foot of x, or the surface's point over x, and the normal there.
-  using Tangent = std::function<bool(const Vector3& x, Vector3& foot, Vector3& normal)>;
-
-  static Tangent tangent_of(const Mirror& mirror);
-  bool at(const Vector3& x, SurfacePoint& found) const;
-
-  Vector3 eye_;
-  Tangent tangent_;
-  std::vector<Vector3> feet_, normals_;  // of the mesh's vertices
-  Triangles triangles_;
-  double step_;  // over which normals are compared
-};
+ReflectionFinder quadric_reflection(const Quadric& quadric, const Vector3& eye);
 
 }  // namespace symsurf

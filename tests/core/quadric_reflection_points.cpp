@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "light/reflection_search.h"
@@ -20,17 +21,15 @@ struct Implicit {
   std::function<Vector3(const Vector3&)> gradient;
   Matrix3 hessian;
 
-  bool operator()(const Vector3& x, SurfacePoint& at) const {
-    at.position = x;
+  std::optional<SurfacePoint> operator()(Vector3 x) const {
     for (int k = 0; k < 30; ++k) {
-      const Vector3 g = gradient(at.position);
-      at.position -= value(at.position) / g.squaredNorm() * g;
+      const Vector3 g = gradient(x);
+      x -= value(x) / g.squaredNorm() * g;
     }
-    const Vector3 g = gradient(at.position);
-    at.normal = g.normalized();
-    const Matrix3 p = Matrix3::Identity() - at.normal * at.normal.transpose();
-    at.shape = p * hessian * p / g.norm();
-    return at.position.allFinite() && std::abs(value(at.position)) < 1e-9;
+    if (!x.allFinite() || !(std::abs(value(x)) < 1e-9)) return std::nullopt;
+    const Vector3 g = gradient(x), normal = g.normalized();
+    const Matrix3 p = Matrix3::Identity() - normal * normal.transpose();
+    return SurfacePoint{x, normal, p * hessian * p / g.norm()};
   }
 };
 
@@ -45,11 +44,12 @@ void expect_complete(const ReflectionPoints& found, const Implicit& surface, con
   const LightPath path{source, eye};
   for (int k = 0; k < 200; ++k) {
     const Vector3 start = 2 * random.in_box();
-    SurfacePoint at;
-    if (!surface(start, at) || at.position.norm() > 10) continue;
-    if (!converges(path, surface, at.position, 0.2, at) || at.position.norm() > 100) continue;
-    EXPECT_TRUE(has(found, at.position, 1e-5 * path.length(at.position)))
-        << what << " " << at.position.transpose();
+    std::optional<SurfacePoint> at = surface(start);
+    if (!at || at->position.norm() > 10) continue;
+    at = converged(path, surface, at->position, 0.2);
+    if (!at || at->position.norm() > 100) continue;
+    EXPECT_TRUE(has(found, at->position, 1e-5 * path.length(at->position)))
+        << what << " " << at->position.transpose();
   }
 }
 

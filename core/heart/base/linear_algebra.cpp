@@ -216,6 +216,17 @@ Index lanczos_steps(Index count, Index size) { return std::min(size, 2 * count +
 
 }  // namespace
 
+// |x|^2 = 2 c . x + r^2 - |c|^2 is linear in what is sought.
+Eigen::VectorXd sphere_through(const Eigen::MatrixXd& rows) {
+  Eigen::MatrixXd design(rows.rows(), rows.cols() + 1);
+  design << 2 * rows, Eigen::VectorXd::Ones(rows.rows());
+  Eigen::VectorXd fit =
+      solved(design.transpose() * design, design.transpose() * rows.rowwise().squaredNorm());
+  double& last = fit[rows.cols()];
+  last = std::sqrt(std::max(0.0, last + fit.head(rows.cols()).squaredNorm()));
+  return fit;
+}
+
 SymmetricEigen<Eigen::Dynamic> least_eigenpairs(const Eigen::SparseMatrix<double>& semidefinite,
                                                 const Eigen::VectorXd& masses, Index count,
                                                 double shift, const Context& context) {

@@ -70,6 +70,10 @@ requires(n >= 3 &&
          n <= 7) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
                                                  const Eigen::Vector<double, n>& right);
 
+/// Centre and, last, radius of the sphere, or of the circle, about which |x - c|^2 - r^2 of the
+/// rows has the least squares; 0 where r^2 is not above 0. For rows that are about 1 in size.
+Eigen::VectorXd sphere_through(const Eigen::MatrixXd& rows);
+
 /// Weighted least squares fit of z = h . (1, u, v, u^2, u v, v^2).
 class QuadraticFit {
  public:

@@ -64,9 +64,10 @@ struct UnitPlane {
   static constexpr bool is_rigid = true;
 };
 
-inline UnitPlane in_frame(const Plane& plane, const PrincipalFrame& frame) {
-  return {frame.axes.transpose() * plane.normal(),
-          plane.signed_distance(frame.centroid) / frame.size};
+/// The mirror's tangent plane at the foot of the centroid: of a plane itself.
+inline UnitPlane in_frame(const Mirror& mirror, const PrincipalFrame& frame) {
+  const Foot foot = *mirror.at(frame.centroid);
+  return {frame.axes.transpose() * foot.normal, foot.distance / frame.size};
 }
 
 inline Plane in_input_units(const UnitPlane& plane, const PrincipalFrame& frame) {

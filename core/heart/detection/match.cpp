@@ -41,11 +41,11 @@ Values candidate_values(const Result& result) {
   for (Index row = 0; row < count; ++row) {
     const Result& candidate = result.candidates[row];
     scores(row, 0) = candidate.score;
-    const auto* plane = dynamic_cast<const Plane*>(candidate.mirror.get());
-    planes = planes && plane;
+    planes = planes && candidate.mirror && candidate.mirror->kind() == "plane";
     if (!planes) continue;
-    normals.row(row) = plane->normal().transpose();
-    offsets(row, 0) = plane->offset();
+    const Foot origin = *candidate.mirror->at(Vector3::Zero());
+    normals.row(row) = origin.normal;
+    offsets(row) = origin.distance;
   }
   if (!planes) return {{"candidate_scores", scores}};
   return {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,15 @@ namespace symsurf {
 
 // The implicit function of a free-form mirror.
 struct FreeForm::Blend {
- public:
-  explicit Blend(std::vector<Patch> patches);
+  explicit Blend(std::vector<Patch> given);
 
-  const std::vector<Patch>& patches() const { return patches_; }
+  const std::vector<Patch> patches;
 
   // The blended height of x; where no patch reaches, the nearest one's.
   double value(const Vector3& x) const;
 
-  // The surface's point closest to x, and its unit normal; `precision` is relative to the patches.
-  bool closest(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const;
+  // The surface's point closest to x; `precision` is relative to the patches.
+  std::optional<Foot> closest(const Vector3& x, double precision) const;
 
  private:
   struct Jet {
@@ -36,8 +36,7 @@ struct FreeForm::Blend {
   // These take and give coordinates from origin_.
   // The patches that reach a position within `slack` of x.
   void around(const Vector3& x, double slack, std::vector<std::int32_t>& patches) const;
-  bool jet(const Vector3& x, const std::vector<std::int32_t>& patches, Jet& jet) const;
-  bool descend(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const;
+  std::optional<Jet> jet(const Vector3& x, const std::vector<std::int32_t>& patches) const;
 
   // A patch's height above its centre + d as a quadratic in d: slope . d + d . bend d / 2 - height.
   struct Piece {
@@ -50,7 +49,6 @@ struct FreeForm::Blend {
     double above(const Vector3& d) const { return d.dot(slope + 0.5 * (bend * d)) - height; }
   };
 
-  std::vector<Patch> patches_;
   std::vector<Piece> pieces_;
   double reach_ = 0;  // the largest radius
   Vector3 origin_;    // all is reckoned from here: as exact wherever the mirror lies
@@ -59,20 +57,11 @@ struct FreeForm::Blend {
 
 namespace {
 
-Vector3 mean_centre(const std::vector<Patch>& patches) {
-  Vector3 sum = Vector3::Zero();
-  for (const Patch& patch : patches) sum += patch.centre / static_cast<double>(patches.size());
-  return sum;
-}
-
-Points centres_from(const Vector3& origin, const std::vector<Patch>& patches) {
+Points centres_of(const std::vector<Patch>& patches) {
   Points centres(static_cast<Index>(patches.size()), 3);
-  for (Index i = 0; i < centres.rows(); ++i)
-    centres.row(i) = (patches[i].centre - origin).transpose();
+  for (Index i = 0; i < centres.rows(); ++i) centres.row(i) = patches[i].centre;
   return centres;
 }
-
-constexpr double full_precision = 1e-14;
 
 void require_valid(const std::vector<Patch>& patches) {
   if (patches.empty()) throw InvalidInput("a free-form mirror needs at least one patch");
@@ -87,11 +76,11 @@ void require_valid(const std::vector<Patch>& patches) {
 
 }  // namespace
 
-FreeForm::Blend::Blend(std::vector<Patch> patches)
-    : patches_(std::move(patches)),
-      origin_(mean_centre(patches_)),
-      tree_(centres_from(origin_, patches_)) {
-  for (const Patch& p : patches_) {
+FreeForm::Blend::Blend(std::vector<Patch> given)
+    : patches(std::move(given)),
+      origin_((centres_of(patches) / static_cast<double>(patches.size())).colwise().sum()),
+      tree_(Points(centres_of(patches).rowwise() - origin_.transpose())) {
+  for (const Patch& p : patches) {
     reach_ = std::max(reach_, p.radius);
     Matrix3 bend = Matrix3::Zero();
     bend(0, 0) = 2 * p.height[3];
@@ -107,13 +96,13 @@ void FreeForm::Blend::around(const Vector3& x, double slack,
                              std::vector<std::int32_t>& patches) const {
   patches.clear();
   tree_.within(x, reach_ + slack, [&](Index i, double squared) {
-    const double farthest = patches_[i].radius + slack;
+    const double farthest = this->patches[i].radius + slack;
     if (squared < farthest * farthest) patches.push_back(static_cast<std::int32_t>(i));
   });
 }
 
-bool FreeForm::Blend::jet(const Vector3& x, const std::vector<std::int32_t>& patches,
-                          Jet& jet) const {
+std::optional<FreeForm::Blend::Jet> FreeForm::Blend::jet(
+    const Vector3& x, const std::vector<std::int32_t>& patches) const {
   double weights = 0, value = 0, weights_bend = 0;
   Vector3 slope = Vector3::Zero(), weights_slope = Vector3::Zero(), value_slope = Vector3::Zero();
   Matrix3 hessian = Matrix3::Zero(), mixed = Matrix3::Zero();
@@ -139,21 +128,21 @@ bool FreeForm::Blend::jet(const Vector3& x, const std::vector<std::int32_t>& pat
     mixed += d * (fall * g + weight_bend * q * d).transpose();
     weights_bend += fall * q;
   }
-  if (!(weights > 0)) return false;
+  if (!(weights > 0)) return std::nullopt;
+  Jet jet;
   jet.value = value / weights;
   jet.gradient = (slope + value_slope - jet.value * weights_slope) / weights;
   mixed -= weights_slope * jet.gradient.transpose();
   hessian.diagonal().array() += weights_bend;
   jet.hessian = (hessian + mixed + mixed.transpose()) / weights;
-  return true;
+  return jet;
 }
 
 double FreeForm::Blend::value(const Vector3& x) const {
   std::vector<std::int32_t> patches;
   const Vector3 from_origin = x - origin_;
   around(from_origin, 0, patches);
-  Jet here;
-  if (jet(from_origin, patches, here)) return here.value;
+  if (const std::optional<Jet> here = jet(from_origin, patches)) return here->value;
   const Neighbour nearest = tree_.nearest(from_origin);
   if (nearest.index < 0) return std::numeric_limits<double>::quiet_NaN();  // at infinity
   const Piece& piece = pieces_[nearest.index];
@@ -162,52 +151,43 @@ double FreeForm::Blend::value(const Vector3& x) const {
 
 // Newton's method on the conditions of the closest point, x - y = lambda g and f(y) = 0. The
 // hessian leaves out what vanishes with f.
-bool FreeForm::Blend::descend(const Vector3& x, double precision, Vector3& y,
-                              Vector3& normal) const {
+std::optional<Foot> FreeForm::Blend::closest(const Vector3& x, double precision) const {
+  const Vector3 from_origin = x - origin_;
+  const Neighbour start = tree_.nearest(from_origin);
+  if (start.index < 0) return std::nullopt;  // at infinity
+  Vector3 y = pieces_[start.index].centre, middle = y;
   const int most_steps = precision < 1e-6 ? 20 : 10;
-  const double longest = 0.5 * reach_, enough = precision * (reach_ + (x - y).norm());
+  const double longest = 0.5 * reach_, enough = precision * (reach_ + (from_origin - y).norm());
   static thread_local std::vector<std::int32_t> patches;
   const double slack = 0.2 * reach_;
-  Vector3 middle = y;
   around(middle, slack, patches);
-  Jet here;
   double lambda = 0;
   for (int step = 0; step < most_steps; ++step) {
     if ((y - middle).squaredNorm() > slack * slack) around(middle = y, slack, patches);
-    if (!jet(y, patches, here)) return false;
-    const Vector3& g = here.gradient;
+    const std::optional<Jet> here = jet(y, patches);
+    if (!here) break;
+    const Vector3 &g = here->gradient, gap = from_origin - y;
     const double squared = g.squaredNorm();
-    if (!(squared > 0)) return false;
-    if (step == 0) lambda = g.dot(x - y) / squared;
-    Matrix3 a = Matrix3::Identity() + lambda * here.hessian;
+    if (!(squared > 0)) break;
+    if (step == 0) lambda = g.dot(gap) / squared;
+    Matrix3 a = Matrix3::Identity() + lambda * here->hessian;
     // Beyond the centre of curvature the step would climb: walk along the tangent plane instead.
     const double minor = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
     if (!(a(0, 0) > 0 && minor > 0 && a.determinant() > 0)) a.setIdentity();
     const Matrix3 inverse = a.inverse();
-    const Vector3 ag = inverse * g, gap = x - y;
-    lambda = (ag.dot(gap) + here.value) / ag.dot(g);
+    const Vector3 ag = inverse * g;
+    lambda = (ag.dot(gap) + here->value) / ag.dot(g);
     Vector3 move = inverse * (gap - lambda * g);
     const double length = move.norm();
-    if (!std::isfinite(length)) return false;
+    if (!std::isfinite(length)) break;
     if (length > longest) move *= longest / length;
     y += move;
     if (length <= enough || (step > 12 && length <= 1e3 * enough)) {
-      normal = g.normalized();
-      return true;
+      const Vector3 foot = y + origin_, normal = g.normalized();
+      return Foot{foot, normal, normal.dot(x - foot)};
     }
   }
-  return false;
-}
-
-bool FreeForm::Blend::closest(const Vector3& x, double precision, Vector3& foot,
-                              Vector3& normal) const {
-  const Vector3 from_origin = x - origin_;
-  const Neighbour start = tree_.nearest(from_origin);
-  if (start.index < 0) return false;  // at infinity
-  foot = pieces_[start.index].centre;
-  const bool found = descend(from_origin, precision, foot, normal);
-  foot += origin_;
-  return found;
+  return std::nullopt;
 }
 
 FreeForm::FreeForm(std::vector<Patch> patches) {
@@ -215,34 +195,32 @@ FreeForm::FreeForm(std::vector<Patch> patches) {
   blend_ = std::make_shared<const Blend>(std::move(patches));
 }
 
-const std::vector<Patch>& FreeForm::patches() const { return blend_->patches(); }
+const std::vector<Patch>& FreeForm::patches() const { return blend_->patches; }
 
 bool FreeForm::foot(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const {
-  return blend_->closest(x, precision, foot, normal);
+  const std::optional<Foot> found = blend_->closest(x, precision);
+  if (!found) return false;
+  foot = found->point;
+  normal = found->normal;
+  return true;
 }
 
-Vector3 FreeForm::foot(const Vector3& x) const {
-  Vector3 y, normal;
-  return blend_->closest(x, full_precision, y, normal) ? y : no_point();
-}
-
-double FreeForm::signed_distance(const Vector3& x) const {
-  Vector3 y, normal;
-  return blend_->closest(x, full_precision, y, normal) ? normal.dot(x - y)
-                                                       : std::numeric_limits<double>::quiet_NaN();
+std::optional<Foot> FreeForm::at(const Vector3& x) const {
+  constexpr double full_precision = 1e-14;
+  return blend_->closest(x, full_precision);
 }
 
 Values FreeForm::numbers() const {
   const Index count = static_cast<Index>(patches().size());
-  Eigen::MatrixXd centres(count, 3), tangents(count, 3), normals(count, 3), heights(count, 6),
-      radii(count, 1);
+  Eigen::MatrixXd centres(count, 3), tangents = centres, normals = centres, heights(count, 6),
+                                     radii(count, 1);
   for (Index i = 0; i < count; ++i) {
     const Patch& p = patches()[i];
-    centres.row(i) = p.centre.transpose();
+    centres.row(i) = p.centre;
     tangents.row(i) = p.frame.row(0);
     normals.row(i) = p.frame.row(2);
-    heights.row(i) = p.height.transpose();
-    radii(i, 0) = p.radius;
+    heights.row(i) = p.height;
+    radii(i) = p.radius;
   }
   return {{"centres", centres},
           {"tangents", tangents},
@@ -251,26 +229,23 @@ Values FreeForm::numbers() const {
           {"radii", radii}};
 }
 
-std::unique_ptr<Mirror> FreeForm::transformed(double scale, const Matrix3& rotation,
-                                              const Vector3& translation) const {
-  std::vector<Patch> moved = patches();
-  for (Patch& p : moved) {
-    p.centre = scale * (rotation * p.centre) + translation;
-    p.frame = p.frame * rotation.transpose();
-    p.height[0] *= scale;
-    p.height.tail<3>() /= scale;
-    p.radius *= scale;
+std::unique_ptr<Mirror> FreeForm::moved(const Motion& by) const {
+  std::vector<Patch> patches = this->patches();
+  for (Patch& p : patches) {
+    p.centre = by(p.centre);
+    p.frame *= by.rotation.transpose();
+    p.height[0] *= by.scale;
+    p.height.tail<3>() /= by.scale;
+    p.radius *= by.scale;
   }
-  return std::make_unique<FreeForm>(std::move(moved));
+  return std::make_unique<FreeForm>(std::move(patches));
 }
 
 // Surface nets over a grid along the patches' principal axes, so that it turns with the mirror.
-Mesh FreeForm::mesh_over(PointsView object, int resolution, const Context& context) const {
-  const Points feet = finite_rows(project(object, context.stage(0, 0.3)));
-  if (feet.rows() == 0) return {};
+Mesh FreeForm::mesh_over(const std::vector<Foot>& feet, int resolution,
+                         const Context& context) const {
   return surface_net(
-      feet, resolution, [this](const Vector3& x) { return blend_->value(x); },
-      [this](const Vector3& x) { return foot(x); }, context);
+      *this, feet, resolution, [this](const Vector3& x) { return blend_->value(x); }, context);
 }
 
 }  // namespace symsurf

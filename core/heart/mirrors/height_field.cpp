@@ -23,8 +23,12 @@ class HeightInterpolant {
   // Rows (u, v, height), at least one. Nodes at the same position: the first counts.
   HeightInterpolant(const Points& nodes, const Context& context);
 
-  /// The height there, and its gradient where asked for.
-  double operator()(const Eigen::Vector2d& at, Eigen::Vector2d* gradient = nullptr) const;
+  struct Height {
+    double value;
+    Eigen::Vector2d gradient;
+  };
+
+  Height operator()(const Eigen::Vector2d& at) const;
 
  private:
   // height + slope . d + d' curvature d / 2, continued by its tangent beyond `reach`.
@@ -34,7 +38,7 @@ class HeightInterpolant {
     Eigen::Vector3d curvature = Eigen::Vector3d::Zero();  // uu, uv, vv
     double reach = 0;
 
-    double operator()(const Eigen::Vector2d& d, Eigen::Vector2d* gradient) const;
+    Height operator()(const Eigen::Vector2d& d) const;
   };
 
   Quadratic fitted(Index node, const std::vector<Neighbour>& around) const;
@@ -72,25 +76,21 @@ Points distinct_nodes(const Points& nodes, const Context& context) {
   return nodes(kept, Eigen::indexing::all);
 }
 
-constexpr double footprint_margin = 1.5;  // cells around the object's points
+constexpr double footprint_margin = 0.75;  // cells to either side of the object's points
 
 }  // namespace
 
-double HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d,
-                                                Eigen::Vector2d* gradient) const {
+// Along the ray to d: a parabola up to the reach, its tangent from there on.
+HeightInterpolant::Height HeightInterpolant::Quadratic::operator()(const Eigen::Vector2d& d) const {
   const double length = d.norm();
   const double inside = length > reach ? reach / length : 1;
-  // Along the ray to d: a parabola up to the reach, its tangent from there on.
-  const double rise = slope.dot(d);
-  const double bend = curvature[0] * d.x() * d.x() + 2 * curvature[1] * d.x() * d.y() +
-                      curvature[2] * d.y() * d.y();
-  if (gradient) {
-    const Eigen::Vector2d bent(curvature[0] * d.x() + curvature[1] * d.y(),
-                               curvature[1] * d.x() + curvature[2] * d.y());
-    *gradient = slope + 2 * (inside - inside * inside / 2) * bent;
-    if (inside < 1) *gradient -= bend * (inside - inside * inside) / (length * length) * d;
-  }
-  return height + rise + bend * (inside - inside * inside / 2);
+  const double part = inside - inside * inside / 2;
+  const Eigen::Vector2d bent(curvature[0] * d.x() + curvature[1] * d.y(),
+                             curvature[1] * d.x() + curvature[2] * d.y());
+  const double bend = d.dot(bent);
+  Eigen::Vector2d gradient = slope + 2 * part * bent;
+  if (inside < 1) gradient -= bend * (inside - inside * inside) / (length * length) * d;
+  return {height + slope.dot(d) + bend * part, gradient};
 }
 
 HeightInterpolant::HeightInterpolant(const Points& nodes, const Context& context)
@@ -107,24 +107,21 @@ HeightInterpolant::HeightInterpolant(const Points& nodes, const Context& context
 
 HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
                                                        const std::vector<Neighbour>& around) const {
-  using Vector5 = Eigen::Matrix<double, 5, 1>;
-  Quadratic quadratic;
-  quadratic.height = nodes_(node, 2);
+  Quadratic quadratic{nodes_(node, 2)};
   const double radius = std::sqrt(around.back().squared_distance);
   if (!(radius > 0)) return quadratic;
 
+  using Vector5 = Eigen::Vector<double, 5>;
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
   Vector5 right = Vector5::Zero();
   for (const Neighbour& other : around) {
     const double d = std::sqrt(other.squared_distance) / radius;
     if (!(d > 1e-9)) continue;
-    const double u = (nodes_(other.index, 0) - nodes_(node, 0)) / radius;
-    const double v = (nodes_(other.index, 1) - nodes_(node, 1)) / radius;
-    const double inverse = (1.05 - d) / d;
+    const Eigen::RowVector3d offset = nodes_.row(other.index) - nodes_.row(node);
+    const double u = offset[0] / radius, v = offset[1] / radius, inverse = (1.05 - d) / d;
     const Vector5 row{u, v, u * u / 2, u * v, v * v / 2};
-    const double weight = inverse * inverse;
-    normal += weight * row * row.transpose();
-    right += weight * (nodes_(other.index, 2) - quadratic.height) * row;
+    normal += inverse * inverse * row * row.transpose();
+    right += inverse * inverse * offset[2] * row;
   }
   const double ridge = least_curvature_weight * normal.trace();
   normal.diagonal() += ridge * Vector5{1e-3, 1e-3, 1, 2, 1};
@@ -136,53 +133,41 @@ HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
   return quadratic;
 }
 
-double HeightInterpolant::operator()(const Eigen::Vector2d& at, Eigen::Vector2d* gradient) const {
+HeightInterpolant::Height HeightInterpolant::operator()(const Eigen::Vector2d& at) const {
   std::vector<Neighbour> near;
   near.reserve(blended_nodes + 2);
   tree_.nearest({at.x(), at.y(), 0}, blended_nodes + 1, near);
-  const auto from = [&](const Neighbour& n) {
-    return Eigen::Vector2d(at.x() - nodes_(n.index, 0), at.y() - nodes_(n.index, 1));
+  if (near.empty()) return {NAN, {NAN, NAN}};  // at infinity
+  const auto from = [&](const Neighbour& n) -> Eigen::Vector2d {
+    return at - nodes_.row(n.index).head<2>().transpose();
   };
-  if (near.empty()) {  // at infinity
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (gradient) gradient->setConstant(none);
-    return none;
-  }
   const double nearest = std::sqrt(near.front().squared_distance);
+  if (nearest == 0) {
+    const Quadratic& own = quadratics_[near.front().index];
+    return {own.height, own.slope};
+  }
   double radius = std::sqrt(near.back().squared_distance);
   Eigen::Vector2d radius_slope = from(near.back()) / radius;
-  if (static_cast<Index>(near.size()) <= blended_nodes) {
+  if (static_cast<Index>(near.size()) <= blended_nodes || !(radius > nearest)) {
     radius *= 2;
     radius_slope *= 2;
   }
-  if (nearest == 0) {
-    if (gradient) *gradient = quadratics_[near.front().index].slope;
-    return nodes_(near.front().index, 2);
-  }
-  if (!(radius > nearest)) {
-    radius = 2 * nearest;
-    radius_slope = 2 / nearest * from(near.front());
-  }
-
-  double sum = 0, weights = 0;
-  Eigen::Vector2d sum_slope = Eigen::Vector2d::Zero(), weights_slope = Eigen::Vector2d::Zero();
+  Height sum{0, Eigen::Vector2d::Zero()}, weights = sum;
   for (const Neighbour& n : near) {
     const double d = std::sqrt(n.squared_distance);
-    if (d >= radius) continue;
+    const Eigen::Vector2d offset = from(n);
+    const Height here = quadratics_[n.index](offset);
     const double inverse = (radius - d) / d * nearest;  // times the nearest: no overflow
     const double weight = inverse * inverse;
-    Eigen::Vector2d slope;
-    const double height = quadratics_[n.index](from(n), gradient ? &slope : nullptr);
-    sum += weight * height;
-    weights += weight;
-    if (!gradient) continue;
-    const Eigen::Vector2d weight_slope =
-        2 * inverse * nearest / d * (radius_slope - radius / (d * d) * from(n));
-    sum_slope += weight_slope * height + weight * slope;
-    weights_slope += weight_slope;
+    const Eigen::Vector2d slope =
+        2 * inverse * nearest / d * (radius_slope - radius / (d * d) * offset);
+    sum.value += weight * here.value;
+    sum.gradient += slope * here.value + weight * here.gradient;
+    weights.value += weight;
+    weights.gradient += slope;
   }
-  if (gradient) *gradient = (sum_slope - sum / weights * weights_slope) / weights;
-  return sum / weights;
+  const double height = sum.value / weights.value;
+  return {height, (sum.gradient - height * weights.gradient) / weights.value};
 }
 
 HeightField::HeightField(const Vector3& direction, Points nodes, const Context& context) {
@@ -195,7 +180,7 @@ HeightField::HeightField(const Vector3& direction, Points nodes, const Context& 
                        std::to_string(nodes.rows()));
   direction_ = direction / length;
   across_ = orthogonal_to(direction_);
-  origin_ = nodes.colwise().mean().transpose();
+  origin_ = nodes.colwise().mean();
   Points framed(nodes.rows(), 3);
   const Points centred = nodes.rowwise() - origin_.transpose();
   framed.leftCols<2>() = centred * across_;
@@ -208,57 +193,58 @@ HeightField::HeightField(const Vector3& direction, Points nodes, const Context& 
   heights_ = std::make_shared<const HeightInterpolant>(framed, context);
 }
 
-double HeightField::signed_distance(const Vector3& x) const {
+std::optional<Foot> HeightField::at(const Vector3& x) const {
   const Vector3 offset = x - origin_;
-  return direction_.dot(offset) - (*heights_)(across_.transpose() * offset);
+  const auto [height, gradient] = (*heights_)(across_.transpose() * offset);
+  const double distance = direction_.dot(offset) - height;
+  if (!std::isfinite(distance)) return std::nullopt;
+  return Foot{x - distance * direction_, (direction_ - across_ * gradient).stableNormalized(),
+              distance};
 }
 
 Vector3 HeightField::normal(const Vector3& x) const {
-  Eigen::Vector2d slope;
-  (*heights_)(across_.transpose() * (x - origin_), &slope);
-  return (direction_ - across_ * slope).stableNormalized();
+  const std::optional<Foot> foot = at(x);
+  return foot ? foot->normal : Vector3::Constant(NAN);
 }
 
 Values HeightField::numbers() const {
   return {{"direction", direction_}, {"nodes", Eigen::MatrixXd(*nodes_)}};
 }
 
-std::unique_ptr<Mirror> HeightField::transformed(double scale, const Matrix3& rotation,
-                                                 const Vector3& translation) const {
-  Points nodes = scale * (*nodes_ * rotation.transpose());
-  nodes.rowwise() += translation.transpose();
-  return std::make_unique<HeightField>(rotation * direction_, std::move(nodes));
+std::unique_ptr<Mirror> HeightField::moved(const Motion& by) const {
+  Points nodes = by.scale * (*nodes_ * by.rotation.transpose());
+  nodes.rowwise() += by.translation.transpose();
+  return std::make_unique<HeightField>(by.rotation * direction_, std::move(nodes));
 }
 
 // A grid along the footprint's principal axes, without the cells that no point of the object comes
 // near.
-Mesh HeightField::mesh_over(PointsView object, int resolution, const Context& context) const {
-  Eigen::Matrix<double, Eigen::Dynamic, 2> flat =
-      (object.matrix().rowwise() - origin_.transpose()) * across_;
+Mesh HeightField::mesh_over(const std::vector<Foot>& feet, int resolution,
+                            const Context& context) const {
+  Eigen::MatrixX2d flat = (points_of(feet).rowwise() - origin_.transpose()) * across_;
   const Eigen::RowVector2d centre = flat.colwise().mean();
   flat.rowwise() -= centre;
   const Eigen::Matrix2d principal =
       eigen_of(Eigen::Matrix2d(flat.transpose().lazyProduct(flat))).vectors;
-  flat = flat * principal;
-  const Eigen::RowVector2d low = flat.colwise().minCoeff(), high = flat.colwise().maxCoeff();
-  const auto [columns, rows] = grid_cells(high.x() - low.x(), high.y() - low.y(), resolution);
-  const Eigen::RowVector2d size = (high - low).array() / Eigen::Array<double, 1, 2>(columns, rows);
+  flat *= principal;
+  const Eigen::Array2d low = flat.colwise().minCoeff(),
+                       size = flat.colwise().maxCoeff().transpose().array() - low;
+  const auto [columns, rows] = grid_cells(size.x(), size.y(), resolution);
+  const Eigen::Array2i count(columns, rows);
+  const Eigen::Array2d cell = (size / count.cast<double>()).max(std::numeric_limits<double>::min());
 
   std::vector<char> kept(static_cast<std::size_t>(columns) * rows, 0);
-  for (Index i = 0; i < flat.rows(); ++i) {
-    const auto reach = [&](int axis, double side, int count) {
-      const double at = size[axis] > 0 ? (flat(i, axis) - low[axis]) / size[axis] : 0;
-      return std::clamp(static_cast<int>(std::floor(at + side * footprint_margin / 2)), 0,
-                        count - 1);
-    };
-    for (int r = reach(1, -1, rows); r <= reach(1, 1, rows); ++r)
-      for (int c = reach(0, -1, columns); c <= reach(0, 1, columns); ++c)
+  for (const auto& row : flat.rowwise()) {
+    const Eigen::Array2d at = (row.transpose().array() - low) / cell;
+    const Eigen::Array2i first = (at - footprint_margin).floor().cast<int>().max(0),
+                         last = (at + footprint_margin).floor().cast<int>().min(count - 1);
+    for (int r = first.y(); r <= last.y(); ++r)
+      for (int c = first.x(); c <= last.x(); ++c)
         kept[static_cast<std::size_t>(r) * columns + c] = 1;
   }
 
-  const Mesh grid = grid_mesh({columns, rows}, context, [&](double s, double t) -> Vector3 {
-    const Eigen::RowVector2d at = low + (high - low).cwiseProduct(Eigen::RowVector2d(s, t));
-    return foot(origin_ + across_ * (centre + at * principal.transpose()).transpose());
+  const Mesh grid = box_mesh(flat, resolution, context, [&](const Eigen::Vector2d& at) {
+    return foot(origin_ + across_ * (centre.transpose() + principal * at));
   });
   return part_of(grid, [&](Index t) { return kept[t / 2]; });  // two triangles a cell
 }

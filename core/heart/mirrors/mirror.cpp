@@ -28,12 +28,10 @@ constexpr Index grain = 1024;
 constexpr int finest = 4096;
 
 template <typename Function>
-Points each(PointsView points, const Context& context, const Function& function) {
-  Points out(points.size(), 3);
+void for_each(PointsView points, const Context& context, const Function& take) {
   parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) out.row(i) = function(points[i]).transpose();
+    for (Index i = begin; i < end; ++i) take(i, points[i]);
   });
-  return out;
 }
 
 // Eigen compares matrices of one size only.
@@ -46,26 +44,37 @@ bool are_equal(const Value& a, const Value& b) {
 
 }  // namespace
 
-Vector3 Mirror::no_point() { return Vector3::Constant(std::numeric_limits<double>::quiet_NaN()); }
+Vector3 Mirror::foot(const Vector3& x) const {
+  const std::optional<Foot> foot = at(x);
+  return foot ? foot->point : Vector3::Constant(NAN);
+}
+
+double Mirror::signed_distance(const Vector3& x) const {
+  const std::optional<Foot> foot = at(x);
+  return foot ? foot->distance : NAN;
+}
 
 Vector3 Mirror::reflect(const Vector3& x) const {
-  return has_image(x) ? Vector3(x + 2 * (foot(x) - x)) : no_point();
+  const std::optional<Foot> foot = at(x);
+  return foot && has_image(*foot) ? Vector3(x + 2 * (foot->point - x)) : Vector3::Constant(NAN);
 }
 
 Points Mirror::reflect(PointsView points, const Context& context) const {
-  return each(points, context, [this](const Vector3& x) { return reflect(x); });
+  Points images(points.size(), 3);
+  for_each(points, context, [&](Index i, const Vector3& x) { images.row(i) = reflect(x); });
+  return images;
 }
 
 Points Mirror::project(PointsView points, const Context& context) const {
-  return each(points, context, [this](const Vector3& x) { return foot(x); });
+  Points feet(points.size(), 3);
+  for_each(points, context, [&](Index i, const Vector3& x) { feet.row(i) = foot(x); });
+  return feet;
 }
 
 Eigen::VectorXd Mirror::signed_distance(PointsView points, const Context& context) const {
-  Eigen::VectorXd out(points.size());
-  parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) out[i] = signed_distance(points[i]);
-  });
-  return out;
+  Eigen::VectorXd distances(points.size());
+  for_each(points, context, [&](Index i, const Vector3& x) { distances[i] = signed_distance(x); });
+  return distances;
 }
 
 bool Mirror::operator==(const Mirror& other) const {
@@ -87,7 +96,15 @@ Mesh Mirror::mesh(PointsView object, int resolution, const Context& context) con
   if (resolution < 1 || resolution > finest)
     throw InvalidParameter("resolution is " + std::to_string(resolution) + "; allowed is 1 to " +
                            std::to_string(finest));
-  Mesh mesh = mesh_over(object, resolution, context);
+  std::vector<std::optional<Foot>> all(object.size());
+  for_each(object, context.stage(0, 0.3), [&](Index i, const Vector3& x) { all[i] = at(x); });
+  std::vector<Foot> feet;
+  for (const std::optional<Foot>& foot : all)
+    if (foot && foot->point.allFinite() && has_image(*foot)) feet.push_back(*foot);
+  if (feet.empty())
+    throw InvalidInput("none of the " + std::to_string(object.size()) +
+                       " points of the object has an image over this " + std::string(kind()));
+  Mesh mesh = mesh_over(feet, resolution, context.stage(0.3, 1));
   require_finite(mesh.vertices, "vertex of the mirror's mesh");
   return mesh;
 }
@@ -96,23 +113,6 @@ namespace {
 
 bool lie_on(const Mirror& mirror, PointsView points, double limit) {
   return (mirror.signed_distance(points).array().abs() <= limit).all();
-}
-
-// |x|^2 = 2 c . x + d by least squares, in the frame, where the numbers are about 1.
-std::shared_ptr<Mirror> fitted_sphere(PointsView points, const PrincipalFrame& frame) {
-  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  for (Index i = 0; i < points.size(); ++i) {
-    const Vector3 x = frame.to_frame(points[i]);
-    const Eigen::Vector4d row(2 * x.x(), 2 * x.y(), 2 * x.z(), 1);
-    normal += row * row.transpose();
-    right += x.squaredNorm() * row;
-  }
-  const Eigen::Vector4d solution = solved(normal, right);
-  const Vector3 centre = solution.head<3>();
-  const double radius = std::sqrt(solution[3] + centre.squaredNorm());
-  if (!std::isfinite(radius) || !(radius > 0)) return nullptr;
-  return std::make_shared<Sphere>(frame.from_frame(centre), frame.size * radius);
 }
 
 }  // namespace
@@ -126,97 +126,98 @@ std::shared_ptr<Mirror> mirror_through(PointsView points, double tolerance) {
   const Vector3 normal = frame.axes.col(2);
   auto plane = std::make_shared<Plane>(normal, -normal.dot(frame.centroid));
   if (lie_on(*plane, points, limit)) return plane;
-  auto sphere = fitted_sphere(points, frame);
-  return sphere && lie_on(*sphere, points, limit) ? sphere : nullptr;
+  // In the frame, where the numbers are about 1.
+  const Eigen::Vector4d round =
+      sphere_through((points.matrix().rowwise() - frame.centroid.transpose()) / frame.size);
+  if (!std::isfinite(round[3]) || !(round[3] > 0)) return nullptr;
+  auto sphere = std::make_shared<Sphere>(frame.centroid + frame.size * round.head<3>(),
+                                         frame.size * round[3]);
+  return lie_on(*sphere, points, limit) ? sphere : nullptr;
 }
 
 namespace {
 
-const Value& given(const Values& numbers, const char* name) {
-  const auto it = numbers.find(name);
-  if (it == numbers.end()) throw InvalidInput(std::string("the mirror's ") + name + " is missing");
-  return it->second;
-}
+// A number of a mirror by its name, in the type that is asked for.
+struct Given {
+  const Values& numbers;
+  const char* name;
 
-[[noreturn]] void refuse(const char* name, const Value& value, const std::string& needed) {
-  throw InvalidInput(std::string("the mirror's ") + name + " is " + to_string(value) + "; " +
-                     needed);
-}
+  const Value& value() const {
+    const auto it = numbers.find(name);
+    if (it == numbers.end())
+      throw InvalidInput(std::string("the mirror's ") + name + " is missing");
+    return it->second;
+  }
 
-// Files and hosts hold whole numbers where there is no fraction.
-double scalar(const Values& numbers, const char* name) {
-  const Value& value = given(numbers, name);
-  if (const auto* real = std::get_if<double>(&value)) return *real;
-  if (const auto* whole = std::get_if<Index>(&value)) return static_cast<double>(*whole);
-  refuse(name, value, "a number is needed");
-}
+  [[noreturn]] void refuse(const Value& value, const std::string& needed) const {
+    throw InvalidInput(std::string("the mirror's ") + name + " is " + to_string(value) + "; " +
+                       needed);
+  }
 
-Vector3 vector(const Values& numbers, const char* name) {
-  const Value& value = given(numbers, name);
-  if (const auto* three = std::get_if<Vector3>(&value)) return *three;
-  refuse(name, value, "3 numbers are needed");
-}
+  template <typename T>
+  const T& as(const char* needed) const {
+    if (const auto* held = std::get_if<T>(&value())) return *held;
+    refuse(value(), needed);
+  }
 
-const std::string& word(const Values& numbers, const char* name) {
-  const Value& value = given(numbers, name);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  refuse(name, value, "a word is needed");
-}
+  // Files and hosts hold whole numbers where there is no fraction.
+  operator double() const {
+    const auto* whole = std::get_if<Index>(&value());
+    return whole ? static_cast<double>(*whole) : as<double>("a number is needed");
+  }
+  operator Vector3() const { return as<Vector3>("3 numbers are needed"); }
+  operator Matrix3() const { return table(3, 3); }
+  operator Points() const { return table(any, 3); }
+  operator const Surface&() const { return surface(as<std::string>("a word is needed")); }
+  operator Mapping() const {
+    const auto& word = as<std::string>("a word is needed");
+    if (word == "fixed") return Mapping::Fixed;
+    if (word == "perpendicular") return Mapping::Perpendicular;
+    refuse(word, "allowed is fixed | perpendicular");
+  }
 
-constexpr Index any = -1;
+  static constexpr Index any = -1;
 
-// They hold a table of one row, or of one number, as a vector or as a number.
-Eigen::MatrixXd table(const Values& numbers, const char* name, Index rows, Index columns) {
-  const Value& value = given(numbers, name);
-  const auto* matrix = std::get_if<Eigen::MatrixXd>(&value);
-  const auto* row = std::get_if<Vector3>(&value);
-  Eigen::MatrixXd values;
-  if (matrix)
-    values = *matrix;
-  else if (row)
-    values = row->transpose();
-  else
-    values = Eigen::MatrixXd::Constant(1, 1, scalar(numbers, name));
-  if ((rows != any && values.rows() != rows) || values.cols() != columns)
-    refuse(name, values,
-           (rows == any ? "rows of " : std::to_string(rows) + " x ") + std::to_string(columns) +
-               " are needed");
-  return values;
-}
+  // They hold a table of one row, or of one number, as a vector or as a number.
+  Eigen::MatrixXd table(Index rows, Index columns) const {
+    Eigen::MatrixXd values;
+    if (const auto* matrix = std::get_if<Eigen::MatrixXd>(&value()))
+      values = *matrix;
+    else if (const auto* row = std::get_if<Vector3>(&value()))
+      values = row->transpose();
+    else
+      values = Eigen::MatrixXd::Constant(1, 1, *this);
+    if ((rows != any && values.rows() != rows) || values.cols() != columns)
+      refuse(values, (rows == any ? "rows of " : std::to_string(rows) + " x ") +
+                         std::to_string(columns) + " are needed");
+    return values;
+  }
+};
 
-Mapping mapping(const Values& numbers) {
-  const std::string& name = word(numbers, "mapping");
-  if (name == "fixed") return Mapping::Fixed;
-  if (name == "perpendicular") return Mapping::Perpendicular;
-  refuse("mapping", name, "allowed is fixed | perpendicular");
+template <typename Kind, typename... Names>
+std::shared_ptr<Mirror> made(const Values& numbers, Names... names) {
+  return std::make_shared<Kind>(Given{numbers, names}...);
 }
 
 std::shared_ptr<Mirror> free_form(const Values& numbers) {
-  const Eigen::MatrixXd centres = table(numbers, "centres", any, 3);
+  const auto rows = [&](const char* name, Index count, Index columns) {
+    return Given{numbers, name}.table(count, columns);
+  };
+  const Points centres = Given{numbers, "centres"};
   const Index count = centres.rows();
-  const Eigen::MatrixXd tangents = table(numbers, "tangents", count, 3);
-  const Eigen::MatrixXd normals = table(numbers, "normals", count, 3);
-  const Eigen::MatrixXd heights = table(numbers, "heights", count, 6);
-  const Eigen::MatrixXd radii = table(numbers, "radii", count, 1);
+  const Eigen::MatrixXd tangents = rows("tangents", count, 3), normals = rows("normals", count, 3),
+                        heights = rows("heights", count, 6), radii = rows("radii", count, 1);
   std::vector<Patch> patches(count);
   for (Index i = 0; i < count; ++i) {
     const Vector3 tangent = tangents.row(i), normal = normals.row(i);
-    patches[i].centre = centres.row(i);
-    patches[i].frame.row(0) = tangent.transpose();
-    patches[i].frame.row(1) = normal.cross(tangent).transpose();
-    patches[i].frame.row(2) = normal.transpose();
-    patches[i].height = heights.row(i);
-    patches[i].radius = radii(i, 0);
+    Patch& patch = patches[i];
+    patch.centre = centres.row(i);
+    patch.frame << tangent, normal.cross(tangent), normal;
+    patch.frame.transposeInPlace();
+    patch.height = heights.row(i);
+    patch.radius = radii(i, 0);
   }
   return std::make_shared<FreeForm>(std::move(patches));
-}
-
-std::shared_ptr<Mirror> quadric(const Values& numbers) {
-  const Matrix3 matrix = table(numbers, "matrix", 3, 3);
-  if (numbers.contains("origin"))
-    return std::make_shared<Quadric>(matrix, vector(numbers, "origin"), vector(numbers, "gradient"),
-                                     scalar(numbers, "value"));
-  return std::make_shared<Quadric>(matrix, vector(numbers, "linear"), scalar(numbers, "constant"));
 }
 
 struct Kind {
@@ -225,31 +226,20 @@ struct Kind {
 };
 
 const std::array kinds{
-    Kind{"plane",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Plane>(vector(v, "normal"), scalar(v, "offset"));
+    Kind{"plane", [](const Values& v) { return made<Plane>(v, "normal", "offset"); }},
+    Kind{"sphere", [](const Values& v) { return made<Sphere>(v, "centre", "radius"); }},
+    Kind{"cylinder", [](const Values& v) { return made<Cylinder>(v, "point", "axis", "radius"); }},
+    Kind{"quadric",
+         [](const Values& v) {
+           return v.contains("origin") ? made<Quadric>(v, "matrix", "origin", "gradient", "value")
+                                       : made<Quadric>(v, "matrix", "linear", "constant");
          }},
-    Kind{"sphere",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Sphere>(vector(v, "centre"), scalar(v, "radius"));
-         }},
-    Kind{"cylinder",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<Cylinder>(vector(v, "point"), vector(v, "axis"),
-                                             scalar(v, "radius"));
-         }},
-    Kind{"quadric", quadric},
     Kind{"free-form", free_form},
     Kind{"height field",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<HeightField>(vector(v, "direction"),
-                                                Points(table(v, "nodes", any, 3)));
-         }},
+         [](const Values& v) { return made<HeightField>(v, "direction", "nodes"); }},
     Kind{"surface",
-         [](const Values& v) -> std::shared_ptr<Mirror> {
-           return std::make_shared<SurfaceMirror>(
-               surface(word(v, "surface")), mapping(v), scalar(v, "scale"),
-               Matrix3(table(v, "rotation", 3, 3)), vector(v, "translation"));
+         [](const Values& v) {
+           return made<SurfaceMirror>(v, "surface", "mapping", "scale", "rotation", "translation");
          }},
 };
 
@@ -257,9 +247,9 @@ const std::array kinds{
 
 std::shared_ptr<Mirror> make_mirror(std::string_view kind, const Values& numbers) {
   std::string names;
-  for (const Kind& known : kinds) {
-    if (known.name == kind) return known.make(numbers);
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  for (const auto& [name, make] : kinds) {
+    if (name == kind) return make(numbers);
+    names += (names.empty() ? "" : ", ") + std::string(name);
   }
   throw InvalidInput("there is no mirror of the kind '" + std::string(kind) + "'; there are " +
                      names);

@@ -3,7 +3,6 @@
 #include <symsurf/mirror.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -11,6 +10,12 @@
 #include "base/math.h"
 
 namespace symsurf {
+
+inline Points points_of(const std::vector<Foot>& feet) {
+  Points points(static_cast<Index>(feet.size()), 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) = feet[i].point;
+  return points;
+}
 
 struct GridCells {
   int columns, rows;
@@ -38,7 +43,7 @@ Mesh grid_mesh(const GridCells& cells, const Context& context, const Surface& su
     context.check();
     for (int c = 0; c <= columns; ++c)
       mesh.vertices.row(r * (columns + 1) + c) =
-          surface(static_cast<double>(c) / columns, static_cast<double>(r) / rows).transpose();
+          surface(static_cast<double>(c) / columns, static_cast<double>(r) / rows);
   }
   Index t = 0;
   for (int r = 0; r < rows; ++r)
@@ -50,34 +55,42 @@ Mesh grid_mesh(const GridCells& cells, const Context& context, const Surface& su
   return mesh;
 }
 
+/// A grid over the box of coordinates, about square; surface(at) is the point at some.
+template <typename Surface>
+Mesh box_mesh(const Eigen::MatrixX2d& coordinates, int resolution, const Context& context,
+              const Surface& surface) {
+  const Eigen::Vector2d low = coordinates.colwise().minCoeff(),
+                        size = coordinates.colwise().maxCoeff().transpose() - low;
+  return grid_mesh(grid_cells(size.x(), size.y(), resolution), context, [&](double s, double t) {
+    return surface(low + size.cwiseProduct(Eigen::Vector2d(s, t)));
+  });
+}
+
 /// The triangles for which keep(number) is true, and their vertices.
 template <typename Keep>
 Mesh part_of(const Mesh& mesh, const Keep& keep) {
-  std::vector<Index> number(mesh.vertices.rows(), -1), vertices;
-  std::vector<std::array<Index, 3>> triangles;
-  for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-    if (!keep(t)) continue;
-    std::array<Index, 3>& corners = triangles.emplace_back();
-    for (int c = 0; c < 3; ++c) {
-      Index& vertex = number[mesh.triangles(t, c)];
-      if (vertex < 0) {
-        vertex = static_cast<Index>(vertices.size());
-        vertices.push_back(mesh.triangles(t, c));
-      }
-      corners[c] = vertex;
+  std::vector<Index> number(mesh.vertices.rows(), -1), vertices, kept;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+    if (keep(t)) kept.push_back(t);
+  Triangles triangles = mesh.triangles(kept, Eigen::indexing::all);
+  std::for_each_n(triangles.data(), triangles.size(), [&](Index& corner) {
+    Index& vertex = number[corner];
+    if (vertex < 0) {
+      vertex = static_cast<Index>(vertices.size());
+      vertices.push_back(corner);
     }
-  }
-  return {mesh.vertices(vertices, Eigen::indexing::all), rows_of(triangles)};
+    corner = vertex;
+  });
+  return {mesh.vertices(vertices, Eigen::indexing::all), triangles};
 }
 
-/// Triangulates the zero set of `value` around the given points on it: surface nets (Gibson 1998)
-/// on a grid along the points' principal axes, `resolution` cells along the longest, in cells that
-/// hold a point or touch one that does, and from there on as far as the points stand from each
+/// Triangulates a mirror, the zero set of `value`, around some of its feet: surface nets (Gibson
+/// 1998) on a grid along the feet's principal axes, `resolution` cells along the longest, in cells
+/// that hold a foot or touch one that does, and from there on as far as the feet stand from each
 /// other. `value` is NaN where the function is not defined. Vertices are moved to their feet, where
-/// they have one near by. Throws InvalidInput for points that extend over more than 1e50, where
+/// they have one near by. Throws InvalidInput for feet that extend over more than 1e50, where
 /// squared distances no longer bound the net.
-Mesh surface_net(const Points& on_surface, int resolution,
-                 const std::function<double(const Vector3& x)>& value,
-                 const std::function<Vector3(const Vector3& x)>& foot, const Context& context);
+Mesh surface_net(const Mirror& mirror, const std::vector<Foot>& feet, int resolution,
+                 const std::function<double(const Vector3& x)>& value, const Context& context);
 
 }  // namespace symsurf

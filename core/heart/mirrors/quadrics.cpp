@@ -39,26 +39,22 @@ Matrix3 Plane::axes() const {
 
 Values Plane::numbers() const { return {{"normal", normal_}, {"offset", offset_}}; }
 
-std::unique_ptr<Mirror> Plane::transformed(double scale, const Matrix3& rotation,
-                                           const Vector3& translation) const {
-  const Vector3 normal = rotation * normal_;
-  return std::make_unique<Plane>(normal, scale * offset_ - normal.dot(translation));
+std::unique_ptr<Mirror> Plane::moved(const Motion& by) const {
+  const Vector3 normal = by.rotation * normal_;
+  return std::make_unique<Plane>(normal, by.scale * offset_ - normal.dot(by.translation));
 }
 
 // The rectangle along the footprint's principal axes, so that it turns with the object.
-Mesh Plane::mesh_over(PointsView object, int resolution, const Context& context) const {
-  const Points feet = project(object);
-  const Eigen::RowVector3d centre = feet.colwise().mean();
-  const Points centred = feet.rowwise() - centre;
-  const Vector3 u = eigen_of_scatter(centred).vectors.col(2);
-  const Vector3 v = normal_.cross(u).normalized();
-  const Eigen::VectorXd along_u = centred * u, along_v = centred * v;
-  const double u0 = along_u.minCoeff(), v0 = along_v.minCoeff();
-  const double width = along_u.maxCoeff() - u0, height = along_v.maxCoeff() - v0;
-  return grid_mesh(grid_cells(width, height, resolution), context,
-                   [&](double s, double t) -> Vector3 {
-                     return centre.transpose() + (u0 + s * width) * u + (v0 + t * height) * v;
-                   });
+Mesh Plane::mesh_over(const std::vector<Foot>& feet, int resolution, const Context& context) const {
+  Points centred = points_of(feet);
+  const Eigen::RowVector3d centre = centred.colwise().mean();
+  centred.rowwise() -= centre;
+  Eigen::Matrix<double, 3, 2> axes;
+  axes.col(0) = eigen_of_scatter(centred).vectors.col(2);
+  axes.col(1) = normal_.cross(axes.col(0)).normalized();
+  return box_mesh(centred * axes, resolution, context, [&](const Eigen::Vector2d& at) -> Vector3 {
+    return centre.transpose() + axes * at;
+  });
 }
 
 namespace {
@@ -73,6 +69,21 @@ std::pair<double, double> disc_from_square(double s, double t) {
   return {b, 2 * quarter - quarter * a / b};
 }
 
+// The foot on a circle about the base, out of which x lies by `from`.
+std::optional<Foot> radial_foot(const Vector3& base, const Vector3& from, double radius) {
+  const double distance = from.norm();
+  if (!(distance > 0)) return std::nullopt;
+  return Foot{base + radius / distance * from, from / distance, distance - radius};
+}
+
+// The mean normal, or the other where they cancel each other out.
+Vector3 mean_normal(const std::vector<Foot>& feet, const Vector3& other) {
+  Vector3 sum = Vector3::Zero();
+  for (const Foot& foot : feet) sum += foot.normal;
+  const bool balanced = sum.norm() < 1e-9 * static_cast<double>(feet.size());
+  return balanced ? other : sum.normalized();
+}
+
 }  // namespace
 
 Sphere::Sphere(const Vector3& centre, double radius) : centre_(centre), radius_(radius) {
@@ -81,46 +92,22 @@ Sphere::Sphere(const Vector3& centre, double radius) : centre_(centre), radius_(
                        to_string(Value(centre)) + " and " + to_string(Value(radius)));
 }
 
-Vector3 Sphere::foot(const Vector3& x) const {
-  const Vector3 u = x - centre_;
-  const double distance = u.norm();
-  return distance > 0 ? Vector3(centre_ + radius_ / distance * u) : no_point();
-}
-
-double Sphere::signed_distance(const Vector3& x) const {
-  const double distance = (x - centre_).norm();
-  return distance > 0 ? distance - radius_ : std::numeric_limits<double>::quiet_NaN();
-}
-
-bool Sphere::has_image(const Vector3& x) const {
-  const double distance = (x - centre_).norm();
-  return distance > 0 && distance <= 2 * radius_;
+std::optional<Foot> Sphere::at(const Vector3& x) const {
+  return radial_foot(centre_, x - centre_, radius_);
 }
 
 Values Sphere::numbers() const { return {{"centre", centre_}, {"radius", radius_}}; }
 
-std::unique_ptr<Mirror> Sphere::transformed(double scale, const Matrix3& rotation,
-                                            const Vector3& translation) const {
-  return std::make_unique<Sphere>(scale * rotation * centre_ + translation, scale * radius_);
+std::unique_ptr<Mirror> Sphere::moved(const Motion& by) const {
+  return std::make_unique<Sphere>(by(centre_), by.scale * radius_);
 }
 
-Mesh Sphere::mesh_over(PointsView object, int resolution, const Context& context) const {
+Mesh Sphere::mesh_over(const std::vector<Foot>& feet, int resolution,
+                       const Context& context) const {
   constexpr double pi = std::numbers::pi;
-  std::vector<Vector3> directions;
-  Vector3 sum = Vector3::Zero();
-  for (Index i = 0; i < object.size(); ++i) {
-    if (!has_image(object[i])) continue;
-    directions.push_back((object[i] - centre_).normalized());
-    sum += directions.back();
-  }
-  if (directions.empty())
-    throw InvalidInput("none of the " + std::to_string(object.size()) +
-                       " points of the object has an image over this sphere");
-
-  const bool balanced = sum.norm() < 1e-9 * static_cast<double>(directions.size());
-  const Vector3 pole = balanced ? Vector3(Vector3::UnitZ()) : Vector3(sum.normalized());
+  const Vector3 pole = mean_normal(feet, Vector3::UnitZ());
   double opening = 0;
-  for (const Vector3& u : directions)
+  for (const auto& [point, u, distance] : feet)
     opening = std::max(opening, std::atan2(pole.cross(u).norm(), pole.dot(u)));
   if (opening > 0.9 * pi) opening = pi;
 
@@ -155,63 +142,31 @@ Cylinder::Cylinder(const Vector3& point, const Vector3& axis, double radius)
         to_string(Value(radius)));
 }
 
-Vector3 Cylinder::foot(const Vector3& x) const {
-  const Vector3 v = from_axis(x);
-  const double distance = v.norm();
-  return distance > 0 ? Vector3(x + (radius_ / distance - 1) * v) : no_point();
-}
-
-double Cylinder::signed_distance(const Vector3& x) const {
-  const double distance = from_axis(x).norm();
-  return distance > 0 ? distance - radius_ : std::numeric_limits<double>::quiet_NaN();
-}
-
-bool Cylinder::has_image(const Vector3& x) const {
-  const double distance = from_axis(x).norm();
-  return distance > 0 && distance <= 2 * radius_;
+std::optional<Foot> Cylinder::at(const Vector3& x) const {
+  const Vector3 d = x - point_, from = d - d.dot(axis_) * axis_;
+  return radial_foot(x - from, from, radius_);
 }
 
 Values Cylinder::numbers() const {
   return {{"point", point_}, {"axis", axis_}, {"radius", radius_}};
 }
 
-std::unique_ptr<Mirror> Cylinder::transformed(double scale, const Matrix3& rotation,
-                                              const Vector3& translation) const {
-  return std::make_unique<Cylinder>(scale * (rotation * point_) + translation, rotation * axis_,
-                                    scale * radius_);
+std::unique_ptr<Mirror> Cylinder::moved(const Motion& by) const {
+  return std::make_unique<Cylinder>(by(point_), by.rotation * axis_, by.scale * radius_);
 }
 
-Mesh Cylinder::mesh_over(PointsView object, int resolution, const Context& context) const {
-  constexpr double pi = std::numbers::pi;
-  std::vector<Vector3> feet;
-  Vector3 sum = Vector3::Zero();
-  for (Index i = 0; i < object.size(); ++i) {
-    if (!has_image(object[i])) continue;
-    feet.push_back(foot(object[i]) - point_);
-    sum += from_axis(object[i]).normalized();
-  }
-  if (feet.empty())
-    throw InvalidInput("none of the " + std::to_string(object.size()) +
-                       " points of the object has an image over this cylinder");
+Mesh Cylinder::mesh_over(const std::vector<Foot>& feet, int resolution,
+                         const Context& context) const {
   // Angles are counted from the mean direction, so that the shell's gap falls opposite to it.
-  const bool balanced = sum.norm() < 1e-9 * static_cast<double>(feet.size());
-  const Vector3 e1 = balanced ? Vector3(axis_.unitOrthogonal()) : Vector3(sum.normalized());
-  const Vector3 e2 = axis_.cross(e1);
-  double first = pi, last = -pi, low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vector3& y : feet) {
-    const double angle = std::atan2(y.dot(e2), y.dot(e1));
-    first = std::min(first, angle);
-    last = std::max(last, angle);
-    low = std::min(low, y.dot(axis_));
-    high = std::max(high, y.dot(axis_));
-  }
-  const double arc = radius_ * (last - first), height = high - low;
-  return grid_mesh(grid_cells(arc, height, resolution), context,
-                   [&](double s, double t) -> Vector3 {
-                     const double angle = first + s * (last - first);
-                     return point_ + (low + t * height) * axis_ +
-                            radius_ * (std::cos(angle) * e1 + std::sin(angle) * e2);
-                   });
+  const Vector3 e1 = mean_normal(feet, axis_.unitOrthogonal()), e2 = axis_.cross(e1);
+  Eigen::MatrixX2d unrolled(feet.size(), 2);
+  for (std::size_t i = 0; i < feet.size(); ++i)
+    unrolled.row(i) << radius_ * std::atan2(feet[i].normal.dot(e2), feet[i].normal.dot(e1)),
+        axis_.dot(feet[i].point - point_);
+  return box_mesh(unrolled, resolution, context, [&](const Eigen::Vector2d& at) -> Vector3 {
+    const double angle = at.x() / radius_;
+    return point_ + at.y() * axis_ + radius_ * (std::cos(angle) * e1 + std::sin(angle) * e2);
+  });
 }
 
 Quadric::Quadric(const Matrix3& matrix, const Vector3& linear, double constant)
@@ -233,48 +188,43 @@ Quadric::Quadric(const Matrix3& matrix, const Vector3& origin, const Vector3& gr
   curves_ = eigen.values;
 }
 
-Vector3 Quadric::foot(const Vector3& x) const {
+std::optional<Foot> Quadric::at(const Vector3& x) const {
   // In the eigenvectors' frame: y_i = (x_i - l b_i) / (1 + 2 l a_i). Between the poles f(y(l))
   // falls monotonically, so its zero there, if any, is one, and the closest point.
   const Vector3 p = axes_.transpose() * (x - origin_), b = axes_.transpose() * linear_;
-  const auto at = [&](double l) -> Vector3 {
-    return (p - l * b).array() / (1 + 2 * l * curves_.array());
-  };
-  const auto f = [&](double l, double& slope) {
-    const Vector3 y = at(l);
-    const Vector3 g = 2 * curves_.cwiseProduct(y) + b;
-    slope = -(g.array().square() / (1 + 2 * l * curves_.array())).sum();
+  Vector3 y, g;
+  double slope;
+  const auto f = [&](double l) {
+    const Eigen::Array3d below = 1 + 2 * l * curves_.array();
+    y = (p - l * b).array() / below;
+    g = 2 * curves_.cwiseProduct(y) + b;
+    slope = -(g.array().square() / below).sum();
     return (curves_.array() * y.array().square()).sum() + b.dot(y) + constant_;
   };
   const double most = curves_.maxCoeff(), least = curves_.minCoeff();
   double low = most > 0 ? -1 / (2 * most) : -infinity;
   double high = least < 0 ? -1 / (2 * least) : infinity;
 
-  double slope, l = 0, value = f(0, slope);
+  double l = 0, value = f(l);
   for (int step = 0; step < 200; ++step) {
     if (value == 0 || slope == 0) break;
     (value > 0 ? low : high) = l;
     double next = l - value / slope;
     if (next == l) break;
     if (!(next > low && next < high)) {
-      if (std::isinf(low) || std::isinf(high)) return no_point();
+      if (std::isinf(low) || std::isinf(high)) return std::nullopt;
       next = (low + high) / 2;
     }
     const double moved = std::abs(next - l);
     l = next;
-    value = f(l, slope);
+    value = f(l);
     if (moved <= 1e-16 * std::abs(l)) break;
   }
-  const Vector3 y = at(l);
-  const Vector3 g = 2 * curves_.cwiseProduct(y) + b;
   const double size = g.norm() * (y.norm() + (p - y).norm()) + std::abs(constant_);
-  return y.allFinite() && std::abs(value) <= 1e-9 * size ? Vector3(origin_ + axes_ * y)
-                                                         : no_point();
-}
-
-double Quadric::signed_distance(const Vector3& x) const {
-  const double distance = (x - foot(x)).norm();
-  return value(x) < 0 ? -distance : distance;
+  if (!y.allFinite() || !(std::abs(value) <= 1e-9 * size)) return std::nullopt;
+  const Vector3 point = origin_ + axes_ * y;
+  const double distance = (x - point).norm();
+  return Foot{point, axes_ * g.stableNormalized(), this->value(x) < 0 ? -distance : distance};
 }
 
 Values Quadric::numbers() const {
@@ -286,22 +236,17 @@ Values Quadric::numbers() const {
           {"value", constant_}};
 }
 
-std::unique_ptr<Mirror> Quadric::transformed(double scale, const Matrix3& rotation,
-                                             const Vector3& translation) const {
-  // f((R'(x - t)) / s), times s^2.
-  return std::make_unique<Quadric>(rotation * matrix_ * rotation.transpose(),
-                                   scale * (rotation * origin_) + translation,
-                                   scale * (rotation * linear_), scale * scale * constant_);
+// f((R'(x - t)) / s), times s^2.
+std::unique_ptr<Mirror> Quadric::moved(const Motion& by) const {
+  return std::make_unique<Quadric>(by.rotation * matrix_ * by.rotation.transpose(), by(origin_),
+                                   by.scale * (by.rotation * linear_),
+                                   by.scale * by.scale * constant_);
 }
 
-Mesh Quadric::mesh_over(PointsView object, int resolution, const Context& context) const {
-  const Points feet = finite_rows(project(object, context.stage(0, 0.3)));
-  if (feet.rows() == 0)
-    throw InvalidInput("none of the " + std::to_string(object.size()) +
-                       " points of the object has a foot on this quadric");
+Mesh Quadric::mesh_over(const std::vector<Foot>& feet, int resolution,
+                        const Context& context) const {
   return surface_net(
-      feet, resolution, [this](const Vector3& x) { return value(x); },
-      [this](const Vector3& x) { return foot(x); }, context);
+      *this, feet, resolution, [this](const Vector3& x) { return value(x); }, context);
 }
 
 }  // namespace symsurf

@@ -76,105 +76,74 @@ std::vector<std::string> surface_names() {
 
 namespace {
 
-using Position = Eigen::Vector2d;
-
-class Search {
- public:
-  Search(const Surface& surface, const Vector3& p) : surface_(surface), p_(p) {}
-
-  Position at = Position::Zero();
-
-  double squared(const Position& s) const {
-    const double height = surface_(s.x(), s.y());
-    if (!std::isfinite(height)) return std::numeric_limits<double>::infinity();
-    return (s - p_.head<2>()).squaredNorm() + (height - p_.z()) * (height - p_.z());
+// The point of the graph z = f(x, y) closest to p; not finite without one.
+Vector3 closest_point(const Surface& surface, const Vector3& p) {
+  using Position = Eigen::Vector2d;
+  if (surface.name == "f6") {  // ends at a rim, along which a search for a minimum would get stuck
+    const Vector3 u(p.x(), p.y(), std::max(p.z(), 0.0));
+    const double length = u.norm();
+    if (length > 0) return u / length;
+    return p.z() >= 0 ? Vector3::UnitZ() : Vector3::UnitX();
   }
-
-  void start(double reach) {
-    constexpr int half = 12;
-    const Position middle = p_.head<2>();
-    at = middle;
-    for (int i = -half; i <= half; ++i)
-      for (int j = -half; j <= half; ++j) take(middle + reach / half * Position(i, j));
-    step_ = reach / half;
-  }
-
-  // Compass search: slow, but creases and rims do not stop it. Far away the waves of a surface
-  // would keep it going for ever: where one step is better than the last by rounding only.
-  void walk(double until) {
-    constexpr int most_moves = 256;  // of a length; near a surface there are a few
-    for (; step_ > until; step_ /= 2) {
-      bool moved = true;
-      for (int moves = 0; moved && moves < most_moves; ++moves) {
-        moved = false;
-        for (const Position& way :
-             {Position(1, 0), Position(-1, 0), Position(0, 1), Position(0, -1), Position(1, 1),
-              Position(-1, -1), Position(1, -1), Position(-1, 1)})
-          moved |= take(at + step_ * way);
-      }
-    }
-  }
-
-  // False where it does not come to rest: at a crease.
-  bool newton() {
-    for (int iteration = 0; iteration < 12; ++iteration) {
-      const Position g = half_gradient(at);
-      if (!g.allFinite()) return false;
-      constexpr double h = 1e-6;
-      Eigen::Matrix2d hessian;
-      hessian.col(0) =
-          (half_gradient(at + Position(h, 0)) - half_gradient(at - Position(h, 0))) / (2 * h);
-      hessian.col(1) =
-          (half_gradient(at + Position(0, h)) - half_gradient(at - Position(0, h))) / (2 * h);
-      const Position delta = hessian.fullPivLu().solve(g);
-      if (!delta.allFinite() || delta.norm() > 1e-2) return false;
-      const Position next = at - delta;
-      if (squared(next) > squared(at) * (1 + 1e-12) + 1e-30) return false;
-      at = next;
-      if (delta.norm() < 1e-15 * (1 + at.norm())) return true;
-    }
-    return half_gradient(at).norm() < 1e-12 * (1 + p_.norm());
-  }
-
- private:
-  bool take(const Position& candidate) {
+  const Position middle = p.head<2>();
+  const auto squared = [&](const Position& s) {
+    const double above = surface(s.x(), s.y()) - p.z();
+    return std::isfinite(above) ? (s - middle).squaredNorm() + above * above : infinity;
+  };
+  const auto half_gradient = [&](const Position& s) -> Position {
+    return s - middle + (surface(s.x(), s.y()) - p.z()) * surface.gradient(s.x(), s.y());
+  };
+  Position at = middle;
+  const auto take = [&](const Position& candidate) {
     if (!(squared(candidate) < squared(at))) return false;
     at = candidate;
     return true;
-  }
-  Position half_gradient(const Position& s) const {
-    return s - p_.head<2>() + (surface_(s.x(), s.y()) - p_.z()) * surface_.gradient(s.x(), s.y());
-  }
+  };
 
-  const Surface& surface_;
-  Vector3 p_;
-  double step_ = 1;
-};
-
-// f6 ends at a rim, along which a search for a minimum would get stuck.
-Vector3 closest_on_half_sphere(const Vector3& p) {
-  const Vector3 u = p.z() >= 0 ? p : Vector3(p.x(), p.y(), 0);
-  const double length = u.norm();
-  return length > 0 ? Vector3(u / length)
-                    : Vector3(p.z() >= 0 ? Vector3::UnitZ() : Vector3::UnitX());
-}
-
-// The point of the graph z = f(x, y) closest to p.
-Vector3 closest_point(const Surface& surface, const Vector3& p) {
-  if (!p.allFinite()) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (surface.name == "f6") return closest_on_half_sphere(p);
-  Search search(surface, p);
   // The closest point is no farther than the one straight above or below.
-  const double reach = std::sqrt(search.squared(p.head<2>()));
-  if (!std::isfinite(reach)) return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  search.start(reach);
-  search.walk(1e-4);
-  const Eigen::Vector2d coarse = search.at;
-  if (!search.newton()) {
-    search.at = coarse;
-    search.walk(1e-14);
+  constexpr int half = 12;
+  double step = std::sqrt(squared(middle)) / half;
+  if (!std::isfinite(step)) return Vector3::Constant(step - step);
+  for (int i = -half; i <= half; ++i)
+    for (int j = -half; j <= half; ++j) take(middle + step * Position(i, j));
+
+  // Compass search: slow, but creases and rims do not stop it. Far away the waves of a surface
+  // would keep it going for ever: where one step is better than the last by rounding only.
+  const auto walk = [&](double until) {
+    constexpr int most_moves = 256;  // of a length; near a surface there are a few
+    for (; step > until; step /= 2) {
+      bool moved = true;
+      for (int moves = 0; moved && moves < most_moves; ++moves) {
+        moved = false;
+        for (int i = -1; i <= 1; ++i)
+          for (int j = -1; j <= 1; ++j) moved |= take(at + step * Position(i, j));
+      }
+    }
+  };
+  // False where it does not come to rest: at a crease.
+  const auto newton = [&] {
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      constexpr double h = 1e-6;
+      Eigen::Matrix2d hessian;
+      for (int axis = 0; axis < 2; ++axis) {
+        const Position beside = h * Position::Unit(axis);
+        hessian.col(axis) = (half_gradient(at + beside) - half_gradient(at - beside)) / (2 * h);
+      }
+      const Position delta = hessian.inverse() * half_gradient(at);
+      if (!(delta.norm() <= 1e-2) || squared(at - delta) > squared(at) * (1 + 1e-12) + 1e-30)
+        return false;
+      at -= delta;
+      if (delta.norm() < 1e-15 * (1 + at.norm())) return true;
+    }
+    return half_gradient(at).norm() < 1e-12 * (1 + p.norm());
+  };
+  walk(1e-4);
+  const Position coarse = at;
+  if (!newton()) {
+    at = coarse;
+    walk(1e-14);
   }
-  return {search.at.x(), search.at.y(), surface(search.at.x(), search.at.y())};
+  return {at.x(), at.y(), surface(at.x(), at.y())};
 }
 
 }  // namespace
@@ -185,64 +154,50 @@ SurfaceMirror::SurfaceMirror(const Surface& surface, Mapping mapping)
 SurfaceMirror::SurfaceMirror(const Surface& surface, Mapping mapping, double scale,
                              const Matrix3& rotation, const Vector3& translation)
     : SurfaceMirror(surface, mapping) {
-  const Matrix3 product = rotation * rotation.transpose();
   if (!(scale > 0) || !std::isfinite(scale) || !translation.allFinite() ||
-      !(product - Matrix3::Identity()).isZero(1e-9))
+      !(rotation * rotation.transpose()).isIdentity(1e-9))
     throw InvalidInput("a surface needs a scale above 0, a rotation and a finite translation");
-  scale_ = scale;
-  rotation_ = rotation;
-  translation_ = translation;
+  placed_ = {scale, rotation, translation};
 }
 
-Vector3 SurfaceMirror::closest_in_frame(const Vector3& x) const {
-  return closest_point(surface_, x);
+Vector3 SurfaceMirror::closest(const Vector3& x) const {
+  return placed_(closest_point(surface_, to_frame(x)));
 }
 
-Vector3 SurfaceMirror::foot_in_frame(const Vector3& x) const {
-  if (mapping_ == Mapping::Perpendicular) return closest_in_frame(x);
-  const double height = surface_(x.x(), x.y());
-  return std::isfinite(height) ? Vector3(x.x(), x.y(), height) : no_point();
-}
-
-Vector3 SurfaceMirror::foot(const Vector3& x) const { return position(foot_in_frame(to_frame(x))); }
-
-double SurfaceMirror::signed_distance(const Vector3& x) const {
-  const Vector3 inside = to_frame(x), foot = foot_in_frame(inside);
+std::optional<Foot> SurfaceMirror::at(const Vector3& x) const {
+  const Vector3 inside = to_frame(x);
   const double height = surface_(inside.x(), inside.y());
-  const bool below = std::isfinite(height) ? inside.z() < height : inside.z() < foot.z();
-  return scale_ * (below ? -1 : 1) * (inside - foot).norm();
+  const Vector3 foot = mapping_ == Mapping::Fixed ? Vector3(inside.x(), inside.y(), height)
+                                                  : closest_point(surface_, inside);
+  const double distance = (inside - foot).norm();
+  if (!std::isfinite(distance)) return std::nullopt;
+  const bool is_below = inside.z() < (std::isfinite(height) ? height : foot.z());
+  const Slope slope = surface_.gradient(foot.x(), foot.y());
+  Vector3 normal = Vector3(-slope.x(), -slope.y(), 1).normalized();
+  if (!normal.allFinite()) normal = foot;  // on the rim of f6, a half sphere
+  return Foot{placed_(foot), placed_.rotation * normal,
+              placed_.scale * (is_below ? -distance : distance)};
 }
 
 Values SurfaceMirror::numbers() const {
   return {{"surface", surface_.name},
           {"mapping", std::string(mapping_ == Mapping::Fixed ? "fixed" : "perpendicular")},
-          {"scale", scale_},
-          {"rotation", Eigen::MatrixXd(rotation_)},
-          {"translation", translation_}};
+          {"scale", placed_.scale},
+          {"rotation", Eigen::MatrixXd(placed_.rotation)},
+          {"translation", placed_.translation}};
 }
 
-std::unique_ptr<Mirror> SurfaceMirror::transformed(double scale, const Matrix3& rotation,
-                                                   const Vector3& translation) const {
-  return std::make_unique<SurfaceMirror>(surface_, mapping_, scale * scale_, rotation * rotation_,
-                                         scale * (rotation * translation_) + translation);
+std::unique_ptr<Mirror> SurfaceMirror::moved(const Motion& by) const {
+  return std::make_unique<SurfaceMirror>(surface_, mapping_, by.scale * placed_.scale,
+                                         by.rotation * placed_.rotation, by(placed_.translation));
 }
 
-Mesh SurfaceMirror::mesh_over(PointsView object, int resolution, const Context& context) const {
-  Eigen::Array2d low = Eigen::Array2d::Constant(infinity), high = -low;
-  for (Index i = 0; i < object.size(); ++i) {
-    const Vector3 foot = foot_in_frame(to_frame(object[i]));
-    if (!foot.allFinite()) continue;
-    low = low.min(foot.head<2>().array());
-    high = high.max(foot.head<2>().array());
-  }
-  if (!low.allFinite())
-    throw InvalidInput("surface " + surface_.name + " is undefined at all " +
-                       std::to_string(object.size()) + " points");
-  const Eigen::Array2d size = high - low;
-  const GridCells cells = grid_cells(size.x(), size.y(), resolution);
-  const Mesh grid = grid_mesh(cells, context, [&](double s, double t) -> Vector3 {
-    const double x = low.x() + s * size.x(), y = low.y() + t * size.y();
-    return position({x, y, surface_(x, y)});
+Mesh SurfaceMirror::mesh_over(const std::vector<Foot>& feet, int resolution,
+                              const Context& context) const {
+  Eigen::MatrixX2d flat(feet.size(), 2);
+  for (std::size_t i = 0; i < feet.size(); ++i) flat.row(i) = to_frame(feet[i].point).head<2>();
+  const Mesh grid = box_mesh(flat, resolution, context, [&](const Eigen::Vector2d& at) {
+    return placed_({at.x(), at.y(), surface_(at.x(), at.y())});
   });
   // Where the surface is undefined the grid has holes.
   return part_of(grid, [&](Index t) {

@@ -34,8 +34,10 @@ struct MidPlane {
 
 MidPlane mid_plane(PointsView points, const Mirror& mirror, const Context& context) {
   const Vector3 centroid = points.matrix().colwise().mean().transpose();
-  if (const auto* plane = dynamic_cast<const Plane*>(&mirror))
-    return {plane->normal(), plane->foot(centroid)};
+  if (mirror.kind() == "plane") {
+    const Foot foot = *mirror.at(centroid);
+    return {foot.normal, foot.point};
+  }
   const Points feet = finite_rows(mirror.project(points, context));
   if (feet.rows() < 3) throw InvalidInput("the mirror has feet of less than three points");
   const Vector3 middle = feet.colwise().mean().transpose();

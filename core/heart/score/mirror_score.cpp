@@ -180,8 +180,8 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
       found.share = found.covered = found.exact = 1;
     return found;
   };
-  if (const auto* plane = dynamic_cast<const Plane*>(&mirror)) {
-    const Eigen::Isometry3d reflection = reflection_over(in_frame(*plane, frame));
+  if (mirror.kind() == "plane") {
+    const Eigen::Isometry3d reflection = reflection_over(in_frame(mirror, frame));
     return of_mesh(whole_of(point_fits(reflection, stride), stride));
   }
   const Freedom freedom = freedom_of(mirror.kind());
@@ -206,7 +206,7 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
   return of_mesh(found);
 }
 
-double MirrorScore::distinctive_share(const Plane& plane) const {
+double MirrorScore::distinctive_share(const Mirror& plane) const {
   constexpr double least = 0.1;  // of its weight, that a point keeps whatever it says
   const UnitPlane here = in_frame(plane, cloud_.frame);
   // What the planes beside it map at each sample: the most, but for one of them.
@@ -313,9 +313,8 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t
 
 void MirrorScore::fill(const Mirror& mirror, const MirrorFit& fit, Result& result) const {
   tell(mirror.kind(), fit, result);
-  const auto* plane = dynamic_cast<const Plane*>(&mirror);
-  if (plane && result.score < beyond_doubt)
-    result.statistics["distinctive_share"] = distinctive_share(*plane);
+  if (mirror.kind() == "plane" && result.score < beyond_doubt)
+    result.statistics["distinctive_share"] = distinctive_share(mirror);
 }
 
 Result MirrorScore::ranked(const std::string& method,

@@ -22,7 +22,6 @@ namespace symsurf {
 
 class MirrorLayers;
 class MirrorSides;
-class Plane;
 
 /// How well a mirror maps a cloud onto itself.
 struct MirrorFit {
@@ -62,7 +61,7 @@ class MirrorScore {
   /// The share that a plane maps of what tells it from the planes beside it. A sheet slides over
   /// itself, and any plane upright to it maps most of it: each point counts by how much less of it
   /// the plane maps when turned or shifted.
-  double distinctive_share(const Plane& plane) const;
+  double distinctive_share(const Mirror& plane) const;
   /// The same of a third of the points: enough to see which mirrors are worth refining.
   MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
   /// Of a rotation, a reflection or both, in the principal frame, what each point that it moves

@@ -189,14 +189,14 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
 
 // What the planes are bent into, on no more points than tell.
 void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& context) {
-  std::vector<Plane> planes{dynamic_cast<const Plane&>(*contest.best.mirror)};
+  std::vector planes{contest.best.mirror};
   for (const Result& other : contest.best.candidates)
-    if (planes.size() < planes_bent) planes.push_back(dynamic_cast<const Plane&>(*other.mirror));
+    if (planes.size() < planes_bent) planes.push_back(other.mirror);
   const BentPlanes bent(cloud.thinned(thinned_size, context.stage(0, 0.2)),
                         context.stage(0.2, 0.5));
   const Kinds kinds = simple_kinds(cloud.points.size());
-  for (const Plane& plane : planes) {
-    Result result = bent.best_of(kinds, plane);
+  for (const auto& plane : planes) {
+    Result result = bent.best_of(kinds, *plane);
     if (!result.mirror) continue;
     const MethodImplementation& kind = heart_method(result.method);
     const bool wins = explains_more(result, contest.best);
@@ -204,7 +204,7 @@ void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& contex
     contest.take(kind, std::move(result), wins,
                  [&kind, plane, values](const Cloud& whole, const Context& c) {
                    return BentPlanes(whole, c.stage(0, 0.5))
-                       .with_pairs(kind, plane, values, c.stage(0.5, 1));
+                       .with_pairs(kind, *plane, values, c.stage(0.5, 1));
                  });
   }
 }
@@ -267,7 +267,7 @@ BentPlanes::BentPlanes(const Cloud& cloud, const Context& context)
                   cloud.patches(samples_a_patch * sample_size, context.stage(0.5, 0.6))},
       score_(cloud, context.stage(0.6, 1)) {}
 
-Result BentPlanes::best_of(const Kinds& kinds, const Plane& plane) const {
+Result BentPlanes::best_of(const Kinds& kinds, const Mirror& plane) const {
   const PlaneBend bend = bend_of(plane);
   return std::abs(bend.greater) < least_bend ? Result() : best_of(kinds, bend);
 }
@@ -287,7 +287,7 @@ Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
   return best;
 }
 
-Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& plane,
+Result BentPlanes::with_pairs(const MethodImplementation& kind, const Mirror& plane,
                               const ParameterValues& values, const Context& context) const {
   Result result = best_of({&kind}, bend_of(plane));
   result.parameters = values.all();
@@ -295,14 +295,14 @@ Result BentPlanes::with_pairs(const MethodImplementation& kind, const Plane& pla
   return result;
 }
 
-PlaneBend BentPlanes::bend_of(const Plane& plane) const {
+PlaneBend BentPlanes::bend_of(const Mirror& plane) const {
   return refinement_.bend_of(in_frame(plane, cloud_.frame));
 }
 
 namespace {
 
-// Of the rows from the sphere, or circle, that fits them: |x - c|^2 = r^2 is linear in c and
-// r^2 - |c|^2. Flat ones fit a straight one better than any that this finds.
+// Of the rows from the sphere, or circle, that fits them. Flat ones fit a straight one better than
+// any that this finds.
 template <int n>
 double distance_from_round(const Eigen::Matrix<double, Eigen::Dynamic, n>& rows) {
   const auto count = static_cast<double>(rows.rows());
@@ -312,14 +312,9 @@ double distance_from_round(const Eigen::Matrix<double, Eigen::Dynamic, n>& rows)
   unit /= size;
   const Eigen::Matrix<double, n, n> scatter = unit.transpose() * unit;
   const double flat = std::sqrt(std::max(0.0, eigen_of(scatter).values[0]) / count);
-  Eigen::MatrixXd design(rows.rows(), n + 1);
-  design << 2 * unit, Eigen::VectorXd::Ones(rows.rows());
-  const Eigen::VectorXd fit =
-      solved(design.transpose() * design, design.transpose() * unit.rowwise().squaredNorm());
-  const Eigen::Vector<double, n> centre = fit.head<n>();
-  const double radius = std::sqrt(std::max(0.0, fit[n] + centre.squaredNorm()));
+  const Eigen::VectorXd round = sphere_through(unit);
   const Eigen::VectorXd off =
-      (unit.rowwise() - centre.transpose()).rowwise().norm().array() - radius;
+      (unit.rowwise() - round.head<n>().transpose()).rowwise().norm().array() - round[n];
   return size * std::min(flat, std::sqrt(off.squaredNorm() / count));
 }
 

@@ -23,14 +23,14 @@ class BentPlanes {
 
   /// That of these kinds which explains most, without pairs; without a mirror where the plane is
   /// not to bend.
-  Result best_of(const Kinds& kinds, const Plane& plane) const;
+  Result best_of(const Kinds& kinds, const Mirror& plane) const;
 
   /// That of one kind, with the kind's parameters.
-  Result with_pairs(const MethodImplementation& kind, const Plane& plane,
+  Result with_pairs(const MethodImplementation& kind, const Mirror& plane,
                     const ParameterValues& values, const Context& context) const;
 
  private:
-  PlaneBend bend_of(const Plane& plane) const;
+  PlaneBend bend_of(const Mirror& plane) const;
   Result best_of(const Kinds& kinds, const PlaneBend& bend) const;
 
   const Cloud& cloud_;

@@ -6,7 +6,9 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace symsurf {
 
@@ -14,6 +16,13 @@ namespace symsurf {
 struct Mesh {
   Points vertices;
   Triangles triangles;
+};
+
+/// The point of a mirror that another point x maps through.
+struct Foot {
+  Vector3 point;    ///< the image of x is x + 2 (point - x)
+  Vector3 normal;   ///< of the mirror's surface there, of length 1, towards positive distances
+  double distance;  ///< of x from the point, signed by side
 };
 
 /// A surface of symmetry. Mirroring has one meaning for all kinds: x' = x + 2 (foot(x) - x),
@@ -26,11 +35,17 @@ class Mirror {
   virtual std::string_view kind() const = 0;
 
   /// The foot of x: the closest point of a perpendicular mirror, the point along v of a
-  /// fixed-direction one. NaN where x has no foot.
-  virtual Vector3 foot(const Vector3& x) const = 0;
+  /// fixed-direction one. None where x has no foot.
+  virtual std::optional<Foot> at(const Vector3& x) const = 0;
 
-  /// Distance of x from its foot, signed by side. NaN where x has no foot.
-  virtual double signed_distance(const Vector3& x) const = 0;
+  /// The unit direction that x maps along: x = foot.point + foot.distance * direction.
+  virtual Vector3 direction(const Foot& foot) const { return foot.normal; }
+
+  /// The point of the foot, NaN where x has none.
+  Vector3 foot(const Vector3& x) const;
+
+  /// The distance of x from its foot, NaN where it has none.
+  double signed_distance(const Vector3& x) const;
 
   /// The image of x, NaN where it has none.
   Vector3 reflect(const Vector3& x) const;
@@ -50,8 +65,9 @@ class Mirror {
 
   /// Triangles over the footprint of the object: the part of the mirror that lies between the
   /// object's points and their images. `resolution` is the number of cells along the longer side.
-  /// Throws InvalidInput without points, or where they or their feet extend over more than 1e50 or
-  /// the mesh would not be finite, InvalidParameter for a resolution out of 1 to 4096; Cancelled.
+  /// Throws InvalidInput without points, or where none has an image, they or their feet extend over
+  /// more than 1e50 or the mesh would not be finite, InvalidParameter for a resolution out of 1 to
+  /// 4096; Cancelled.
   Mesh mesh(PointsView object, int resolution = 32, const Context& context = {}) const;
   /// The same over the object in which the mirror was found.
   Mesh mesh(int resolution = 32, const Context& context = {}) const {
@@ -66,8 +82,10 @@ class Mirror {
   bool operator==(const Mirror& other) const;
 
   /// The mirror after x -> scale * rotation * x + translation.
-  virtual std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                              const Vector3& translation) const = 0;
+  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
+                                      const Vector3& translation) const {
+    return moved({scale, rotation, translation});
+  }
 
   /// Points that stand for the object in which the mirror was found; none for a mirror made by
   /// hand.
@@ -79,11 +97,21 @@ class Mirror {
   Mirror(const Mirror&) = default;
   Mirror& operator=(const Mirror&) = default;
 
-  /// False for points that are mirrored nowhere, although they have a foot.
-  virtual bool has_image(const Vector3&) const { return true; }
-  virtual Mesh mesh_over(PointsView object, int resolution, const Context& context) const = 0;
+  /// x -> scale * rotation * x + translation.
+  struct Motion {
+    double scale = 1;
+    Matrix3 rotation = Matrix3::Identity();
+    Vector3 translation = Vector3::Zero();
 
-  static Vector3 no_point();
+    Vector3 operator()(const Vector3& x) const { return scale * (rotation * x) + translation; }
+  };
+
+  /// False for points that are mirrored nowhere, although they have a foot.
+  virtual bool has_image(const Foot&) const { return true; }
+  virtual std::unique_ptr<Mirror> moved(const Motion& by) const = 0;
+  /// The part of the mirror over at least one of its feet.
+  virtual Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                         const Context& context) const = 0;
 
  private:
   std::shared_ptr<const Points> footprint_;

@@ -7,6 +7,7 @@
 #include <symsurf/points.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,15 +34,16 @@ class Plane final : public Mirror {
   Matrix4 matrix() const;
 
   std::string_view kind() const override { return "plane"; }
-  Vector3 foot(const Vector3& x) const override { return x - signed_distance(x) * normal_; }
-  double signed_distance(const Vector3& x) const override { return normal_.dot(x) + offset_; }
+  std::optional<Foot> at(const Vector3& x) const override {
+    const double distance = normal_.dot(x) + offset_;
+    return Foot{x - distance * normal_, normal_, distance};
+  }
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   Vector3 normal_;
   double offset_;
@@ -58,18 +60,16 @@ class Sphere final : public Mirror {
   double radius() const { return radius_; }
 
   std::string_view kind() const override { return "sphere"; }
-  Vector3 foot(const Vector3& x) const override;
-  /// Positive outside; NaN at the centre.
-  double signed_distance(const Vector3& x) const override;
+  /// The distance is positive outside. None at the centre.
+  std::optional<Foot> at(const Vector3& x) const override;
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  bool has_image(const Vector3& x) const override;
-  /// The cap about the mean direction of the points that have an image.
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
+  bool has_image(const Foot& foot) const override { return foot.distance <= radius_; }
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  /// The cap about the mean direction of the feet.
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   Vector3 centre_;
   double radius_;
@@ -89,22 +89,16 @@ class Cylinder final : public Mirror {
   double radius() const { return radius_; }
 
   std::string_view kind() const override { return "cylinder"; }
-  Vector3 foot(const Vector3& x) const override;
-  /// Positive outside; NaN on the axis.
-  double signed_distance(const Vector3& x) const override;
+  /// The distance is positive outside. None on the axis.
+  std::optional<Foot> at(const Vector3& x) const override;
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  bool has_image(const Vector3& x) const override;
-  /// The shell over the angles and heights of the points that have an image.
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
-  Vector3 from_axis(const Vector3& x) const {
-    const Vector3 d = x - point_;
-    return d - d.dot(axis_) * axis_;
-  }
+  bool has_image(const Foot& foot) const override { return foot.distance <= radius_; }
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  /// The shell over the angles and heights of the feet.
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   Vector3 point_, axis_;
   double radius_;
@@ -132,19 +126,17 @@ class Quadric final : public Mirror {
 
   std::string_view kind() const override { return "quadric"; }
   /// The closest point: y = (I + 2 l A)^-1 (x - l b) for the one l with f(y) = 0 between the poles
-  /// on either side of 0. NaN where there is none: on the inner focal set, or without real points.
-  Vector3 foot(const Vector3& x) const override;
-  /// Positive where f is.
-  double signed_distance(const Vector3& x) const override;
+  /// on either side of 0, its distance positive where f is. None on the inner focal set, or without
+  /// real points.
+  std::optional<Foot> at(const Vector3& x) const override;
   /// "matrix" (3 x 3), "linear", "constant"; about a point near the object "origin", "gradient" and
   /// "value". One made from numbers with the latter is made from those.
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   // Far from the coordinates' own origin the terms cancel.
   Vector3 origin_ = Vector3::Zero();
@@ -193,39 +185,35 @@ class SurfaceMirror final : public Mirror {
   const Surface& surface() const { return surface_; }
   Mapping mapping() const { return mapping_; }
   /// The direction of mapping of a fixed one: the surface's z axis where it stands.
-  Vector3 direction() const { return rotation_.col(2); }
+  Vector3 direction() const { return placed_.rotation.col(2); }
+  Vector3 direction(const Foot& foot) const override {
+    return mapping_ == Mapping::Fixed ? direction() : foot.normal;
+  }
 
   /// The point of the graph closest to x, whatever the mapping: the nearest minimum to the best of
   /// a grid of starts, to rounding.
-  Vector3 closest(const Vector3& x) const { return position(closest_in_frame(to_frame(x))); }
+  Vector3 closest(const Vector3& x) const;
 
   /// x in the surface's frame, where the surface is z = f(x, y).
   Vector3 to_frame(const Vector3& x) const {
-    return rotation_.transpose() * (x - translation_) / scale_;
+    return placed_.rotation.transpose() * (x - placed_.translation) / placed_.scale;
   }
   /// Input units a unit of that frame.
-  double scale() const { return scale_; }
+  double scale() const { return placed_.scale; }
 
   std::string_view kind() const override { return "surface"; }
-  Vector3 foot(const Vector3& x) const override;
-  double signed_distance(const Vector3& x) const override;
+  std::optional<Foot> at(const Vector3& x) const override;
   /// "surface", "mapping", "scale", "rotation" (3 x 3) and "translation".
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
-  Vector3 foot_in_frame(const Vector3& x) const;
-  Vector3 closest_in_frame(const Vector3& x) const;
-  Vector3 position(const Vector3& x) const { return scale_ * (rotation_ * x) + translation_; }
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   const Surface& surface_;
   Mapping mapping_;
-  double scale_ = 1;
-  Matrix3 rotation_ = Matrix3::Identity();
-  Vector3 translation_ = Vector3::Zero();
+  Motion placed_;  // from its own frame
 };
 
 class HeightInterpolant;
@@ -247,21 +235,20 @@ class HeightField final : public Mirror {
   HeightField(const Vector3& direction, Points nodes, const Context& context = {});
 
   const Vector3& direction() const { return direction_; }
+  Vector3 direction(const Foot&) const override { return direction_; }
   const Points& nodes() const { return *nodes_; }
 
   std::string_view kind() const override { return "height field"; }
-  Vector3 foot(const Vector3& x) const override { return x - signed_distance(x) * direction_; }
-  double signed_distance(const Vector3& x) const override;
+  std::optional<Foot> at(const Vector3& x) const override;
   /// The unit normal at the foot of x, on the side that the direction points to.
   Vector3 normal(const Vector3& x) const;
   /// "direction", and "nodes" as m x 3.
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
  private:
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   Vector3 direction_;
   std::shared_ptr<const Points> nodes_;
@@ -294,14 +281,11 @@ class FreeForm final : public Mirror {
   const std::vector<Patch>& patches() const;
 
   std::string_view kind() const override { return "free-form"; }
-  Vector3 foot(const Vector3& x) const override;
-  double signed_distance(const Vector3& x) const override;
+  std::optional<Foot> at(const Vector3& x) const override;
   /// "centres", "tangents", "normals" (k x 3 each), "heights" (k x 6) and "radii" (k x 1).
   Values numbers() const override;
-  std::unique_ptr<Mirror> transformed(double scale, const Matrix3& rotation,
-                                      const Vector3& translation) const override;
-  using Mirror::signed_distance;
 
+  using Mirror::foot;
   /// The foot of x and the mirror's unit normal there, to a precision relative to the patches'
   /// size; false where x has no foot.
   bool foot(const Vector3& x, double precision, Vector3& foot, Vector3& normal) const;
@@ -309,7 +293,9 @@ class FreeForm final : public Mirror {
  private:
   struct Blend;
 
-  Mesh mesh_over(PointsView object, int resolution, const Context& context) const override;
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
 
   std::shared_ptr<const Blend> blend_;
 };
