@@ -35,7 +35,7 @@ class GaussNewton {
   std::pair<Map, double> taken(const Map& map) const {
     const Hessian damped =
         hessian_ + Hessian((Map::ridge * hessian_.trace() + 1e-300) * Hessian::Identity());
-    return map.stepped(solved<size>(damped, -gradient_));
+    return map.stepped(solved(damped, Change(-gradient_)));
   }
 
  private:
