@@ -40,8 +40,10 @@ template <typename Shape>
 Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map,
                                     Candidate<Shape> candidate, double widest, double narrowest,
                                     int steps, Index stride, double contradiction) {
-  candidate.shape = symsurf::fitted(candidate.shape, PatchMatcher(surfels, map, stride),
-                                    {widest, narrowest, steps});
+  const PatchMatcher patches(surfels, map, stride);
+  candidate.shape = fitted(std::vector<Shape>{candidate.shape}, patches, {widest, narrowest, steps},
+                           patches.kernel())
+                        .maps.front();
   candidate.support =
       support_share(surfels, map, candidate.shape, narrowest, stride, contradiction);
   return candidate;

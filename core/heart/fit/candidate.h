@@ -77,7 +77,7 @@ class PatchMatcher {
       : surfels_(surfels), map_(map), stride_(stride) {}
 
   double spacing() const { return surfels_.spacing(); }
-  double along_surface() const { return 0.08; }
+  SurfaceKernel kernel() const { return {spacing(), 0.08}; }
 
   template <typename Map>
   std::vector<Match> matches(const std::vector<Map>& maps, double /*limit*/) const {
@@ -141,52 +141,52 @@ std::vector<Candidate<Shape>> best_of_each_size(std::vector<Shape> hypotheses, c
   return candidates;
 }
 
-/// Where the same points, or some of them, stand on both sides, the gaps between images and the
-/// points nearest to them all but vanish at the true mirror, while by chance a tenth of all images
-/// comes within a fifth of the spacing at best: converges on them to rounding. None where there are
-/// no such points. The shape, the positions of the points that are looked at and the spacing are in
-/// the principal frame.
+/// Points of the cloud, in the principal frame, and the nearest of all to their images.
+class PointMatcher {
+ public:
+  PointMatcher(const std::vector<Vector3>& positions, const NearestPoints& points,
+               const PrincipalFrame& frame, double spacing)
+      : positions_(positions), points_(points), frame_(frame), spacing_(spacing) {}
+
+  double spacing() const { return spacing_; }
+
+  template <typename Map>
+  std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
+    std::vector<Match> found;
+    std::vector<Vector3> images;
+    for (const Vector3& x : positions_) {
+      const Vector3 image = maps.front().reflect(x);
+      if (!image.allFinite()) continue;
+      found.push_back({x, {}, x, {}});
+      images.push_back(frame_.from_frame(image));
+    }
+    const std::vector<Vector3> partners = points_.nearest(images, limit * frame_.size);
+    for (std::size_t i = 0; i < found.size(); ++i) found[i].partner = frame_.to_frame(partners[i]);
+    std::erase_if(found, [](const Match& match) { return !match.partner.allFinite(); });
+    return found;
+  }
+
+ private:
+  const std::vector<Vector3>& positions_;
+  const NearestPoints& points_;
+  const PrincipalFrame& frame_;
+  double spacing_;
+};
+
+/// Where the same points, or some of them, stand on both sides: converges on them to rounding. None
+/// where there are no such points. The shape, the positions of the points that are looked at and
+/// the spacing are in the principal frame.
 template <typename Shape>
-std::optional<Shape> fitted_to_exact_pairs(Shape shape, const std::vector<Vector3>& positions,
+std::optional<Shape> fitted_to_exact_pairs(const Shape& shape,
+                                           const std::vector<Vector3>& positions,
                                            const NearestPoints& points, const PrincipalFrame& frame,
                                            double spacing) {
-  constexpr int steps = 16;
-  constexpr double worth_trying = 0.12, exact = 0.01;  // of the spacing
-  struct Gap {
-    Vector3 position, vector;
-  };
-  double typical = 0;
-  for (int step = 0; step < steps; ++step) {
-    std::vector<Vector3> moved_points, images;
-    for (const Vector3& x : positions) {
-      // What lies on the mirror has itself for a partner.
-      const Vector3 image = shape.reflect(x);
-      if (!image.allFinite() || displaced(shape.distance(x), spacing) < 1) continue;
-      moved_points.push_back(x);
-      images.push_back(frame.from_frame(image));
-    }
-    const std::vector<Vector3> partners = points.nearest(images, spacing * frame.size);
-    std::vector<Gap> gaps;
-    std::vector<double> lengths;
-    for (std::size_t i = 0; i < partners.size(); ++i) {
-      if (!partners[i].allFinite()) continue;
-      const Vector3& x = moved_points[i];
-      gaps.push_back({x, shape.reflect(x) - frame.to_frame(partners[i])});
-      lengths.push_back(gaps.back().vector.norm());
-    }
-    if (gaps.size() < 10) return std::nullopt;
-    typical = quantile(std::move(lengths), 0.1);
-    if (typical > worth_trying * spacing) return std::nullopt;
-    GaussNewton<Shape> sum;
-    for (const Gap& gap : gaps)
-      if (gap.vector.norm() <= 3 * typical)
-        sum.add(shape, gap.position, gap.vector, Metric{1, 0, Vector3::Zero()}, 1);
-    double moved;
-    std::tie(shape, moved) = sum.taken(shape);
-    if (moved < 1e-15) break;
-  }
-  if (typical >= exact * spacing) return std::nullopt;
-  return shape;
+  constexpr double exact = 0.03, rounding = 1e-15;  // exact: of the spacing
+  const auto [shapes, tolerance] =
+      fitted(std::vector<Shape>{shape}, PointMatcher(positions, points, frame, spacing),
+             {spacing, rounding, 16, rounding}, PartnerKernel{spacing});
+  if (tolerance >= exact * spacing) return std::nullopt;
+  return shapes.front();
 }
 
 /// Mirrors that map one surfel of a pair onto the other, normals included. A pair fixes a point of

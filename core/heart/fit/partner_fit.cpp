@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "base/math.h"
 #include "fit/shapes.h"
@@ -86,45 +85,31 @@ std::vector<std::vector<PartnerFit::Chord>> PartnerFit::chords(const UnitSphere&
   return found;
 }
 
-std::vector<PartnerFit::Correspondence> PartnerFit::correspondences(const UnitSphere& sphere,
-                                                                    Index wanted, double reach,
-                                                                    Index* asked) const {
+std::vector<Vector3> PartnerFit::positions(Index wanted) const {
   // In runs along the tree's order, whose images are close as well.
   constexpr Index run = 8;  // points
   const Index n = tree_.size(), runs = (std::min(n, wanted) + run - 1) / run;
-  std::vector<Vector3> positions, images, queries;
-  Index moved_points = 0;
+  std::vector<Vector3> found;
   for (Index k = 0; k < runs * run; ++k) {
     const Index p = k / run * std::max<Index>(0, n - run) / std::max<Index>(1, runs - 1) + k % run;
     if (p >= n) break;
-    const Vector3 x = cloud_.frame.to_frame(cloud_.points[tree_.order()[p]]);
-    if (displaced(sphere.distance(x), spacing_) < 1) continue;
-    const Vector3 image = sphere.reflect(x);
-    ++moved_points;
-    if (!image.allFinite()) continue;
-    positions.push_back(x);
-    images.push_back(image);
-    queries.push_back(cloud_.frame.from_frame(image));
+    found.push_back(cloud_.frame.to_frame(cloud_.points[tree_.order()[p]]));
   }
-  if (asked) *asked = moved_points;
-  const std::vector<Vector3> nearest = points_.nearest(queries, reach * cloud_.frame.size);
-  std::vector<Correspondence> found;
-  for (std::size_t k = 0; k < nearest.size(); ++k)
-    if (nearest[k].allFinite())
-      found.push_back({positions[k], images[k] - cloud_.frame.to_frame(nearest[k])});
   return found;
 }
 
-// Of the points looked at, so that a mirror that hardly moves any is worth little.
-Index PartnerFit::at_least_a_quarter(Index asked, Index wanted) const {
-  return std::max({asked, std::min(wanted, tree_.size()) / 4, Index{1}});
-}
-
+// Out of at least a quarter of the points looked at: a mirror that hardly moves any is worth
+// little.
 double PartnerFit::paired_share(const UnitSphere& sphere, Index wanted) const {
-  Index asked;
-  const double hits =
-      static_cast<double>(correspondences(sphere, wanted, paired * spacing_, &asked).size());
-  return hits / static_cast<double>(at_least_a_quarter(asked, wanted));
+  std::vector<Vector3> moved_points;
+  for (const Vector3& x : positions(wanted))
+    if (displaced(sphere.distance(x), spacing_) >= 1) moved_points.push_back(x);
+  const PointMatcher matcher(moved_points, points_, cloud_.frame, spacing_);
+  const std::size_t hits =
+      matcher.matches(std::vector<UnitSphere>{sphere}, paired * spacing_).size();
+  const auto asked = static_cast<Index>(moved_points.size());
+  return static_cast<double>(hits) /
+         static_cast<double>(std::max({asked, std::min(wanted, tree_.size()) / 4, Index{1}}));
 }
 
 Points PartnerFit::unpaired_points(const UnitSphere& sphere) const {
@@ -143,25 +128,14 @@ Points PartnerFit::unpaired_points(const UnitSphere& sphere) const {
   return rest;
 }
 
-UnitSphere PartnerFit::refined(UnitSphere sphere, Index most) const {
-  constexpr int steps = 12;
-  double reach = 0.75 * spacing_;
-  for (int step = 0; step < steps; ++step) {
-    GaussNewton<UnitSphere> sum;
-    std::vector<double> gaps;
-    for (const Correspondence& pair : correspondences(sphere, most, reach)) {
-      const double gap = pair.gap.norm();
-      gaps.push_back(gap);
-      sum.add(sphere, pair.position, pair.gap, Metric{1, 0, Vector3::Zero()},
-              biweight(gap / reach));
-    }
-    if (gaps.size() < 10) break;
-    double moved;
-    std::tie(sphere, moved) = sum.taken(sphere);
-    if (moved < 1e-15) break;
-    reach = std::clamp(3 * median(std::move(gaps)), exact * spacing_, 0.75 * spacing_);
-  }
-  return sphere;
+UnitSphere PartnerFit::refined(const UnitSphere& sphere, Index most) const {
+  constexpr double rounding = 1e-15;
+  const std::vector<Vector3> looked_at = positions(most);
+  return fitted(std::vector<UnitSphere>{sphere},
+                PointMatcher(looked_at, points_, cloud_.frame, spacing_),
+                {0.75 * spacing_, exact * spacing_, 12, rounding},
+                PartnerKernel{spacing_, 0.5, infinity})
+      .maps.front();
 }
 
 }  // namespace symsurf

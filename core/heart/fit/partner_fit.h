@@ -27,24 +27,19 @@ class PartnerFit {
   SphereCandidate operator()(const SphereCandidate& start) const;
 
   /// The same sphere on up to `most` of the points, to rounding where partners are exact.
-  UnitSphere refined(UnitSphere sphere, Index most) const;
+  UnitSphere refined(const UnitSphere& sphere, Index most) const;
 
   /// The points, in input units, whose images have no point near them.
   Points unpaired_points(const UnitSphere& sphere) const;
 
  private:
-  struct Correspondence {
-    Vector3 position, gap;  // gap: from the nearest point to the image
-  };
   /// A point and one that may be its partner.
   struct Chord {
     Vector3 middle, along;  // along: as the sphere's normal
   };
 
   std::vector<std::vector<Chord>> chords(const UnitSphere& sphere) const;
-  std::vector<Correspondence> correspondences(const UnitSphere& sphere, Index wanted, double reach,
-                                              Index* asked = nullptr) const;
-  Index at_least_a_quarter(Index asked, Index wanted) const;
+  std::vector<Vector3> positions(Index wanted) const;
   double paired_share(const UnitSphere& sphere, Index wanted) const;
 
   const Cloud& cloud_;

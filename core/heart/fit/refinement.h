@@ -88,7 +88,6 @@ class Refinement {
     Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
 
     double spacing() const { return cloud_.spacing_; }
-    double along_surface() const { return 0.01; }
     template <typename Map>
     std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
       return cloud_.matches(maps, limit, stride_);
@@ -168,7 +167,8 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
 template <typename Map>
 std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit) const {
   return symsurf::fitted(maps, Matching(*this, stride_for(fit.samples)),
-                         {fit.tolerance, fit.narrowest, fit.steps});
+                         {fit.tolerance, fit.narrowest, fit.steps}, SurfaceKernel{spacing_, 0.01})
+      .maps;
 }
 
 }  // namespace symsurf

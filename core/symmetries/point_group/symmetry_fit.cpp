@@ -79,7 +79,9 @@ GroupPose SymmetryFit::roughly(const GroupPose& pose, const std::vector<Matrix3>
   constexpr std::size_t looked = 600;
   const std::size_t stride = std::max<std::size_t>(1, elements.size() * coarse_.size() / looked);
   const PatchMatcher patches(coarse_, map_, static_cast<Index>(stride));
-  return fitted(posed(pose, elements), patches, {0.06, 0.015, 6}).front().pose();
+  return fitted(posed(pose, elements), patches, {0.06, 0.015, 6}, patches.kernel())
+      .maps.front()
+      .pose();
 }
 
 GroupPose SymmetryFit::closely(const GroupPose& pose, const std::vector<Matrix3>& elements,
