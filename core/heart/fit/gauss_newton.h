@@ -22,10 +22,13 @@ class GaussNewton {
   void add(const Map& map, const Vector3& x, const Vector3& gap, const Metric& metric,
            double weight) {
     const Eigen::Matrix<double, 3, size> slopes = map.slopes(x);
-    Eigen::Matrix<double, 3, size> weighted = weight * metric.isotropic * slopes;
-    weighted += weight * metric.off_surface * metric.normal * (metric.normal.transpose() * slopes);
-    hessian_.noalias() += slopes.transpose() * weighted;
-    gradient_.noalias() += weighted.transpose() * gap;
+    const Change across = slopes.transpose() * metric.normal;
+    const double off = weight * metric.off_surface, all = weight * metric.isotropic;
+    hessian_.noalias() += off * across * across.transpose();
+    gradient_ += off * metric.normal.dot(gap) * across;
+    if (all == 0) return;
+    hessian_.noalias() += all * (slopes.transpose() * slopes);
+    gradient_.noalias() += all * (slopes.transpose() * gap);
   }
 
   const Hessian& hessian() const { return hessian_; }

@@ -3,31 +3,58 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "fit/fitted.h"
 
 namespace symsurf {
 
 namespace {
 
-using Vector7 = Eigen::Vector<double, 7>;
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
-
 // Between the normals of an image and of its partner: those of a dozen noisy points differ by some
 // 20 degrees.
 constexpr double least_cosine = 0.8;
 
-// The motion of a turn about a pivot, times the extent, and a shift.
-Eigen::Affine3d moved(const Eigen::Vector<double, 6>& by, double extent, const Vector3& pivot) {
-  constexpr double most = 0.2;  // radians
-  const Vector3 turn = by.head<3>() / extent;
-  const double angle = std::min(turn.norm(), most);
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  if (angle > 0) motion.linear() = Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix();
-  motion.translation() = pivot + by.tail<3>() - motion.linear() * pivot;
-  return motion;
-}
+// A motion of a patch, or a similarity: turned and scaled about where it takes the patch's middle.
+struct PatchMap {
+  using Change = Eigen::Vector<double, 7>;  // a turn, a shift, a scale; all but the shift by lever
+
+  Vector3 reflect(const Vector3& x) const { return map * x; }
+
+  Eigen::Matrix<double, 3, 7> slopes(const Vector3& x) const {
+    const Vector3 arm = map.linear() * (x - middle) / lever;
+    Eigen::Matrix<double, 3, 7> slopes;
+    slopes << 0, arm.z(), -arm.y(), 1, 0, 0, scales * arm.x(),  //
+        -arm.z(), 0, arm.x(), 0, 1, 0, scales * arm.y(),        //
+        arm.y(), -arm.x(), 0, 0, 0, 1, scales * arm.z();
+    return slopes;
+  }
+
+  // What moves the images by a change.
+  Eigen::Affine3d motion(const Change& by) const {
+    constexpr double most = 0.2;  // radians
+    const Vector3 turn = by.head<3>() / lever, pivot = map * middle;
+    const double scale = std::clamp(1 + by[6] / lever, 0.8, 1.25);
+    return Eigen::Translation3d(pivot + by.segment<3>(3)) *
+           Eigen::AngleAxisd(std::min(turn.norm(), most), turn.stableNormalized()) *
+           Eigen::Scaling(scale) * Eigen::Translation3d(-pivot);
+  }
+
+  std::pair<PatchMap, double> stepped(const Change& by) const {
+    PatchMap next = *this;
+    next.map = motion(by) * map;
+    return {next, by.norm()};
+  }
+  void follow(const PatchMap& moved) { *this = moved; }
+  static constexpr double ridge = 5e-5;  // what the patch leaves free stays as it is
+
+  Eigen::Affine3d map;
+  Vector3 middle;  // of the patch
+  double lever;    // its extent
+  bool scales;
+};
 
 // How far along the surface the partner may lie, in spacings: beyond, the image is past a rim.
 constexpr double past_rim = 1.3;
@@ -78,22 +105,22 @@ double SurfaceFit::share(const Eigen::Affine3d& map, const std::vector<Index>& p
          static_cast<double>(points.size());
 }
 
-double SurfaceFit::hold(const Fit& fit, const std::vector<Index>& points, double tolerance,
-                        int slides) const {
-  const auto agree = [&](const Eigen::Affine3d& map, Index i) {
-    return landing(map, i, tolerance).agrees;
+double SurfaceFit::hold(const Eigen::Affine3d& map, const std::vector<Index>& points,
+                        double tolerance, int slides) const {
+  const auto agree = [&](const Eigen::Affine3d& other, Index i) {
+    return landing(other, i, tolerance).agrees;
   };
   // Where a bar is as thick as one of the slides, its sides change places.
   std::vector<Eigen::Affine3d> there(slides), back(slides);
-  Eigen::Affine3d slide = fit.slide;
+  Eigen::Affine3d slide = loosest(map, points, tolerance);
   for (int k = 0; k < slides; ++k, slide = slide * slide) {
-    there[k] = slide * fit.map;
-    back[k] = slide.inverse() * fit.map;
+    there[k] = slide * map;
+    back[k] = slide.inverse() * map;
   }
   Index agreeing = 0;
   std::vector<Index> held(slides, 0);
   for (const Index i : points) {
-    if (!agree(fit.map, i)) continue;
+    if (!agree(map, i)) continue;
     ++agreeing;
     for (int k = 0; k < slides; ++k)
       if (!agree(there[k], i) && !agree(back[k], i)) ++held[k];
@@ -102,52 +129,79 @@ double SurfaceFit::hold(const Fit& fit, const std::vector<Index>& points, double
   return agreeing > 0 ? static_cast<double>(most) / static_cast<double>(agreeing) : 0;
 }
 
-SurfaceFit::Fit SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vector<Index>& points,
-                                   double tolerance, int steps) const {
-  const SurfacePoints& all = surface_.points();
-  Fit fit{start};
-  const Vector3 mean = centroid(all, points);
-  double extent = 0;
-  for (const Index i : points) extent += (all.point(i) - mean).squaredNorm();
-  extent = std::sqrt(extent / static_cast<double>(points.size()));
-  if (!(extent > 0)) return fit;
-  for (int step = 0; step < steps; ++step) {
-    const Vector3 pivot = fit.map * mean;
-    Matrix7 products = Matrix7::Zero();
-    Vector7 pull = Vector7::Zero();
-    double weights = 0;
+namespace {
+
+// What the images of some points of a surface find there.
+struct PatchMatcher {
+  const SurfaceFit& fit;
+  const std::vector<Index>& points;
+  double tolerance;
+
+  double spacing() const { return fit.surface().spacing(); }
+
+  std::vector<Match> matches(const std::vector<PatchMap>& maps, double /*limit*/) const {
+    const SurfacePoints& all = fit.surface().points();
+    std::vector<Match> found;
     for (const Index i : points) {
-      const Landing landing = this->landing(fit.map, i, tolerance);
-      if (!landing.agrees) continue;
-      const double weight = biweight(std::abs(landing.off) / tolerance);
-      const Vector3 normal = all.normal(landing.partner),
-                    arm = (fit.map * all.point(i) - pivot) / extent;
-      Vector7 by;
-      by << arm.cross(normal), normal, scales_ ? arm.dot(normal) : 0.0;
-      products += weight * by * by.transpose();
-      pull += weight * landing.off * by;
-      weights += weight;
+      const SurfaceFit::Landing landing = fit.landing(maps.front().map, i, tolerance);
+      if (landing.agrees)
+        found.push_back(
+            {all.point(i), {}, all.point(landing.partner), {all.normal(landing.partner), 1}});
     }
-    if (!(weights > 0)) return {fit.map};
-    products /= weights;
-    pull /= weights;
-    if (step + 1 == steps) {
-      // Slippage analysis (Gelfand and Guibas 2004).
-      const auto stiffness = eigen_of(Eigen::MatrixXd(products.topLeftCorner<6, 6>()));
-      constexpr double far = 3;  // tolerances
-      fit.slide = moved(far * tolerance * stiffness.vectors.col(0), extent, pivot);
-    }
-    // What the patch leaves free stays as it is.
-    constexpr double ridge = 1e-4;
-    products.diagonal().array() += ridge;
-    const Vector7 move = -solved(products, pull);
-    Eigen::Affine3d change = moved(move.head<6>(), extent, pivot);
-    const double scale = std::clamp(1 + move[6] / extent, 0.8, 1.25);
-    change =
-        change * Eigen::Translation3d(pivot) * Eigen::Scaling(scale) * Eigen::Translation3d(-pivot);
-    fit.map = change * fit.map;
+    return found;
   }
-  return fit;
+};
+
+// Distances from the partners' planes (Chen and Medioni 1992), within a tolerance that stays.
+struct PlaneKernel {
+  Counted operator()(const PatchMap&, const Match& match, const Vector3& off,
+                     double tolerance) const {
+    const Vector3& normal = match.partner_facet.normal;
+    const double residual = std::abs(off.dot(normal)) / tolerance;
+    return {Metric{0, 1, normal}, biweight(residual), residual};
+  }
+  double narrowed(double tolerance, const std::vector<Counted>& counted) const {
+    return counted.empty() ? -1 : tolerance;
+  }
+};
+
+PatchMap map_of(const SurfacePoints& all, const Eigen::Affine3d& map,
+                const std::vector<Index>& points, bool scales) {
+  const Vector3 middle = centroid(all, points);
+  double squares = 0;
+  for (const Index i : points) squares += (all.point(i) - middle).squaredNorm();
+  return {map, middle, std::sqrt(squares / static_cast<double>(points.size())), scales};
+}
+
+}  // namespace
+
+Eigen::Affine3d SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vector<Index>& points,
+                                   double tolerance, int steps) const {
+  const PatchMap map = map_of(surface_.points(), start, points, scales_);
+  if (!(map.lever > 0)) return start;
+  return symsurf::fitted(std::vector<PatchMap>{map}, PatchMatcher{*this, points, tolerance},
+                         {tolerance, tolerance, steps}, PlaneKernel())
+      .maps.front()
+      .map;
+}
+
+// Slippage analysis (Gelfand and Guibas 2004).
+Eigen::Affine3d SurfaceFit::loosest(const Eigen::Affine3d& map, const std::vector<Index>& points,
+                                    double tolerance) const {
+  const PatchMap posed = map_of(surface_.points(), map, points, false);
+  if (!(posed.lever > 0)) return Eigen::Affine3d::Identity();
+  GaussNewton<PatchMap> sum;
+  const PatchMatcher matcher{*this, points, tolerance};
+  for (const Match& match : matcher.matches({posed}, tolerance)) {
+    const Counted one =
+        PlaneKernel()(posed, match, posed.reflect(match.point) - match.partner, tolerance);
+    sum.add(posed, match.point, Vector3::Zero(), one.metric, one.weight);
+  }
+  constexpr double far = 3;  // tolerances
+  PatchMap::Change slide = PatchMap::Change::Zero();
+  slide.head<6>() = far * tolerance *
+                    eigen_of(Eigen::MatrixXd(sum.hessian().topLeftCorner<6, 6>())).vectors.col(0);
+  return posed.motion(slide);
 }
 
 double SurfaceFit::mean_square(const Eigen::Affine3d& map, const std::vector<Index>& points,
@@ -177,7 +231,7 @@ Eigen::Affine3d SurfaceFit::simplest(const Eigen::Affine3d& map, const std::vect
     return squares < static_cast<double>(points.size()) * spacing * spacing;
   };
   for (int step = 0; step < 3 && is_near(); ++step)
-    plainer = plain(fitted(plainer, points, tolerance, 1).map, middle);
+    plainer = plain(fitted(plainer, points, tolerance, 1), middle);
   const bool fits = is_near() && mean_square(plainer, points, tolerance) <=
                                      as_well * mean_square(map, points, tolerance) + rounding;
   return fits ? plainer : map;
@@ -218,7 +272,7 @@ std::optional<PatchPair> PatchGrowth::grown(const Eigen::Affine3d& map,
   PatchPair pair;
   pair.map = map;
   for (const double width : {wide, 2.0, 1.5})
-    pair.map = fit_.fitted(pair.map, seeds, width * tolerance_, 2).map;
+    pair.map = fit_.fitted(pair.map, seeds, width * tolerance_, 2);
   if (fit_.share(pair.map, seeds, tolerance_) < most_of_seeds) return {};
   constexpr int rounds = 8, last_steps = 4, slides = 2;
   for (int round = 0; round < rounds; ++round) {
@@ -226,14 +280,14 @@ std::optional<PatchPair> PatchGrowth::grown(const Eigen::Affine3d& map,
     const std::size_t before = pair.from.size();
     pair.from = agreeing(pair.map, round == 0 ? seeds : pair.from);
     if (pair.from.empty()) return {};
-    pair.map = fit_.fitted(pair.map, pair.from, tolerance_, 2).map;
+    pair.map = fit_.fitted(pair.map, pair.from, tolerance_, 2);
     constexpr double grows = 1.02;
     if (static_cast<double>(pair.from.size()) < grows * static_cast<double>(before)) break;
   }
   if (static_cast<Index>(pair.from.size()) < least) return {};
-  const SurfaceFit::Fit last = fit_.fitted(pair.map, pair.from, tolerance_, last_steps);
+  const Eigen::Affine3d last = fit_.fitted(pair.map, pair.from, tolerance_, last_steps);
   pair.hold = fit_.hold(last, pair.from, tolerance_, slides);
-  pair.map = fit_.simplest(last.map, pair.from, tolerance_);
+  pair.map = fit_.simplest(last, pair.from, tolerance_);
   score(pair);
   return pair;
 }

@@ -28,25 +28,24 @@ class SurfaceFit {
   double share(const Eigen::Affine3d& map, const std::vector<Index>& points,
                double tolerance) const;
 
-  struct Fit {
-    Eigen::Affine3d map;
-    /// The motion of the images that the surface resists least, by a few tolerances.
-    Eigen::Affine3d slide = Eigen::Affine3d::Identity();
-  };
   /// The map after some Gauss-Newton steps on these points.
-  Fit fitted(const Eigen::Affine3d& start, const std::vector<Index>& points, double tolerance,
-             int steps) const;
+  Eigen::Affine3d fitted(const Eigen::Affine3d& start, const std::vector<Index>& points,
+                         double tolerance, int steps) const;
 
   /// The share of these points that come off the surface whichever way their images slide: next to
   /// none of planes, balls, edges and bars, which slide on themselves. The most of so many slides,
   /// each twice as long as the one before.
-  double hold(const Fit& fit, const std::vector<Index>& points, double tolerance, int slides) const;
+  double hold(const Eigen::Affine3d& map, const std::vector<Index>& points, double tolerance,
+              int slides) const;
 
   /// A translation or reflection in place of a motion or glide that fits these points no better.
   Eigen::Affine3d simplest(const Eigen::Affine3d& map, const std::vector<Index>& points,
                            double tolerance) const;
 
  private:
+  // The motion of the images that the surface resists least, by a few tolerances.
+  Eigen::Affine3d loosest(const Eigen::Affine3d& map, const std::vector<Index>& points,
+                          double tolerance) const;
   double mean_square(const Eigen::Affine3d& map, const std::vector<Index>& points,
                      double tolerance) const;
 

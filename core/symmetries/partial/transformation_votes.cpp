@@ -209,10 +209,8 @@ class VoteCheck {
     constexpr Index grain = 64;
     parallel_for(context, size, grain, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
-        const double tolerance = surface_.tolerance();
-        const std::vector<Index> points = about(i);
-        const SurfaceFit::Fit fit = fit_.fitted(Eigen::Affine3d::Identity(), points, tolerance, 1);
-        held[i] = fit_.hold(fit, points, tolerance, slides) > least_vote_hold;
+        held[i] = fit_.hold(Eigen::Affine3d::Identity(), about(i), surface_.tolerance(), slides) >
+                  least_vote_hold;
       }
     });
     std::vector<Index> found;
@@ -227,13 +225,12 @@ class VoteCheck {
     const double tolerance = surface_.tolerance();
     const std::vector<Index> first(about.begin(), about.begin() + std::ssize(about) / early);
     if (fit_.share(vote.map, first, wide * tolerance) < half) return {};
-    vote.map = fit_.fitted(vote.map, about, wide * tolerance, 2).map;
+    vote.map = fit_.fitted(vote.map, about, wide * tolerance, 2);
     if (fit_.share(vote.map, first, 2 * tolerance) < half) return {};
-    const SurfaceFit::Fit fit = fit_.fitted(vote.map, about, 2 * tolerance, 3);
-    vote.map = fit.map;
+    vote.map = fit_.fitted(vote.map, about, 2 * tolerance, 3);
     const double agreeing = fit_.share(vote.map, about, tolerance);
     if (agreeing < most) return {};
-    const double hold = fit_.hold(fit, about, tolerance, slides);
+    const double hold = fit_.hold(vote.map, about, tolerance, slides);
     if (hold < least_vote_hold) return {};
     vote.weight = agreeing * hold * hold;
     return vote;
