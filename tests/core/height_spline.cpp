@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "random_cloud.h"
-#include "search/bent_plane.h"
+#include "fit/bent_plane.h"
 
-namespace symsurf::perpendicular {
+namespace symsurf {
 namespace {
 
 using At = HeightSpline::At;
@@ -96,4 +96,4 @@ TEST(HeightSpline, LetsASaddleBendForNothing) {
 }
 
 }  // namespace
-}  // namespace symsurf::perpendicular
+}  // namespace symsurf

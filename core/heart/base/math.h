@@ -61,6 +61,13 @@ inline Eigen::Matrix<double, 3, 2> orthogonal_to(const Vector3& direction) {
   return across;
 }
 
+/// The rotation whose last row is the unit normal.
+inline Matrix3 frame_of(const Vector3& normal) {
+  Matrix3 frame;
+  frame << orthogonal_to(normal).transpose(), normal.transpose();
+  return frame;
+}
+
 /// The value with `share`, 0 <= share < 1, of the values before it in order; of at least one value.
 template <typename T>
 T quantile(std::vector<T> values, double share) {

@@ -47,12 +47,6 @@ SYMSURF_VECTORISED void add_weighted(const double* products, const double* weigh
 
 }  // namespace
 
-Matrix3 frame_of(const Vector3& normal) {
-  Matrix3 frame;
-  frame << orthogonal_to(normal).transpose(), normal.transpose();
-  return frame;
-}
-
 double closeness(const Carried& c, double spacing) {
   constexpr double across_scale = 0.3, angle_scale = 0.3, exact_scale = 0.2, exact_share = 0.3;
   const double across = c.miss.dot(c.partner_normal) / (across_scale * spacing);

@@ -38,9 +38,6 @@ struct FitWeights {
 bool fit_patch(const Vector3& centre, const Vector3& normal, const std::vector<Carried>& data,
                const FitWeights& weights, Patch& patch);
 
-/// A frame whose third row is the normal.
-Matrix3 frame_of(const Vector3& normal);
-
 /// The foot of x on one patch and the normal there; false where it leaves the patch's reach.
 bool patch_foot(const Patch& patch, const Vector3& x, Vector3& foot, Vector3& normal);
 

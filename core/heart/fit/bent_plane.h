@@ -8,10 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "search/free_form_refinement.h"
-#include "search/search_cloud.h"
+#include "cloud/surface_points.h"
 
-namespace symsurf::perpendicular {
+namespace symsurf {
 
 /// Heights over a rectangle of a plane: a uniform bicubic B-spline (de Boor, "A Practical Guide to
 /// Splines").
@@ -77,7 +76,7 @@ class HeightSpline {
 class BentPlane {
  public:
   /// Through a point of the plane, as wide as the cloud. The cloud must outlive it.
-  BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal);
+  BentPlane(const SurfacePoints& cloud, const Vector3& point, const Vector3& normal);
 
   /// One Gauss-Newton step on the points of every `stride`-th position of the tree's order: images
   /// are drawn to the tangent planes of their partners, against the variation of curvature times
@@ -115,7 +114,7 @@ class BentPlane {
   Neighbour partner_of(const Vector3& image, const Vector3& normal, double tolerance, double reach);
   std::optional<Equation> equation_of(Index i, double tolerance);
 
-  const SearchCloud* cloud_;
+  const SurfacePoints* cloud_;
   Vector3 origin_;
   Matrix3 axes_;  // rows: two along the plane and its normal
   HeightSpline heights_;
@@ -125,16 +124,4 @@ class BentPlane {
   std::vector<Neighbour> near_;  // of the last image
 };
 
-/// Adds the planes that map the whole cloud onto itself, of which a thinned cloud does not have the
-/// partners. False: there are none.
-bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
-                      std::vector<GrownSurface>& surfaces, const Context& context);
-
-/// Adds the surfaces that the best mirror planes and the principal planes of the cloud become when
-/// they are bent until they mirror it. Unlike surfaces that grow they need no partners that stand
-/// close to the images, and take hold of what both sides have in common by and by; but they have to
-/// be within reach of a plane.
-void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
-                 const Context& context);
-
-}  // namespace symsurf::perpendicular
+}  // namespace symsurf

@@ -1,4 +1,4 @@
-#include "search/bent_plane.h"
+#include "fit/bent_plane.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,11 +7,8 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
-#include "cloud/exact_isometries.h"
-#include "search/free_form_refinement.h"
-#include "search/plane.h"
 
-namespace symsurf::perpendicular {
+namespace symsurf {
 
 namespace {
 
@@ -141,7 +138,7 @@ constexpr double first_cell = 0.5, margin = 0.03;  // diagonals
 At along_surface(const At& g, const At& x) { return x - g.dot(x) / (1 + g.squaredNorm()) * g; }
 
 // The box of the cloud along the plane.
-HeightSpline flat_over(const SearchCloud& cloud, const Vector3& origin, const Matrix3& axes) {
+HeightSpline flat_over(const SurfacePoints& cloud, const Vector3& origin, const Matrix3& axes) {
   At low = At::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (Index i = 0; i < cloud.size(); ++i) {
     const At at = (axes * (cloud.point(i) - origin)).head<2>();
@@ -152,7 +149,7 @@ HeightSpline flat_over(const SearchCloud& cloud, const Vector3& origin, const Ma
 }
 
 // The plane's frame turned so that the cloud extends most along its first row: fewest cells.
-Matrix3 axes_along(const SearchCloud& cloud, const Vector3& origin, const Vector3& normal) {
+Matrix3 axes_along(const SurfacePoints& cloud, const Vector3& origin, const Vector3& normal) {
   const Matrix3 frame = frame_of(normal);
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (Index i = 0; i < cloud.size(); ++i) {
@@ -169,7 +166,7 @@ Matrix3 axes_along(const SearchCloud& cloud, const Vector3& origin, const Vector
 
 }  // namespace
 
-BentPlane::BentPlane(const SearchCloud& cloud, const Vector3& point, const Vector3& normal)
+BentPlane::BentPlane(const SurfacePoints& cloud, const Vector3& point, const Vector3& normal)
     : cloud_(&cloud),
       origin_(point),
       axes_(axes_along(cloud, point, normal)),
@@ -331,147 +328,4 @@ std::shared_ptr<const FreeForm> BentPlane::free_form() const {
   return std::make_shared<FreeForm>(std::move(patches));
 }
 
-namespace {
-
-constexpr Index patches = 1000, best_planes = 6;  // of the cloud; candidates
-constexpr double alike = 0.05;                    // mirrors closer than this are one
-constexpr Index few = 600, many = 2000;           // points that planes are bent by
-constexpr std::size_t most_bent = 3;              // to the end
-constexpr double least_of_best = 0.85;            // of the best support: less is another mirror's
-constexpr double unbent = 0.997;                  // flatness of what is a plane still
-constexpr double beyond_others = 1.1;  // of their support, what planes half-way must have
-constexpr double bent_foot_precision = 1e-6;
-
-// From a stiff plane that looks far to one that bends and looks near. It is soft before it looks
-// near: a stiff one has lost the ends of a body by then. Curvature that is the same everywhere
-// costs nothing: saddles, domes and twists are found at once. Chosen on bodies of 10,000 points
-// (`make accuracy OPTIONS="--cases bodies"`).
-constexpr int stages = 18, first_stages = 6, steps_a_stage = 2;
-constexpr double widest = 0.09, narrowest = 0.01, closest = 0.8;  // diagonals; spacings
-constexpr double stiffest = 1e-3, softest = 1e-8;
-constexpr double soft_from = 0.6, looks_far = 1.5;  // share of the stages; exponent
-constexpr bool is_finer(int stage) { return stage == 4 || stage == 8; }
-
-double tolerance_at(double part) {
-  return widest * std::pow(narrowest / widest, std::pow(part, looks_far));
-}
-double stiffness_at(double part) {
-  return stiffest * std::pow(softest / stiffest, std::min(1.0, part / soft_from));
-}
-
-// Half-way between the principal planes: what twists a body turns its axes, too. Without them 3 of
-// 4 twisted bodies are right, with them all.
-std::vector<UnitPlane> half_way_planes() {
-  std::vector<UnitPlane> planes;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {1.0, -1.0})
-      planes.push_back(
-          {(Vector3::Unit(axis) + side * Vector3::Unit((axis + 1) % 3)).normalized(), 0});
-  return planes;
-}
-
-std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& context) {
-  const Surfels& surfels = cloud.patches(patches, context);
-  const SurfelMap map(surfels);
-  std::vector<PlaneCandidate> candidates =
-      candidate_planes(surfels, map, usual_search, 2 * best_planes);
-  for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
-  suppress_non_maxima(candidates, alike, best_planes);
-  for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
-  suppress_non_maxima(candidates, alike, best_planes + 3);
-  std::vector<UnitPlane> planes;
-  for (const PlaneCandidate& candidate : candidates) planes.push_back(candidate.shape);
-  return planes;
-}
-
-BentPlane laid_on(const SearchCloud& search, const Plane& plane) {
-  const Vector3 point = plane.foot(search.centroid) - search.centroid;
-  return {search, search.axes.transpose() * point / search.diagonal,
-          search.axes.transpose() * plane.normal()};
-}
-
-void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& plane) {
-  const Index stride = std::max<Index>(1, search.size() / points);
-  for (int stage = from; stage < to; ++stage) {
-    search.context.check();
-    if (is_finer(stage)) plane.subdivide();
-    const double part = stage / (stages - 1.0);
-    const double tolerance = std::max(tolerance_at(part), closest * search.spacing);
-    for (int k = 0; k < steps_a_stage; ++k) plane.step(tolerance, stiffness_at(part), stride);
-  }
-}
-
-// Whether they send points to like positions.
-bool act_alike(const SearchCloud& search, const BentPlane& a, const BentPlane& b) {
-  constexpr Index probes = 40;
-  const Index stride = std::max<Index>(1, search.size() / probes);
-  double squared = 0;
-  Index count = 0;
-  for (Index p = 0; p < search.size(); p += stride, ++count) {
-    const Vector3 x = search.point(search.tree.order()[p]);
-    squared += (a.image(x) - b.image(x)).squaredNorm();
-  }
-  return squared < alike * alike * static_cast<double>(count);
-}
-
-}  // namespace
-
-bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
-                      std::vector<GrownSurface>& surfaces, const Context& context) {
-  const std::vector<Plane> planes = exact_planes(cloud, context);
-  for (std::size_t k = 0; k < std::min(planes.size(), most_bent); ++k) {
-    GrownSurface surface;
-    surface.mirror = laid_on(search, planes[k]).free_form();
-    match(search, bent_foot_precision, surface);
-    surface.exact = surface.bent = true;
-    surface.support = 1;
-    surfaces.push_back(std::move(surface));
-  }
-  return !planes.empty();
-}
-
-void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
-                 const Context& context) {
-  std::vector<BentPlane> bent;
-  const auto bend_first = [&](const UnitPlane& plane) {
-    BentPlane one = laid_on(search, in_input_units(plane, cloud.frame));
-    bend(search, 0, first_stages, few, one);
-    return one;
-  };
-  double best = 0;
-  for (const UnitPlane& plane : candidate_mirrors(cloud, context.stage(0, 0.1))) {
-    bent.push_back(bend_first(plane));
-    best = std::max(best, bent.back().support());
-  }
-  for (const UnitPlane& plane : half_way_planes())
-    if (BentPlane one = bend_first(plane); one.support() > beyond_others * best)
-      bent.push_back(std::move(one));
-  std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
-    return a.support() > b.support();
-  });
-  suppress_non_maxima(bent, most_bent, [&](const BentPlane& a, const BentPlane& b) {
-    return act_alike(search, a, b);
-  });
-  for (std::size_t k = 0; k < bent.size(); ++k) {
-    context.stage(0.4, 1).report(static_cast<double>(k) / most_bent);
-    bend(search, first_stages, stages, many, bent[k]);
-  }
-  std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
-    return a.support() > b.support();
-  });
-  for (std::size_t k = 0; k < bent.size(); ++k) {
-    if (bent[k].support() < least_of_best * bent[0].support()) break;
-    GrownSurface surface;
-    surface.mirror = bent[k].free_form();
-    match(search, bent_foot_precision, surface);
-    if (surface.carried.size() < 6) continue;
-    // Between noisy sheets a plane explains more than what bends with them, and less truly.
-    if (flatness(surface) > unbent && !surface.exact) continue;
-    surface.support = support(search, surface);
-    surface.bent = true;
-    surfaces.push_back(std::move(surface));
-  }
-}
-
-}  // namespace symsurf::perpendicular
+}  // namespace symsurf
