@@ -16,7 +16,6 @@ constexpr Index patches = 1000, best_planes = 6;  // of the cloud; candidates
 constexpr double alike = 0.05;                    // mirrors closer than this are one
 constexpr Index few = 600, many = 2000;           // points that planes are bent by
 constexpr std::size_t most_bent = 3;              // to the end
-constexpr double least_of_best = 0.85;            // of the best support: less is another mirror's
 constexpr double unbent = 0.997;                  // flatness of what is a plane still
 constexpr double beyond_others = 1.1;  // of their support, what planes half-way must have
 constexpr double bent_foot_precision = 1e-6;
@@ -54,8 +53,6 @@ std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& cont
   const SurfelMap map(surfels);
   std::vector<PlaneCandidate> candidates =
       candidate_planes(surfels, map, usual_search, 2 * best_planes);
-  for (PlaneCandidate& candidate : candidates)
-    candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
   suppress_non_maxima(candidates, alike, best_planes);
   for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
   suppress_non_maxima(candidates, alike, best_planes + 3);
@@ -140,7 +137,6 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Grow
     return a.support() > b.support();
   });
   for (std::size_t k = 0; k < bent.size(); ++k) {
-    if (bent[k].support() < least_of_best * bent[0].support()) break;
     GrownSurface surface;
     surface.mirror = bent[k].free_form();
     match(search, bent_foot_precision, surface);

@@ -26,7 +26,6 @@ constexpr int trial_refinements = 2, first_rounds = 2;
 constexpr std::array<double, 3> seed_distances{12, 6, 3};  // spacings, the least between seeds
 constexpr double least_support = 0.3;
 constexpr double same_direction = 0.9;
-constexpr double least_expected = 0.4;  // of the best support
 constexpr double enough_support = 0.85;
 // Of the support of bent planes. On bodies of 10,000 points whose plane was bent what grows
 // supports half as much or less, on sheets two thirds or more.
@@ -91,9 +90,8 @@ double most_support(const std::vector<GrownSurface>& surfaces) {
   return most;
 }
 
-// Adds the surfaces grown from trials, each from one that no surface before mirrors, and refines
-// those that may come near the best support so far. In the order found. Gives up where the first
-// stays far behind a support that others have.
+// Adds the surfaces grown from trials, each from one that no surface before mirrors. In the order
+// found. Gives up where the first stays far behind a support that others have.
 void explore(const SearchCloud& cloud, std::vector<Growth> trials, double others,
              std::vector<GrownSurface>& surfaces, const Context& context) {
   double best = most_support(surfaces);
@@ -104,11 +102,7 @@ void explore(const SearchCloud& cloud, std::vector<Growth> trials, double others
                     [&](const GrownSurface& surface) { return known(cloud, growth, surface); }))
       continue;
     growth.grow(cloud.size());
-    // Refining a surface that mirrors far fewer points than the best does not change the result.
-    const double expected = growth.closeness() * static_cast<double>(growth.accepted().size()) /
-                            static_cast<double>(cloud.size());
     if (++grown > most_surfaces) break;
-    if (expected < least_expected * best) continue;
     GrownSurface surface;
     for (const std::int32_t i : growth.accepted()) surface.carried.push_back(growth.carried(i));
     refine(cloud, first_rounds, surface);
