@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "detection/pipeline.h"
-#include "processes/detect_shared.h"
+#include "processes/processes.h"
 #include "registry.h"
 
 namespace symsurf {

@@ -2,9 +2,9 @@
 
 #include "base/named_values.h"
 #include "homologous/homologous_points.h"
-#include "light/illuminate.h"
+#include "light/reflection_search.h"
 #include "operations/operation.h"
-#include "symmetries/turns_about_axis.h"
+#include "symmetries/analysis.h"
 
 namespace symsurf {
 

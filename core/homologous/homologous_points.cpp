@@ -7,8 +7,6 @@
 #include "base/math.h"
 #include "cloud/cloud.h"
 #include "cloud/laplacian.h"
-#include "registration.h"
-#include "vertex_table.h"
 
 namespace symsurf {
 

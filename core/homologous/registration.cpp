@@ -1,5 +1,3 @@
-#include "registration.h"
-
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
@@ -15,6 +13,7 @@
 #include "cloud/cloud.h"
 #include "cloud/laplacian.h"
 #include "cloud/point_tree.h"
+#include "homologous_points.h"
 
 namespace symsurf {
 

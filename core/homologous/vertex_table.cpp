@@ -1,5 +1,3 @@
-#include "vertex_table.h"
-
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -10,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "cloud/point_tree.h"
+#include "homologous_points.h"
 
 namespace symsurf {
 

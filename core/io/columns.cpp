@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "formats.h"
-#include "text_scanner.h"
 
 namespace symsurf {
 

@@ -10,7 +10,6 @@
 
 #include "cloud/voxel_grid.h"
 #include "formats.h"
-#include "text_scanner.h"
 
 namespace symsurf {
 

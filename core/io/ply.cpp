@@ -1,5 +1,3 @@
-#include "ply.h"
-
 #include <symsurf/context.h>
 #include <symsurf/parameter.h>
 

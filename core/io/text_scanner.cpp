@@ -1,5 +1,3 @@
-#include "text_scanner.h"
-
 #include <symsurf/context.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "from_chars.h"
+#include "formats.h"
 
 namespace symsurf {
 

@@ -1,11 +1,10 @@
-#include "illuminate.h"
-
 #include <symsurf/mirrors.h>
 
 #include <cmath>
 #include <limits>
 
 #include "cloud/triangle_mesh.h"
+#include "reflection_search.h"
 
 namespace symsurf {
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "operations/operation.h"
 
 namespace symsurf {
 
@@ -134,5 +135,7 @@ using ReflectionFinder = std::function<std::vector<SurfacePoint>(const LightPath
 /// through both ends that mirrors the quadric holds a conic of the curve, which is searched
 /// likewise, by the angle of a line through the eye.
 ReflectionFinder quadric_reflection(const Quadric& quadric, const Vector3& eye);
+
+OperationImplementation illuminate_operation();
 
 }  // namespace symsurf

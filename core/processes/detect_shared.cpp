@@ -1,5 +1,3 @@
-#include "detect_shared.h"
-
 #include <symsurf/context.h>
 #include <symsurf/point_summary.h>
 
@@ -15,8 +13,7 @@
 #include "base/linear_algebra.h"
 #include "base/parallel.h"
 #include "detection/pipeline.h"
-#include "run_on_root.h"
-#include "slabs.h"
+#include "processes.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "run_on_root.h"
-
 #include <symsurf/context.h>
 #include <symsurf/mirrors.h>
 
@@ -14,7 +12,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "slabs.h"
+#include "processes.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "slabs.h"
-
 #include <symsurf/context.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "processes.h"
 
 namespace symsurf {
 

@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "plane_iteration.h"
 #include "published.h"
 
 namespace symsurf {

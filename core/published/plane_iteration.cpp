@@ -1,5 +1,3 @@
-#include "plane_iteration.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +7,7 @@
 #include "cloud/point_tree.h"
 #include "cloud/surfels.h"
 #include "pairing/matching.h"
+#include "published.h"
 #include "score/mirror_score.h"
 
 namespace symsurf {

@@ -1,5 +1,3 @@
-#include "separation.h"
-
 #include <symsurf/context.h>
 
 #include <Eigen/Geometry>

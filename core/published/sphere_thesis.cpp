@@ -9,7 +9,6 @@
 #include "base/nelder_mead.h"
 #include "base/parallel.h"
 #include "pairing/matching.h"
-#include "plane_iteration.h"
 #include "published.h"
 
 namespace symsurf {

@@ -3,6 +3,7 @@
 #include <symsurf/analyses.h>
 
 #include "cloud/cloud.h"
+#include "operations/operation.h"
 
 // A new analysis is its own folder, a line here and a line in core/analyses.cpp.
 
@@ -36,5 +37,10 @@ void require_colours(PointsView points, const Eigen::MatrixXd& colours);
 /// a turn that is none moves nothing far.
 std::string kind_of(const Matrix4& matrix, const Vector3& centre, double angle_tolerance,
                     double length_tolerance);
+
+/// The completion with turns about an axis as well, where the parameter "symmetry" asks for them:
+/// turn after turn of what is there by then, each the least that lays most of the shape where it
+/// lacks something.
+OperationImplementation also_about_axis(OperationImplementation completion);
 
 }  // namespace symsurf

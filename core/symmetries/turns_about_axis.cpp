@@ -1,5 +1,3 @@
-#include "turns_about_axis.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis.h"
 #include "base/math.h"
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"

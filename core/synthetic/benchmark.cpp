@@ -9,8 +9,7 @@
 #include "base/math.h"
 #include "base/named_values.h"
 #include "base/random.h"
-#include "benchmark_mirror.h"
-#include "random_body.h"
+#include "generators.h"
 
 namespace symsurf {
 

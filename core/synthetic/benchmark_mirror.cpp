@@ -1,10 +1,9 @@
-#include "benchmark_mirror.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/linear_algebra.h"
+#include "generators.h"
 
 namespace symsurf {
 

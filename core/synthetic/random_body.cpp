@@ -1,10 +1,8 @@
-#include "random_body.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "benchmark_mirror.h"
+#include "generators.h"
 
 namespace symsurf {
 

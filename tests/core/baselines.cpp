@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "base/math.h"
-#include "published/plane_iteration.h"
+#include "published/published.h"
 #include "random_cloud.h"
 
 namespace symsurf::baselines_tests {

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "expect_error.h"
-#include "synthetic/benchmark_mirror.h"
-#include "synthetic/random_body.h"
+#include "synthetic/generators.h"
 
 namespace symsurf::benchmark_tests {
 namespace {

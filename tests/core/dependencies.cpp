@@ -59,11 +59,8 @@ bool is_allowed_library(const std::string& header) {
          starts_with("Spectra/") || header == "nanoflann.hpp" || is_standard;
 }
 
-// Two sources ask the operating system or C, for what C++ cannot tell everywhere.
-bool asks_the_system(const fs::path& file) {
-  const fs::path io = core / "io";
-  return file == io / "memory_limit.cpp" || file == io / "from_chars.cpp";
-}
+// One source asks the operating system or C, for what C++ cannot tell everywhere.
+bool asks_the_system(const fs::path& file) { return file == core / "io" / "system.cpp"; }
 
 // A header is written as below the heart, the core, its own folder or the satellite that it is of.
 bool is_of_the_core(const Include& include) {

@@ -12,7 +12,7 @@
 
 #include "expect_error.h"
 #include "process_threads.h"
-#include "processes/run_on_root.h"
+#include "processes/processes.h"
 #include "random_cloud.h"
 
 namespace symsurf::empty_processes_tests {

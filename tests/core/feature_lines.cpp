@@ -1,5 +1,3 @@
-#include "symmetries/recurring/feature_lines.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,7 +8,7 @@
 
 #include "base/math.h"
 #include "random_cloud.h"
-#include "symmetries/recurring/facets.h"
+#include "symmetries/recurring/recurring_parts.h"
 
 namespace symsurf::feature_lines_tests {
 namespace {

@@ -1,10 +1,10 @@
-#include "io/from_chars.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <string>
+
+#include "io/formats.h"
 
 namespace symsurf::from_chars_tests {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "random_cloud.h"
 #include "fit/bent_plane.h"
+#include "random_cloud.h"
 
 namespace symsurf {
 namespace {

@@ -1,3 +1,5 @@
+#include "homologous/homologous_points.h"
+
 #include <gtest/gtest.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/operations.h>
@@ -19,8 +21,6 @@
 #include "cloud/cloud.h"
 #include "expect_error.h"
 #include "figure.h"
-#include "homologous/registration.h"
-#include "homologous/vertex_table.h"
 #include "random_cloud.h"
 
 namespace symsurf::homologous_points_tests {

@@ -1,3 +1,5 @@
+#include "symmetries/intrinsic/intrinsic_symmetry.h"
+
 #include <gtest/gtest.h>
 #include <symsurf/analyses.h>
 #include <symsurf/context.h>
@@ -12,7 +14,6 @@
 #include "cloud/point_tree.h"
 #include "limbed_body.h"
 #include "random_cloud.h"
-#include "symmetries/intrinsic/connected_surface.h"
 
 namespace symsurf::intrinsic_symmetry_tests {
 namespace {

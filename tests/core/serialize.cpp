@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "processes/run_on_root.h"
+#include "processes/processes.h"
 #include "random_cloud.h"
 
 namespace symsurf::serialize_tests {

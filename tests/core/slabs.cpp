@@ -1,5 +1,3 @@
-#include "processes/slabs.h"
-
 #include <gtest/gtest.h>
 #include <symsurf/mirrors.h>
 
@@ -12,7 +10,7 @@
 #include "cloud/point_tree.h"
 #include "pairing/matching.h"
 #include "process_threads.h"
-#include "processes/detect_shared.h"
+#include "processes/processes.h"
 #include "random_cloud.h"
 #include "search/methods.h"
 

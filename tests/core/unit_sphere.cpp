@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cloud/principal_frame.h"
-#include "fit/gauss_newton.h"
+#include "fit/fitted.h"
 #include "fit/shapes.h"
 #include "random_cloud.h"
 

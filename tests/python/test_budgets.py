@@ -13,14 +13,14 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (141, 179481, 1236, 3, 2),
-    "symmetries": (41, 78082, 514, 3, 0),
-    "synthetic": (8, 15343, 250, 0, 1),
-    "io": (11, 12990, 40, 0, 0),
-    "published": (7, 11843, 128, 0, 0),
-    "light": (5, 8714, 44, 0, 4),
-    "homologous": (6, 8872, 55, 4, 0),
-    "processes": (7, 11402, 28, 0, 0),
+    "heart": (134, 175892, 1165, 2, 2),
+    "symmetries": (30, 77808, 514, 3, 0),
+    "synthetic": (8, 17577, 283, 0, 1),
+    "io": (7, 12886, 40, 0, 0),
+    "published": (5, 11790, 128, 0, 0),
+    "light": (4, 8707, 44, 0, 4),
+    "homologous": (4, 8810, 55, 4, 0),
+    "processes": (5, 11326, 28, 0, 0),
 }
 # A budget above this multiple of its figure has not followed it down.
 SLACK = 1.02

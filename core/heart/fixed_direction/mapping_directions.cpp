@@ -1,5 +1,3 @@
-#include "fixed_direction/mapping_directions.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +6,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "fixed_direction/fixed_direction.h"
 
 namespace symsurf {
 

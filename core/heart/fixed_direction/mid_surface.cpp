@@ -1,5 +1,3 @@
-#include "fixed_direction/mid_surface.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "fixed_direction/fixed_direction.h"
 
 namespace symsurf {
 

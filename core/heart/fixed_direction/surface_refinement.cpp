@@ -1,5 +1,3 @@
-#include "fixed_direction/surface_refinement.h"
-
 #include <symsurf/mirrors.h>
 
 #include <Eigen/Core>
@@ -11,6 +9,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "fixed_direction/fixed_direction.h"
 
 namespace symsurf {
 

@@ -1,11 +1,10 @@
-#include "search/bend_planes.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
 #include "cloud/exact_isometries.h"
 #include "fit/bent_plane.h"
+#include "search/perpendicular.h"
 #include "search/plane.h"
 
 namespace symsurf::perpendicular {

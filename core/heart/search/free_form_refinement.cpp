@@ -1,11 +1,10 @@
-#include "search/free_form_refinement.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "search/perpendicular.h"
 
 namespace symsurf::perpendicular {
 namespace {

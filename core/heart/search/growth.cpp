@@ -1,5 +1,3 @@
-#include "search/growth.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -10,6 +8,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "search/perpendicular.h"
 
 namespace symsurf::perpendicular {
 

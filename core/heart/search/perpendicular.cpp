@@ -12,8 +12,6 @@
 #include "cloud/voxel_grid.h"
 #include "pairing/matching.h"
 #include "score/mirror_score.h"
-#include "search/bend_planes.h"
-#include "search/growth.h"
 #include "search/methods.h"
 
 namespace symsurf::perpendicular {

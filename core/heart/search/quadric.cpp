@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/math.h"
-#include "fit/gauss_newton.h"
-#include "fit/general_quadric.h"
+#include "fit/fitted.h"
+#include "fit/shapes.h"
 #include "search/methods.h"
 #include "search/perpendicular.h"
 

@@ -1,5 +1,3 @@
-#include "search/search_cloud.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "base/radix_sort.h"
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
+#include "search/perpendicular.h"
 
 namespace symsurf::perpendicular {
 

@@ -1,5 +1,3 @@
-#include "intrinsic/connected_surface.h"
-
 #include <symsurf/context.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "cloud/cloud.h"
 #include "cloud/laplacian.h"
 #include "cloud/point_tree.h"
+#include "intrinsic/intrinsic_symmetry.h"
 
 namespace symsurf {
 

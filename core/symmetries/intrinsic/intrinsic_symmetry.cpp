@@ -1,3 +1,5 @@
+#include "intrinsic/intrinsic_symmetry.h"
+
 #include <symsurf/context.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
-#include "intrinsic/map_search.h"
 #include "preprocess/boundary.h"
 #include "thinned_surface.h"
 

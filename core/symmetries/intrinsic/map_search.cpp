@@ -1,5 +1,3 @@
-#include "intrinsic/map_search.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,6 +10,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "intrinsic/intrinsic_symmetry.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "partial/surface_fit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +6,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "fit/fitted.h"
+#include "partial/partial_symmetries.h"
 
 namespace symsurf {
 

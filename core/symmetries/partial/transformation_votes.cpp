@@ -1,5 +1,3 @@
-#include "partial/transformation_votes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,7 +9,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
-#include "partial/surface_fit.h"
+#include "partial/partial_symmetries.h"
 
 namespace symsurf {
 

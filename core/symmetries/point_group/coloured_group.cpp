@@ -1,5 +1,3 @@
-#include "point_group/coloured_group.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>

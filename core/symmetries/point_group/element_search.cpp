@@ -1,5 +1,3 @@
-#include "point_group/element_search.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "point_group/point_group.h"
+#include "point_group/symmetry_search.h"
 #include "search/plane.h"
 
 namespace symsurf {

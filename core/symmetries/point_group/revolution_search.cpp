@@ -1,5 +1,3 @@
-#include "point_group/revolution_search.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "cloud/surface_points.h"
+#include "point_group/symmetry_search.h"
 
 namespace symsurf {
 

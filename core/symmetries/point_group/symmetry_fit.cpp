@@ -1,5 +1,3 @@
-#include "point_group/symmetry_fit.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"
 #include "pairing/correspondence.h"
+#include "point_group/symmetry_search.h"
 
 namespace symsurf {
 

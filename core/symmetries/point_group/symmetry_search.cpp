@@ -21,10 +21,7 @@
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/exact_isometries.h"
 #include "detection/pipeline.h"
-#include "point_group/coloured_group.h"
-#include "point_group/element_search.h"
 #include "point_group/point_group.h"
-#include "point_group/revolution_search.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "recurring/connected_lines.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,7 +10,7 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
-#include "recurring/recurring_part.h"
+#include "recurring/recurring_parts.h"
 
 namespace symsurf {
 

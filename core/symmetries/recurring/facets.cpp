@@ -1,5 +1,3 @@
-#include "recurring/facets.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +10,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/cloud.h"
+#include "recurring/recurring_parts.h"
 
 namespace symsurf {
 

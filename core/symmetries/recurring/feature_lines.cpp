@@ -1,5 +1,3 @@
-#include "recurring/feature_lines.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -15,8 +13,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/voxel_grid.h"
-#include "recurring/connected_lines.h"
-#include "recurring/facets.h"
+#include "recurring/recurring_parts.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "recurring/recurring_part.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
+#include "recurring/recurring_parts.h"
 
 namespace symsurf {
 

@@ -1,3 +1,5 @@
+#include "recurring/recurring_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,9 +9,6 @@
 #include "base/math.h"
 #include "cloud/closest_point_on_mesh.h"
 #include "preprocess/boundary.h"
-#include "recurring/connected_lines.h"
-#include "recurring/facets.h"
-#include "recurring/recurring_part.h"
 
 namespace symsurf {
 

@@ -1,4 +1,4 @@
-#include "fit/general_quadric.h"
+#include "fit/shapes.h"
 
 #include <Eigen/LU>
 

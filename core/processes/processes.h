@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/context.h>
+#include <symsurf/detect.h>
 #include <symsurf/points.h>
 
 #include <algorithm>
@@ -10,6 +11,9 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "pairing/matching.h"
+#include "search/methods.h"
 
 namespace symsurf {
 
@@ -156,5 +160,29 @@ void Slabs::send_back(const Item& item, const Take& take) const {
       [&](int process, Index k) { return item(received_[process] + k); },
       [&](int process, Index k, const T& theirs) { take(sent_[process][k], theirs); });
 }
+
+/// A result but for its pairs and all that belongs to them, as bytes for other processes.
+Communicator::Bytes serialize(const Result& result);
+
+/// The result that serialize() was given: the same numbers, to the bit.
+Result deserialize(std::span<const std::byte> bytes);
+
+/// Runs on the points and normals of all processes, in the order of their ranks, on rank 0, the
+/// root. Each process gets the result with the pairs of its own points, or the root's error.
+/// Collective.
+Result run_on_root(PointsView own, PointsView normals, const Communicator& processes,
+                   const std::function<Result(PointsView, PointsView)>& run);
+
+/// detect() of points that the processes of the context share out, of which these are this
+/// process's. The faces are not seen. Collective.
+Result detect_shared(PointsView own, const Options& options, const MethodImplementation& method,
+                     const ParameterValues& values, const Context& context);
+
+/// Pairs the points of this process, of which the slabs were made, with those of all, numbered
+/// through all processes, where an image is no farther than `limit` (input units) from its partner.
+/// `tree`: of this process's slab. An image in or near another slab is sent to its process, so
+/// memory grows with the own points only. Collective.
+void add_pairs(Result& result, PointsView own, const Slabs& slabs, PointTree&& tree, double limit,
+               const Context& context);
 
 }  // namespace symsurf

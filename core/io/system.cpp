@@ -1,11 +1,17 @@
-#include "from_chars.h"
+#include <symsurf/io.h>
 
-#ifndef _WIN32
+#include "formats.h"
 
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <locale.h>
 #include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 #ifdef __APPLE__
 #include <xlocale.h>
+#endif
 #endif
 
 #include <algorithm>
@@ -14,7 +20,28 @@
 #include <cmath>
 #include <string>
 
+// What C++ cannot tell everywhere.
+
 namespace symsurf {
+
+#ifdef _WIN32
+
+std::uintmax_t memory_limit() {
+  MEMORYSTATUSEX machine{};
+  machine.dwLength = sizeof machine;
+  GlobalMemoryStatusEx(&machine);
+  return std::min(machine.ullTotalPhys, machine.ullTotalVirtual);
+}
+
+#else
+
+std::uintmax_t memory_limit() {
+  const std::uintmax_t machine = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  rlimit process{};
+  if (getrlimit(RLIMIT_AS, &process) != 0) return machine;  // RLIM_INFINITY is the largest number
+  return std::min<std::uintmax_t>(machine, process.rlim_cur);
+}
 
 std::from_chars_result from_chars_by_c(const char* begin, const char* end, double& number) {
   static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
@@ -35,6 +62,6 @@ std::from_chars_result from_chars_by_c(const char* begin, const char* end, doubl
   return {read, std::errc()};
 }
 
-}  // namespace symsurf
-
 #endif
+
+}  // namespace symsurf

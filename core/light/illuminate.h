@@ -1,9 +1,0 @@
-#pragma once
-
-#include "operations/operation.h"
-
-namespace symsurf {
-
-OperationImplementation illuminate_operation();
-
-}  // namespace symsurf
