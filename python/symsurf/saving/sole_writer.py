@@ -43,8 +43,10 @@ def sole_writer(path: Path) -> Iterator[None]:
 
 def _held(lock: Path) -> int | None:
     """A descriptor that holds the lock; None where another does."""
+    # No link, which others may have laid in a folder that is theirs, too.
+    flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
     while True:
-        descriptor = os.open(lock, os.O_RDWR | os.O_CREAT, 0o666)
+        descriptor = os.open(lock, flags, 0o666)
         try:
             if sys.platform == "win32":
                 msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
