@@ -635,10 +635,26 @@ def test_two_runs_on_one_table(tmp_path):
     words = ("detect", "a.xyz", "--method", "plane", "--table", "t.csv")
     with sole_writer(tmp_path / "t.csv"):
         done = run(*words, cwd=tmp_path)
-    assert done.returncode == 2 and "is being written by another run" in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["a.xyz"]
+        assert done.returncode == 2 and "is being written by another run" in done.stderr
+        assert run(*words[:-1], "u.csv", cwd=tmp_path).returncode == 0
+    assert not (tmp_path / "t.csv").exists()
     assert run(*words, cwd=tmp_path).returncode == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.xyz", "t.csv"]
+    assert {path.name for path in tmp_path.iterdir()} == {"a.xyz", "t.csv", "u.csv"}
+
+
+def test_a_run_that_was_killed_holds_no_table(tmp_path):
+    code = "import sys, time; from pathlib import Path; from symsurf.saving.sole_writer import sole_writer\n"
+    code += "with sole_writer(Path(sys.argv[1])): print('held', flush=True); time.sleep(600)"
+    with subprocess.Popen(
+        [sys.executable, "-c", code, tmp_path / "t.csv"], stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout.readline() == b"held\n"
+        with pytest.raises(symsurf.InvalidParameter), sole_writer(tmp_path / "t.csv"):
+            pass
+        process.kill()
+    with sole_writer(tmp_path / "t.csv"):
+        pass
+    assert not list(tmp_path.iterdir())
 
 
 def test_damaged_landmarks_that_are_packed(tmp_path):
