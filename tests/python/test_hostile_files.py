@@ -12,7 +12,7 @@ import stat
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import numpy as np
 import pytest
@@ -22,7 +22,10 @@ from symmetric_shapes import mirrored_surface
 
 import symsurf
 from symsurf.base import own_process
+from symsurf.reading import location
 from symsurf.reading.in_chunks import chunks_of
+from symsurf.saving import csv_rows
+from symsurf.saving.sole_writer import sole_writer
 
 VTP = data_sets.xml(
     "PolyData",
@@ -235,9 +238,11 @@ def many_items(path: Path, vertices: int, items: int) -> Path:
     return path
 
 
-def many_nodes(path: Path, points: int, nodes: int, primitives: int = 1, **accessor) -> Path:
+def many_nodes(
+    path: Path, points: int, nodes: int, primitives: int = 1, places: int = 50, **accessor
+) -> Path:
     data = base64.b64encode(bytes(12 * points)).decode()
-    attributes = [{"attributes": {"POSITION": i % 50}, "mode": 0} for i in range(primitives)]
+    attributes = [{"attributes": {"POSITION": i % places}, "mode": 0} for i in range(primitives)]
     tree = {
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": list(range(nodes))}],
@@ -263,6 +268,9 @@ BOMBS = {
     "3MF of more items": lambda folder: many_items(folder / "a.3mf", 3, 200_000),
     "glTF of many nodes": lambda folder: many_nodes(folder / "a.gltf", 20_000, 5000),
     "glTF of more nodes": lambda folder: many_nodes(folder / "a.gltf", 1, 3000, 1000),
+    "glTF of primitives of one place": lambda folder: many_nodes(
+        folder / "a.gltf", 1, 3000, 1000, places=1
+    ),
     "glTF of sparse copies": lambda folder: many_nodes(
         folder / "a.gltf", 200_000, 50, 50, sparse=_NONE
     ),
@@ -314,6 +322,103 @@ def test_many_honest_copies_are_read(tmp_path):
     shape = symsurf.read(many_items(tmp_path / "a.3mf", 2000, 1000))
     assert len(shape.points) == len(shape.faces) == 2_000_000
     assert len(symsurf.read(many_nodes(tmp_path / "a.gltf", 2000, 1000)).points) == 2_000_000
+
+
+def test_a_file_that_many_buffers_name_is_read_once(tmp_path):
+    count = 3000
+    tree = {
+        "asset": {"version": "2.0"},
+        "meshes": [
+            {"primitives": [{"attributes": {"POSITION": i}, "mode": 0} for i in range(count)]}
+        ],
+        "accessors": [
+            {"bufferView": i, "componentType": 5121, "count": 1, "type": "VEC3"}
+            for i in range(count)
+        ],
+        "bufferViews": [{"buffer": i, "byteLength": 3} for i in range(count)],
+        "buffers": [{"uri": "a.gltf", "byteLength": 3}] * count,
+        "extras": "a" * (1 << 20),
+    }
+    path = write(tmp_path / "a.gltf", json.dumps(tree))
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, path], capture_output=True, text=True, check=True
+    )
+    assert int(done.stdout) < 700
+    assert len(symsurf.read(path).points) == count
+
+
+def test_standard_input_that_does_not_end():
+    code = "from symsurf.cli import main; raise SystemExit(main())"
+    limited = f"import resource; resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)); {code}"
+    with open("/dev/zero", "rb") as zeros:
+        done = subprocess.run(
+            [sys.executable, "-c", limited, "detect", "-", "--input-format", "ply"],
+            stdin=zeros,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    assert done.returncode and done.stderr.startswith("symsurf: standard input: it holds more than")
+    assert done.stderr.count("\n") == 1
+
+
+# Time.
+
+
+def one_buffer(path: Path, size: int, primitives: int) -> Path:
+    """Many primitives of one large buffer."""
+    data = base64.b64encode(bytes(size)).decode()
+    tree = {
+        "asset": {"version": "2.0"},
+        "meshes": [
+            {"primitives": [{"attributes": {"POSITION": i}, "mode": 0} for i in range(primitives)]}
+        ],
+        "accessors": [{"bufferView": 0, "componentType": 5121, "count": 1, "type": "VEC3"}]
+        * primitives,
+        "bufferViews": [{"buffer": 0, "byteLength": size - 1}],
+        "buffers": [{"uri": f"data:;base64,{data}", "byteLength": size}],
+    }
+    return write(path, json.dumps(tree))
+
+
+def commented_faces(path: Path, length: int) -> Path:
+    """A tetrahedron whose faces have comments of one long word."""
+    faces = [f"f {face} # {'a' * length}" for face in ("1 2 3", "1 3 4", "1 4 2", "2 4 3")]
+    return write(path, "\n".join(["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1", *faces, ""]))
+
+
+SLOW = {
+    "TPS of spaces": (
+        lambda folder: write(folder / "a.tps", f"LM3=1\n1 2 3\nID=a{' ' * 1_000_000}b\n"),
+        "symsurf.read_landmarks(path)",
+    ),
+    "glTF of one buffer": (
+        lambda folder: one_buffer(folder / "a.gltf", 8 << 20, 60_000),
+        "symsurf.read(path)",
+    ),
+    "OBJ of long words": (
+        lambda folder: commented_faces(folder / "a.obj", 300_000),
+        "assert main(['complete', path, '--mirror', 'm.json', '--output', 'made']) == 0",
+    ),
+}
+
+IN_TIME = """
+import resource, sys, symsurf
+from symsurf.cli import main
+resource.setrlimit(resource.RLIMIT_CPU, (20, 20))
+path = sys.argv[1]
+"""
+
+
+@pytest.mark.parametrize("name", SLOW)
+def test_time_grows_as_the_file_does(name, tmp_path):
+    make, call = SLOW[name]
+    path = make(tmp_path)
+    write(tmp_path / "m.json", '{"mirror": {"kind": "plane", "normal": [1, 0, 0], "offset": 0.2}}')
+    done = subprocess.run(
+        [sys.executable, "-c", IN_TIME + call, path], cwd=tmp_path, capture_output=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
 
 
 # Processes and descriptors.
@@ -453,6 +558,64 @@ def test_no_control_character_reaches_the_terminal(tmp_path):
     assert done.stdout.startswith("line\\nbreak.xyz\n")
 
 
+def test_errors_of_json_are_short_and_escaped(tmp_path):
+    path = tmp_path / "a.json"
+    for kind in ("\x1b]0;owned\x07", "a" * 100_000):
+        write(path, json.dumps({"method": "plane", "mirror": {"kind": kind}, "score": 1}))
+        with pytest.raises(symsurf.InvalidInput) as error:
+            symsurf.Result.load(path)
+        assert str(error.value).startswith(f"{path}: no result") and "\x1b" not in str(error.value)
+        assert len(str(error.value)) < 2000
+    path = write(tmp_path / "a.gltf", '{"asset": {"version": "' + "9" * 100_000 + '"}}')
+    with pytest.raises(symsurf.InvalidInput, match="glTF's version") as error:
+        symsurf.read(path)
+    assert len(str(error.value)) < 2000
+
+
+def test_a_lock_follows_no_link(tmp_path):
+    np.savetxt(tmp_path / "a.xyz", mirrored_surface(100, 0)[0])
+    (tmp_path / ".t.csv.lock").symlink_to(tmp_path / "elsewhere")
+    done = run("detect", "a.xyz", "--method", "plane", "--table", "t.csv", cwd=tmp_path)
+    assert done.returncode and "t.csv" in done.stderr
+    assert not (tmp_path / "elsewhere").exists()
+
+
+@pytest.mark.parametrize("name", ["a;=1+1.xyz", "a\t@x.xyz", "a;b.xyz", "=a;-b.xyz"])
+def test_no_cell_behind_a_semicolon_is_a_formula(name, tmp_path):
+    np.savetxt(tmp_path / name, mirrored_surface(100, 0)[0])
+    words = ("detect", "--method", "plane", "--table", "t.csv", name)
+    for more in ((), ("--resume",)):
+        assert run(*words, *more, cwd=tmp_path).returncode == 0
+        text = (tmp_path / "t.csv").read_text()
+        assert not any(mark + sign in text for mark in ";\t" for sign in "=+-@")
+    (row,) = csv.DictReader((tmp_path / "t.csv").open())
+    assert csv_rows.text_of(row["file"]) == name
+
+
+def test_names_that_lead_to_other_machines():
+    path = PureWindowsPath("C:/data/scan.gltf")
+    away = (
+        "\\\\host\\share\\a.bin",
+        "//host/share/a.bin",
+        "D:/a.bin",
+        "\\\\?\\UNC\\host\\share\\a",
+    )
+    for name in away:
+        assert location.leads_away(path.parent / name, path), name
+    for name in ("a.bin", "below/a.bin", "c:/data/a.bin", "/data/a.bin"):
+        assert not location.leads_away(path.parent / name, path), name
+
+
+@pytest.mark.parametrize("name", ["a" * 300, "b/" * 3000, "none.mtl"])
+def test_a_library_of_materials_that_cannot_be_there(name, tmp_path):
+    lines = [f"mtllib {name}", *(f"v {' '.join(map(str, point))}" for point in POINTS.tolist())]
+    path = write(tmp_path / "a.obj", "\n".join([*lines, "f 1 2 3", ""]))
+    write(tmp_path / "m.json", '{"mirror": {"kind": "plane", "normal": [1, 0, 0], "offset": 0.2}}')
+    done = run("align", path.name, "--mirror", "m.json", "--output", "made", cwd=tmp_path)
+    assert done.returncode == 0 and "is not beside the file" in done.stderr
+    assert (tmp_path / "made/a.obj").read_text().startswith(f"mtllib {name}\n")
+
+
 def test_a_file_keeps_its_mode(tmp_path):
     path = tmp_path / "private.json"
     result = symsurf.match(mirrored_surface(100, 0)[0], symsurf.Plane((1, 0, 0), 0))
@@ -468,26 +631,30 @@ def test_a_file_keeps_its_mode(tmp_path):
 
 
 def test_two_runs_on_one_table(tmp_path):
-    for number in range(8):
-        np.savetxt(tmp_path / f"{number}.xyz", mirrored_surface(2000, number)[0])
-    words = [sys.executable, "-m", "symsurf", "detect", "--method", "plane", "--table", "t.csv"]
-    first, second = (
-        subprocess.Popen(
-            [*words, *(f"{i}.xyz" for i in files)],
-            cwd=tmp_path,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        for files in (range(4), range(4, 8))
-    )
-    said = first.communicate()[1] + second.communicate()[1]
-    rows = len(list(csv.DictReader((tmp_path / "t.csv").open())))
-    statuses = sorted((first.returncode, second.returncode))
-    assert (statuses == [0, 2] and "is being written by another run" in said) or rows == 8
-    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv"] + [".xyz"] * 8
-    done = run("detect", "0.xyz", "--method", "plane", "--table", "t.csv", cwd=tmp_path)
-    assert done.returncode == 0
+    np.savetxt(tmp_path / "a.xyz", mirrored_surface(200, 0)[0])
+    words = ("detect", "a.xyz", "--method", "plane", "--table", "t.csv")
+    with sole_writer(tmp_path / "t.csv"):
+        done = run(*words, cwd=tmp_path)
+        assert done.returncode == 2 and "is being written by another run" in done.stderr
+        assert run(*words[:-1], "u.csv", cwd=tmp_path).returncode == 0
+    assert not (tmp_path / "t.csv").exists()
+    assert run(*words, cwd=tmp_path).returncode == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"a.xyz", "t.csv", "u.csv"}
+
+
+def test_a_run_that_was_killed_holds_no_table(tmp_path):
+    code = "import sys, time; from pathlib import Path; from symsurf.saving.sole_writer import sole_writer\n"
+    code += "with sole_writer(Path(sys.argv[1])): print('held', flush=True); time.sleep(600)"
+    with subprocess.Popen(
+        [sys.executable, "-c", code, tmp_path / "t.csv"], stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout.readline() == b"held\n"
+        with pytest.raises(symsurf.InvalidParameter), sole_writer(tmp_path / "t.csv"):
+            pass
+        process.kill()
+    with sole_writer(tmp_path / "t.csv"):
+        pass
+    assert not list(tmp_path.iterdir())
 
 
 def test_damaged_landmarks_that_are_packed(tmp_path):

@@ -20,6 +20,7 @@ import symsurf
 from symsurf.base import own_process
 from symsurf.cli import main
 from symsurf.reading.formats import FORMATS
+from symsurf.saving.sole_writer import sole_writer
 
 
 def packed(tree: bytes) -> bytes:
@@ -83,7 +84,9 @@ def run_commands() -> None:
     assert len(list(Path("made").iterdir())) == 3
     assert main(["align", *files, "none.xyz", "--method", "plane", "--output", "aligned"]) == 1
     assert len(symsurf.read("aligned/cloud0.xyz").points) == 200
-    assert not [path for path in Path().iterdir() if path.suffix == ".partial"]
+    with sole_writer(Path("table.csv")):
+        assert main(["detect", *files, *words]) == 2
+    assert not [path for path in Path().iterdir() if path.suffix in (".partial", ".lock")]
 
 
 if __name__ == "__main__":

@@ -37,12 +37,16 @@ class ProcessDied(Exception):
 class Processes:
     """Processes that each work on one call at a time, and stay for the next.
 
-    They import this package, nothing of the caller's script, and no module of the folder that they
-    are in. They end with this process, or when the context is left. In a host that has no Python to
-    run, such as one it is built into, the functions run in this process.
+    They import this package, nothing of the caller's script, and no module of the current folder.
+    They end with this process, or when the context is left. In a host that has no Python to run, such
+    as one it is built into, the functions run in this process.
+
+    Args:
+        folder: that they are in; without it the current one, which Windows keeps until they end.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, folder: str | None = None) -> None:
+        self._folder = folder
         self._idle: list[_Process] = []
         self._living: set[_Process] = set()
         self._has_ended = False
@@ -124,7 +128,7 @@ class Processes:
             try:
                 process = self._idle.pop()
             except IndexError:
-                process = _Process(python)
+                process = _Process(python, self._folder)
                 self._living.add(process)
             has_answered = process.answers > 0
             try:
@@ -166,7 +170,7 @@ class Processes:
 
 
 class _Process:
-    def __init__(self, python: str) -> None:
+    def __init__(self, python: str, folder: str | None) -> None:
         import subprocess  # `import symsurf` does not wait for it
 
         # Isolated, so that no module comes from the current folder, which may be one of data; the
@@ -179,6 +183,7 @@ class _Process:
         self.answers = 0
         self._child = subprocess.Popen(
             [python, "-I", *utf8, "-c", start],
+            cwd=folder,
             bufsize=0,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -246,7 +251,8 @@ def one_more_file(is_limited: bool = True) -> Iterator[None]:
 
 
 _groups: WeakSet[Processes] = WeakSet()
-COMMON = Processes()
+COMMON = Processes(os.path.abspath(os.sep))
+"""Those of readers, which are given whole paths."""
 call, stream = COMMON.call, COMMON.stream
 
 

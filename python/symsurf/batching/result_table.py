@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .._core import InvalidInput, __version__
-from ..saving.csv_rows import FORMULA, Cells
+from ..saving.csv_rows import Cells, text_of
 from .file_task import Record
 
 _FIRST = ("file", "points", "unit", "method", "kind", "score", "verdict")
@@ -128,7 +128,7 @@ def _cells(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def _read(name: str, text: str) -> Any:
     if name in _WORDS:
-        return text[1:] if text.startswith("'") and text[1:].startswith(FORMULA) else text
+        return text_of(text)
     if text in ("True", "False"):
         return text == "True"
     for number in (int, float):

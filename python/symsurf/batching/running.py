@@ -15,7 +15,7 @@ from functools import partial
 from typing import TypeAlias
 
 from .._core import InvalidParameter
-from ..base.own_process import COMMON, ProcessDied, Processes
+from ..base.own_process import ProcessDied, Processes
 from .file_task import FileTask, Record, failed, perform
 
 Ended: TypeAlias = tuple[int, Record]
@@ -63,7 +63,8 @@ def _by_executor(tasks: Iterable[FileTask], executor: Executor) -> Iterator[Ende
                 del left[index]
                 yield index, record
     except BrokenExecutor:
-        yield from ((index, _by_itself(COMMON, task)) for index, task in left.items())
+        with Processes() as processes:
+            yield from ((index, _by_itself(processes, task)) for index, task in left.items())
 
 
 def _submitted(

@@ -7,10 +7,14 @@ import codecs
 import errno
 import os
 import sys
-from io import TextIOWrapper
+from io import BytesIO, TextIOWrapper
 from typing import Any
 
 from ..base.printable import escaped, printable
+from ..reading.errors import naming
+from ..reading.location import require_memory
+
+_BLOCK = 1 << 20  # bytes of standard input that are read at once
 
 
 def say(text: str) -> None:
@@ -64,10 +68,16 @@ def drop_output() -> None:
 
 
 def standard_input() -> bytes:
-    """Raises OSError, which names it, where it is closed or cannot be read."""
+    """Raises OSError, which names it, where it is closed or cannot be read, InvalidInput where it does
+    not end within half of the memory."""
     try:
         if sys.stdin is None:
             raise OSError(errno.EBADF, "It is closed")
-        return sys.stdin.buffer.read()
+        content = BytesIO()
+        with naming("standard input"):
+            while block := sys.stdin.buffer.read(_BLOCK):
+                require_memory(content.tell() + len(block))
+                content.write(block)
+        return content.getvalue()
     except OSError as error:
         raise OSError(error.errno, error.strerror, "standard input") from error

@@ -10,15 +10,16 @@ from .._core import InvalidInput, InvalidParameter
 from ..base.own_process import ProcessDied
 from ..base.printable import printable
 
+_LONGEST = 1000  # letters of a reason, which may be any text of the file
+
 
 @contextmanager
 def naming(name: object) -> Iterator[None]:
-    """InvalidInput raised within begins with the name of the file; its reason may have texts of the
-    file, which are escaped."""
+    """InvalidInput raised within begins with the name of the file; see ``reason_of``."""
     try:
         yield
     except InvalidInput as error:
-        raise InvalidInput(f"{name}: {printable(str(error))}") from error
+        raise InvalidInput(f"{name}: {reason_of(error)}") from error
 
 
 @contextmanager
@@ -45,6 +46,13 @@ def broken(what: str) -> Iterator[None]:
         if _is_fault(error):
             raise
         raise InvalidInput(f"broken {what} ({_one_line(error)})") from error
+
+
+def reason_of(error: Exception) -> str:
+    """Its text, which may have texts of the file: on one line, escaped, and not longer than a reader
+    wants."""
+    text = str(error)
+    return printable(text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ...")
 
 
 def _is_fault(error: Exception) -> bool:

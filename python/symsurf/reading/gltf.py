@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from .._core import InvalidInput
 from ..base.options import Reading
 from ..shapes import Shape
-from .location import content_of, referenced
-from .parts import Part, joined, strips
+from .location import content_of, referenced, require_memory
+from .parts import Part, joined, require_parts, strips
 
 # Extensions that change no point, and that of coordinates in small integers.
 _KNOWN = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_mesh_quantization")
@@ -67,6 +67,8 @@ class _Scene:
     ) -> None:
         self._tree, self._path, self._reading, self._binary = tree, path, reading, binary
         self._buffers: dict[int, bytes] = {}
+        self._files: dict[Path, bytes] = {}
+        self._primitives = 0
 
     def parts(self) -> Iterator[Part]:
         nodes = self._tree.get("nodes", [])
@@ -97,6 +99,8 @@ class _Scene:
             if place is None:
                 raise InvalidInput("a primitive has no positions")
             shared.setdefault(place, []).append(primitive)
+        self._primitives += len(mesh["primitives"])
+        require_parts(self._primitives)
         for place, primitives in shared.items():
             count = len(self._stored(place, "VEC3"))
             faces = sum(self._most_faces(primitive, count) for primitive in primitives)
@@ -173,7 +177,7 @@ class _Scene:
     ) -> NDArray[Any]:
         view = self._tree["bufferViews"][number]
         start = view.get("byteOffset", 0)
-        content = self._buffer(view["buffer"])[start : start + view["byteLength"]]
+        content = memoryview(self._buffer(view["buffer"]))[start : start + view["byteLength"]]
         size = type_.itemsize * shape[1]
         stride = view.get("byteStride") or size
         needed = offset + stride * (shape[0] - 1) + size if shape[0] else 0
@@ -197,7 +201,7 @@ class _Scene:
             elif ":" in uri:
                 raise InvalidInput(f"buffer {number} is at {uri!r:.60}, which is no file beside it")
             else:
-                content = content_of(referenced(unquote(uri), self._path, self._reading))
+                content = self._file(referenced(unquote(uri), self._path, self._reading))
             if len(content) < buffer["byteLength"]:
                 raise InvalidInput(
                     f"the file is truncated: buffer {number} has {len(content)} bytes of "
@@ -205,6 +209,13 @@ class _Scene:
                 )
             self._buffers[number] = content
         return self._buffers[number]
+
+    def _file(self, file: Path) -> bytes:
+        """What a file holds that buffers name, of which each is read once."""
+        if file not in self._files:
+            require_memory(file.stat().st_size + sum(map(len, self._files.values())))
+            self._files[file] = file.read_bytes()
+        return self._files[file]
 
 
 def _matrix(node: dict[str, Any]) -> NDArray[np.float64]:

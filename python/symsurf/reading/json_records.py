@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter, Mirror, make_mirror
+from .errors import reason_of
 
 _CHECKED = 200  # surface points of a large result, of all alike
 # What statistics were called before 0.2.0.
@@ -53,8 +54,9 @@ def content_of(path: Path, what: str) -> Iterator[Any]:
     except MemoryError:
         raise
     except Exception as error:
-        reason = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
-        raise InvalidInput(f"{path}: {what} ({' '.join(reason.split())})") from error
+        kind = "" if isinstance(error, ValueError) else f"{type(error).__name__}: "
+        reason = " ".join(reason_of(error).split())
+        raise InvalidInput(f"{path}: {what} ({kind}{reason})") from error
 
 
 def mirror_from(record: dict[str, Any], footprint: Any = None) -> Mirror:

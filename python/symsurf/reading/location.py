@@ -8,7 +8,7 @@ import re
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from pathlib import Path
+from pathlib import Path, PurePath
 from shutil import copyfile
 from typing import IO, BinaryIO, cast
 
@@ -55,15 +55,24 @@ def located(name: str, suffix: str, stream: BinaryIO | None) -> Iterator[Path]:
 def referenced(name: str, path: Path, reading: Reading) -> Path:
     """The file that another names. Raises InvalidInput unless it is a regular one, and lies beside or
     below the other, links followed, or may lie anywhere."""
-    file = (path.parent / name).resolve()
-    if not reading.external_files and path.parent.resolve() not in file.parents:
+    named = path.parent / name
+    if not reading.external_files and (
+        leads_away(named, path) or path.parent.resolve() not in named.resolve().parents
+    ):
         raise InvalidInput(
             f"it names the file {name!r:.80}, which is neither beside nor below it; "
             "external_files=True allows that"
         )
+    file = named.resolve()
     if not file.is_file():
         raise InvalidInput(f"it needs the file {name!r:.80}, which is not there, or no file")
     return file
+
+
+def leads_away(named: PurePath, path: PurePath) -> bool:
+    """Whether a file lies on another drive or, on Windows, on another machine: to look for it there
+    would already log in."""
+    return named.drive.lower() != path.drive.lower()
 
 
 # How files begin that stand where another should, in small letters.

@@ -55,4 +55,4 @@ def _numbers(line: str, path: Path, number: int) -> list[float]:
     try:
         return [float(part) for part in line.split(",")]
     except ValueError as error:
-        raise InvalidInput(f"{path}, line {number}: {line!r} is not x,y,z") from error
+        raise InvalidInput(f"{path}, line {number}: {line!r:.40} is not x,y,z") from error

@@ -15,6 +15,7 @@ from .. import _core
 from .._core import InvalidInput, InvalidParameter
 from ..reading import read
 from ..reading.formats import format_of
+from ..reading.location import leads_away
 from ..results import OperationResult
 from ..shapes import Shape
 from . import BARE_FORMATS, makes_shape, shape_formats, write_whole
@@ -140,7 +141,12 @@ def _lost_arrays(result: OperationResult, output: Path) -> list[str]:
 
 def _reached(source: Path | None, output: Path, name: str) -> str | None:
     """The name of a file beside the source as it is seen from the output."""
-    if source is None or not (file := source.parent / name).is_file():
+    if source is None or leads_away(file := source.parent / name, source):
+        return None
+    try:
+        if not file.is_file():
+            return None
+    except OSError:  # such as for a name that is too long for one
         return None
     with suppress(ValueError):  # they lie on two drives
         file = Path(os.path.relpath(file.resolve(), output.parent.resolve()))

@@ -36,28 +36,37 @@ def sole_writer(path: Path) -> Iterator[None]:
     try:
         yield
     finally:
-        with suppress(OSError):  # Windows removes no open file: it stays
-            lock.unlink()
+        if fcntl is not None:  # as long as it is held, so that nobody holds a file that is gone
+            lock.unlink(missing_ok=True)
         os.close(descriptor)
+        with suppress(OSError):  # Windows removes no file that is open, and none that another holds
+            if fcntl is None:
+                lock.unlink()
 
 
 def _held(lock: Path) -> int | None:
     """A descriptor that holds the lock; None where another does."""
+    # No link, which others may have laid in a folder that is theirs, too.
+    flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
     while True:
-        descriptor = os.open(lock, os.O_RDWR | os.O_CREAT, 0o666)
-        try:
-            if sys.platform == "win32":
-                msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
-            elif fcntl is not None:
-                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
+        descriptor = os.open(lock, flags, 0o666)
+        if not _can_hold(descriptor):
             os.close(descriptor)
             return None
-        except OSError:  # of a file system without locks
-            return descriptor
         if fcntl is None or _is_file(descriptor, lock):
             return descriptor
         os.close(descriptor)  # who held it has removed it
+
+
+def _can_hold(descriptor: int) -> bool:
+    try:
+        if sys.platform == "win32":
+            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+        elif fcntl is not None:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:  # also of a file system without locks
+        return sys.platform != "win32" and not isinstance(error, BlockingIOError)
+    return True
 
 
 def _is_file(descriptor: int, path: Path) -> bool:

@@ -20,6 +20,7 @@ from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from select import select
+from tempfile import TemporaryDirectory
 from typing import Any
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # each asks for memory
@@ -55,7 +56,10 @@ def watch(first: int, end: int, points: int, log: Path | None, files: bool) -> i
     findings, done, refused = 0, Counter[str](), Counter[str]()
     while first < end:
         seed = kind = words = ""
-        with started(range(first, end), points, files) as child:
+        with (
+            TemporaryDirectory(prefix="fuzz-") as folder,
+            started(range(first, end), points, files, folder) as child,
+        ):
             for line in lines_of(child):
                 what, rest = line.split(" ", 1)
                 if what == "begin":
@@ -84,10 +88,18 @@ def watch(first: int, end: int, points: int, log: Path | None, files: bool) -> i
     return 1 if findings else 0
 
 
-def started(seeds: range, points: int, files: bool) -> subprocess.Popen[bytes]:
+def started(seeds: range, points: int, files: bool, folder: str) -> subprocess.Popen[bytes]:
+    """A process that works on the seeds.
+
+    Args:
+        folder: of its temporary files, which no other program has: none may be left.
+    """
     words = ["--work", f"--first={seeds.start}", f"--count={len(seeds)}", f"--points={points}"]
     words += ["--files"] * files
-    return subprocess.Popen([sys.executable, __file__, *words], stdout=subprocess.PIPE)
+    environment = os.environ | {"TMPDIR": folder}
+    return subprocess.Popen(
+        [sys.executable, __file__, *words], stdout=subprocess.PIPE, env=environment
+    )
 
 
 def lines_of(child: subprocess.Popen[bytes]) -> Iterator[str]:

@@ -10,8 +10,8 @@ import numpy as np
 from .new_shape import BYTE_ORDER_MARK, LOST_NORMALS, NewShape, Rewritten, row_texts
 from .obj_faces import added_lines, with_libraries
 
-_NORMAL = re.compile(rb"/[^/\s]*(?=\s|$)")  # what follows the second slash of a corner
-_CORNER = re.compile(rb"(\S+?/[^/\s]*)/[^/\s]*")
+# A corner up to its second slash, from the start of a word, so that long words take no longer.
+_CORNER = re.compile(rb"(?<!\S)([^/\s]+/[^/\s]*)/[^/\s]*")
 
 
 def rewritten_obj(content: bytes, new: NewShape) -> Rewritten:
