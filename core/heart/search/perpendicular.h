@@ -32,18 +32,15 @@ struct SearchCloud : SurfacePoints {
   void smooth(const Context& progress);
 
  private:
-  // All points of a cloud as they are searched; `order`: their rows in the cloud.
+  // The points of a cloud as they are searched.
   struct Posed {
-    Posed(const Cloud& cloud, const Context& context);
+    Posed(const Cloud& cloud, Index most_points, const Context& context);
 
     Matrix3 axes;
     Points points;
-    std::vector<std::int32_t> order;
   };
 
-  SearchCloud(const Cloud& cloud, const Posed& posed, Index most_points, const Context& context);
-  SearchCloud(const Cloud& cloud, const Posed& posed, const std::vector<Index>& rows,
-              const Context& context);
+  SearchCloud(const Cloud& cloud, const Posed& posed, const Context& context);
 
   bool given_normals_;
 };

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "base/linear_algebra.h"
@@ -11,6 +9,7 @@
 #include "base/radix_sort.h"
 #include "cloud/cloud.h"
 #include "cloud/surface_points.h"
+#include "cloud/surfels.h"
 #include "search/perpendicular.h"
 
 namespace symsurf::perpendicular {
@@ -20,80 +19,6 @@ namespace {
 constexpr double noticeable = 0.12;     // noise, in spacings
 constexpr Index most_smoothing = 60;    // neighbours
 constexpr double least_spacing = 1e-6;  // diagonals: doubled points are no spacing
-
-// The spacing of a big cloud, from some of its points: spread over it in whatever order they are.
-double sampled_spacing(PointsView points, const Context& context) {
-  constexpr Index samples = 500;
-  const PointTree tree(points, context);
-  const Index step = std::max<Index>(1, points.size() / samples);
-  std::vector<double> spacings;
-  std::vector<Neighbour> found;
-  for (Index p = 0; p < points.size(); p += step) {
-    tree.nearest(points[tree.order()[p]], SurfacePoints::ring, found);
-    spacings.push_back(spacing_at(found));
-  }
-  return median(std::move(spacings));
-}
-
-Vector3 centroid_of(PointsView points) { return points.matrix().colwise().mean(); }
-
-// Every point that lies at least `radius` from those taken before it, starting far from the centre:
-// an order that turns with the object.
-std::vector<Index> spread_out(PointsView points, double radius, const Context& context) {
-  const Vector3 centre = centroid_of(points);
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  // Bits of doubles above 0 are in the doubles' order: the farthest has the lowest complement.
-  std::vector<std::uint64_t> nearness(points.size());
-  for (Index i = 0; i < points.size(); ++i)
-    nearness[i] = ~std::bit_cast<std::uint64_t>((points[i] - centre).squaredNorm());
-  radix_sort(nearness, order, context);
-
-  const auto cell = [&](const Vector3& x) {
-    return Eigen::Matrix<std::int64_t, 3, 1>(
-        ((x - centre) / radius).array().floor().cast<std::int64_t>());
-  };
-  const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
-    return ((x + (1 << 20)) << 42) ^ ((y + (1 << 20)) << 21) ^ (z + (1 << 20));
-  };
-  std::unordered_multimap<std::int64_t, Index> grid;
-  std::vector<Index> taken;
-  for (const Index i : order) {
-    context.check();
-    const auto c = cell(points[i]);
-    bool free = true;
-    for (int dx = -1; dx <= 1 && free; ++dx)
-      for (int dy = -1; dy <= 1 && free; ++dy)
-        for (int dz = -1; dz <= 1 && free; ++dz) {
-          const auto [first, last] = grid.equal_range(key(c.x() + dx, c.y() + dy, c.z() + dz));
-          for (auto other = first; other != last && free; ++other)
-            free = (points[other->second] - points[i]).squaredNorm() >= radius * radius;
-        }
-    if (!free) continue;
-    grid.emplace(key(c.x(), c.y(), c.z()), i);
-    taken.push_back(i);
-  }
-  std::sort(taken.begin(), taken.end());
-  return taken;
-}
-
-constexpr double least_radius = 0x1p-19;  // of the diagonal: cells have 20 bits an axis and a sign
-
-std::vector<Index> thinned(PointsView points, Index most, const Context& context) {
-  std::vector<Index> all(points.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  if (points.size() <= most) return all;
-  // Points at random are 0.75 of a lattice's spacing apart when thinned to the same number.
-  double radius = 0.75 * sampled_spacing(points, context) *
-                  std::sqrt(static_cast<double>(points.size()) / static_cast<double>(most));
-  radius = std::max(radius, least_radius * diagonal_of(points));
-  std::vector<Index> taken = spread_out(points, radius, context);
-  while (static_cast<Index>(taken.size()) > most + most / 4) {
-    radius *= std::sqrt(static_cast<double>(taken.size()) / static_cast<double>(most));
-    taken = spread_out(points, radius, context);
-  }
-  return taken;
-}
 
 // To that share of the diagonal coordinates are rounded: far above the rounding of doubles, and far
 // below what distinguishes an exact partner from others.
@@ -142,29 +67,26 @@ void jet(const Points& points, const std::vector<Neighbour>& around, Vector3& x,
 
 }  // namespace
 
-SearchCloud::Posed::Posed(const Cloud& cloud, const Context& context)
+SearchCloud::Posed::Posed(const Cloud& cloud, Index most_points, const Context& context)
     : axes(right_handed(cloud.frame.axes)) {
-  points.resize(cloud.points.size(), 3);
-  interruptible_for(context, points.rows(), [&](Index i) {
-    points.row(i) = (axes.transpose() * (cloud.points[i] - cloud.frame.centroid) / cloud.frame.size)
-                        .transpose();
-  });
-  points = rounded(std::move(points));
-  order = ascending(points, context);
-  points = chosen_rows(points, order);
+  // Those of the frame are right-handed, too, where the last axis turns.
+  const Vector3 turn(1, 1, axes.col(2).dot(cloud.frame.axes.col(2)));
+  if (cloud.points.size() <= most_points) {
+    points = cloud.frame.to_frame(cloud.points, context);
+  } else {
+    const Surfels& patches = cloud.patches(most_points, context);
+    points.resize(patches.size(), 3);
+    for (Index i = 0; i < points.rows(); ++i) points.row(i) = patches[i].sampled;
+  }
+  points = rounded(points * turn.asDiagonal());
+  points = chosen_rows(points, ascending(points, context));
 }
 
 SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
-    : SearchCloud(cloud, Posed(cloud, context.stage(0, 0.05)), most_points, context) {}
+    : SearchCloud(cloud, Posed(cloud, most_points, context.stage(0, 0.1)), context) {}
 
-SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, Index most_points,
-                         const Context& context)
-    : SearchCloud(cloud, posed, thinned(posed.points, most_points, context.stage(0.05, 0.1)),
-                  context) {}
-
-SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const std::vector<Index>& rows,
-                         const Context& context)
-    : SurfacePoints(chosen_rows(posed.points, rows), context.stage(0.1, 1), ring + 1),
+SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const Context& context)
+    : SurfacePoints(posed.points, context.stage(0.1, 1), ring + 1),
       context(context),
       centroid(cloud.frame.centroid),
       axes(posed.axes),
@@ -172,8 +94,11 @@ SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const std::vect
       given_normals_(!cloud.normals.empty()) {
   spacing = std::max(spacing, least_spacing);
   if (!given_normals_) return;
-  for (Index i = 0; i < size(); ++i)
-    normals.row(i) = cloud.normals[posed.order[rows[i]]].normalized().transpose() * axes;
+  const PointTree& all = cloud.tree(context);
+  for (Index i = 0; i < size(); ++i) {
+    const Index row = all.nearest(axes * point(i) * diagonal + centroid, infinity).index;
+    normals.row(i) = cloud.normals[row].normalized().transpose() * axes;
+  }
   normals = rounded(std::move(normals));
 }
 
