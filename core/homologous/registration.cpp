@@ -89,7 +89,6 @@ struct Stage {
 constexpr std::array stages{Stage{3e-4, 4}, Stage{2e-5, 2}, Stage{1e-6, 0.6}};
 constexpr int iterations = 3;      // in each
 constexpr double damping = 1e-10;  // where nothing holds a node
-constexpr double rounding = 1e-6;  // a barycentric weight of nothing
 
 // A symmetric sparse matrix of 3 x 3 blocks, its lower triangle.
 class BlockMatrix {
@@ -284,7 +283,7 @@ Registration::Term Registration::term(Index vertex, double usual_difference) con
     normal += weight * image_normals_.row(corner).transpose();
     gradient += weight * image_gradients_.row(corner).transpose();
     curvature += weight * image_curvature_[corner];
-    on_rim = on_rim && (weight < rounding || graph_.is_boundary(corner));
+    on_rim = on_rim && (weight < single_rounding || graph_.is_boundary(corner));
   }
   normal.stableNormalize();
   if (on_rim || !(normal.dot(normals_.row(vertex).transpose()) > least_cosine)) return {};

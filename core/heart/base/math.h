@@ -16,6 +16,9 @@ namespace symsurf {
 /// Rounding of coordinates in single precision, over the size of the shape.
 inline constexpr double single_rounding = 1e-6;
 
+/// The same of double precision, after some arithmetic.
+inline constexpr double double_rounding = 1e-9;
+
 /// The points that are finite: what has no foot on a mirror is not.
 inline Points finite_rows(Points points) {
   Index rows = 0;

@@ -239,10 +239,10 @@ std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {
 }
 
 void longest_first(std::vector<Plane>& planes, const PrincipalFrame& frame) {
-  constexpr double same = 1e-9;  // of the greatest variance
   const auto variance = [&](const Plane& plane) {
     const Vector3 normal = frame.axes.transpose() * plane.normal();
-    return std::round(frame.variance.dot(normal.cwiseAbs2()) / (same * frame.variance.maxCoeff()));
+    return std::round(frame.variance.dot(normal.cwiseAbs2()) /
+                      (double_rounding * frame.variance.maxCoeff()));
   };
   std::stable_sort(planes.begin(), planes.end(),
                    [&](const Plane& a, const Plane& b) { return variance(a) > variance(b); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -58,6 +59,9 @@ struct SurfacePoints {
   Index size() const { return points.rows(); }
   Vector3 point(Index i) const { return points.row(i).transpose(); }
   Vector3 normal(Index i) const { return normals.row(i).transpose(); }
+
+  /// How far off its partner an image may be for the points' spacing and their noise.
+  double tolerance() const { return std::hypot(0.8 * spacing, 3 * noise); }
 
   Points points;
   PointTree tree;

@@ -153,7 +153,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const Shape& shape)
   if (!(count > 0))
     return Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(moved.hessian().rows(), 2);
   Eigen::MatrixXd moves = moved.hessian() / count;
-  moves.diagonal().array() += 1e-9 * moves.trace();
+  moves.diagonal().array() += double_rounding * moves.trace();
   return eigen_of(Eigen::MatrixXd(held.hessian()), moves).vectors.leftCols(2);
 }
 
@@ -183,7 +183,7 @@ PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
       products += weight * slope * slope * terms * terms.transpose();
       asked -= weight * slope * across.dot(flat) * terms;
     }
-    products.diagonal().array() += 1e-9 * products.trace() + 1e-300;
+    products.diagonal().array() += double_rounding * products.trace() + 1e-300;
     heights = solved(products, asked);
   }
   Eigen::Matrix2d curvature;

@@ -24,6 +24,12 @@ struct Fit {
   double narrowest = 0.002;
 };
 
+/// What searches ask for. Few samples are enough to tell which planes are worth more; of curved
+/// mirrors each candidate takes as many steps as planes in all, and the best of them more.
+inline constexpr Fit quick{.samples = 250, .tolerance = 0.02, .steps = 2},
+    careful{.samples = 1300, .tolerance = 0.01, .steps = 2}, of_each{.samples = 400, .steps = 4},
+    of_best{.samples = 3000, .steps = 40};
+
 /// Patches of the finer surfels, each of which has a sample, over those of the coarse ones: what
 /// bends a mirror shows in more of them than what turns a plane.
 inline constexpr Index samples_a_patch = 12;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "base/linear_algebra.h"
+#include "base/math.h"
 
 namespace symsurf {
 
@@ -52,7 +53,7 @@ std::optional<GeneralQuadric> GeneralQuadric::nearest_to(
     matrix += m * m.transpose() + slope_weight * s.transpose() * s;
     right += slope_weight * s.transpose() * normal;
   }
-  matrix.diagonal().array() += 1e-9 * matrix.trace();
+  matrix.diagonal().array() += double_rounding * matrix.trace();
   const Change q = solved(matrix, right);
   if (!q.allFinite() || !(q.head<9>().norm() > 0)) return std::nullopt;
   return GeneralQuadric(q);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/math.h"
 #include "cloud/principal_frame.h"
 
 namespace symsurf {
@@ -36,7 +37,7 @@ struct UnitCylinder {
   Vector3 reflect(const Vector3& x) const {
     const Vector3 v = from_axis(x);
     const double length = v.norm();
-    if (!(length > 1e-9) || length > 2 * radius)
+    if (!(length > double_rounding) || length > 2 * radius)
       return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     return x + 2 * (radius / length - 1) * v;
   }
@@ -121,7 +122,7 @@ struct UnitSphere {
   Vector3 reflect(const Vector3& x) const {
     const Vector3 up = gradient(x);
     const double length = up.norm();
-    if (!(length > 1e-9) || length > 2)
+    if (!(length > double_rounding) || length > 2)
       return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     return x - twice_distance(x, length) / length * up;
   }
@@ -224,7 +225,7 @@ struct GeneralQuadric {
     if (!by.allFinite()) return {*this, 0};
     return {GeneralQuadric(coefficients + by), by.norm()};
   }
-  static constexpr double ridge = 1e-9;  // the length of the coefficients moves nothing
+  static constexpr double ridge = double_rounding;  // the length of the coefficients moves nothing
 
   Change coefficients;
   Quadric quadric;

@@ -126,7 +126,6 @@ constexpr Index tried_peaks = 8;
 constexpr double exact_angle = 1e-5;  // chords agree to this, or have no exact partners
 constexpr Index least_pairs = 8;
 constexpr double enough_share = 0.7;  // of all points: no need to search on
-constexpr double rounding = 1e-9;
 
 using ChordPair = std::pair<Index, Index>;
 
@@ -180,7 +179,7 @@ FieldEstimate exact_partners(const SurfacePoints& cloud, const std::vector<Chord
     context.check();
     const SharpDirection sharp = sharpened(cloud, peaks[k].direction, cone);
     if (sharp.angle > exact_angle || sharp.chords < least_pairs) continue;
-    const double tolerance = std::max(rounding, 4 * sharp.angle);
+    const double tolerance = std::max(double_rounding, 4 * sharp.angle);
     const auto rough_pairs = nested_pairs(cloud, sharp.direction, tolerance);
     if (static_cast<Index>(rough_pairs.size()) < least_pairs) continue;
     context.check();

@@ -62,10 +62,11 @@ Points flattened(const Points& nodes) {
 
 // Of nodes over each other, to rounding, the first.
 Points distinct_nodes(const Points& nodes, const Context& context) {
-  constexpr double rounding = 1e-9;  // of their extent, which map coordinates may leave
   const Points flat = flattened(nodes);
   const PointTree tree(flat);
-  const double near = rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
+  // Of their extent, which map coordinates may leave.
+  const double near =
+      double_rounding * (flat.colwise().maxCoeff() - flat.colwise().minCoeff()).norm();
   std::vector<Index> kept;
   std::vector<char> covered(flat.rows(), 0);  // each cluster is looked through by its first only
   interruptible_for(context, flat.rows(), [&](Index i) {
@@ -116,7 +117,7 @@ HeightInterpolant::Quadratic HeightInterpolant::fitted(Index node,
   Vector5 right = Vector5::Zero();
   for (const Neighbour& other : around) {
     const double d = std::sqrt(other.squared_distance) / radius;
-    if (!(d > 1e-9)) continue;
+    if (!(d > double_rounding)) continue;
     const Eigen::RowVector3d offset = nodes_.row(other.index) - nodes_.row(node);
     const double u = offset[0] / radius, v = offset[1] / radius, inverse = (1.05 - d) / d;
     const Vector5 row{u, v, u * u / 2, u * v, v * v / 2};

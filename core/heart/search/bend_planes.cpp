@@ -17,20 +17,19 @@ constexpr Index few = 600, many = 2000;           // points that planes are bent
 constexpr std::size_t most_bent = 3;              // to the end
 constexpr double unbent = 0.997;                  // flatness of what is a plane still
 constexpr double beyond_others = 1.1;  // of their support, what planes half-way must have
-constexpr double bent_foot_precision = 1e-6;
 
 // From a stiff plane that looks far to one that bends and looks near. It is soft before it looks
 // near: a stiff one has lost the ends of a body by then. Curvature that is the same everywhere
 // costs nothing: saddles, domes and twists are found at once. Chosen on bodies of 10,000 points
 // (`make accuracy OPTIONS="--cases bodies"`).
 constexpr int stages = 18, first_stages = 6, steps_a_stage = 2;
-constexpr double widest = 0.09, narrowest = 0.01, closest = 0.8;  // diagonals; spacings
+constexpr double widest = 0.09;  // diagonals
 constexpr double stiffest = 1e-3, softest = 1e-8;
 constexpr double soft_from = 0.6, looks_far = 1.5;  // share of the stages; exponent
 constexpr bool is_finer(int stage) { return stage == 4 || stage == 8; }
 
-double tolerance_at(double part) {
-  return widest * std::pow(narrowest / widest, std::pow(part, looks_far));
+double tolerance_at(double part, double last) {
+  return widest * std::pow(last / widest, std::pow(part, looks_far));
 }
 double stiffness_at(double part) {
   return stiffest * std::pow(softest / stiffest, std::min(1.0, part / soft_from));
@@ -72,7 +71,7 @@ void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& 
     search.context.check();
     if (is_finer(stage)) plane.subdivide();
     const double part = stage / (stages - 1.0);
-    const double tolerance = std::max(tolerance_at(part), closest * search.spacing);
+    const double tolerance = tolerance_at(part, search.tolerance());
     for (int k = 0; k < steps_a_stage; ++k) plane.step(tolerance, stiffness_at(part), stride);
   }
 }
@@ -98,7 +97,7 @@ bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
   for (std::size_t k = 0; k < std::min(planes.size(), most_bent); ++k) {
     GrownSurface surface;
     surface.mirror = laid_on(search, planes[k]).free_form();
-    match(search, bent_foot_precision, surface);
+    match(search, single_rounding, surface);
     surface.exact = surface.bent = true;
     surface.support = 1;
     surfaces.push_back(std::move(surface));
@@ -138,7 +137,7 @@ void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<Grow
   for (std::size_t k = 0; k < bent.size(); ++k) {
     GrownSurface surface;
     surface.mirror = bent[k].free_form();
-    match(search, bent_foot_precision, surface);
+    match(search, single_rounding, surface);
     if (surface.carried.size() < 6) continue;
     // Between noisy sheets a plane explains more than what bends with them, and less truly.
     if (flatness(surface) > unbent && !surface.exact) continue;

@@ -15,7 +15,7 @@ constexpr double least_exact = 0.8;
 constexpr double flat_enough = 0.995;
 constexpr double together = 1.4, together_normals = 0.85;  // spacings, cosine
 constexpr double least_component = 0.15;                   // of the largest
-constexpr double foot_precision = 1e-3, exact_foot_precision = 1e-9;
+constexpr double foot_precision = 1e-3;
 
 struct Smoothing {
   Index neighbours;  // data a patch is fitted to
@@ -192,7 +192,7 @@ void refine(const SearchCloud& cloud, int rounds, GrownSurface& surface) {
     surface.mirror = fitted(cloud, surface.carried,
                             fresh ? Smoothing{24, 0.3, 0.6 * cloud.spacing, 1} : smoothing);
     if (!surface.mirror) return;
-    match(cloud, surface.exact ? exact_foot_precision : foot_precision, surface);
+    match(cloud, surface.exact ? double_rounding : foot_precision, surface);
     if (surface.carried.size() < 6) {
       surface.mirror = nullptr;
       return;

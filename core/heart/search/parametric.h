@@ -17,9 +17,6 @@
 
 namespace symsurf {
 
-/// On how many samples each of the candidates is fitted to the full cloud, and the best of them.
-inline constexpr Fit of_each{.samples = 400, .steps = 4}, of_best{.samples = 3000, .steps = 40};
-
 /// Candidates closer to each other are one, for suppress_non_maxima.
 inline constexpr double alike_shapes = 0.04;
 

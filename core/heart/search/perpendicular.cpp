@@ -197,11 +197,11 @@ constexpr double voxels_within = 0.4;  // of what is near: edges that a voxel's 
 // may end before it reaches the middle between two.
 void drop_false_pairs(Result& result, const Cloud& cloud, bool exact, double spacing) {
   constexpr double on_image = 0.15;  // spacings
-  constexpr double as_near = 2, rounding = 1e-9;
+  constexpr double as_near = 2;
   if (result.pairs.rows() == 0) return;
   const std::vector<double> residuals(result.residuals.begin(), result.residuals.end());
   const double on_mirror =
-      exact ? std::max(rounding * cloud.diagonal, as_near * median(residuals)) : -1;
+      exact ? std::max(double_rounding * cloud.diagonal, as_near * median(residuals)) : -1;
   std::vector<Index> partner(cloud.points.size(), -1);
   for (Index row = 0; row < result.pairs.rows(); ++row)
     partner[result.pairs(row, 0)] = result.pairs(row, 1);

@@ -110,9 +110,6 @@ void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distanc
 
 namespace {
 
-// Few samples are enough to tell which planes are worth more.
-constexpr Fit quick{.samples = 250, .tolerance = 0.02, .steps = 2},
-    careful{.samples = 1300, .tolerance = 0.01, .steps = 2};
 constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
 // Score below which planes are moved to its maximum, and what that has to gain over the best: a

@@ -16,9 +16,8 @@ namespace symsurf::perpendicular {
 
 namespace {
 
-constexpr double noticeable = 0.12;     // noise, in spacings
-constexpr Index most_smoothing = 60;    // neighbours
-constexpr double least_spacing = 1e-6;  // diagonals: doubled points are no spacing
+constexpr double noticeable = 0.12;   // noise, in spacings
+constexpr Index most_smoothing = 60;  // neighbours
 
 // To that share of the diagonal coordinates are rounded: far above the rounding of doubles, and far
 // below what distinguishes an exact partner from others.
@@ -92,7 +91,7 @@ SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const Context& 
       axes(posed.axes),
       diagonal(cloud.frame.size),
       given_normals_(!cloud.normals.empty()) {
-  spacing = std::max(spacing, least_spacing);
+  spacing = std::max(spacing, single_rounding);  // doubled points are no spacing
   if (!given_normals_) return;
   const PointTree& all = cloud.tree(context);
   for (Index i = 0; i < size(); ++i) {
@@ -124,7 +123,7 @@ void SearchCloud::smooth(const Context& progress) {
   const double raw = noise;
   static_cast<SurfacePoints&>(*this) =
       SurfacePoints(std::move(smoothed), progress.stage(0.5, 1), ring + 1);
-  spacing = std::max(spacing, least_spacing);
+  spacing = std::max(spacing, single_rounding);
   noise = raw;
   normals = std::move(fitted);
 }
