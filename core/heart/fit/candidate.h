@@ -82,6 +82,7 @@ class PatchMatcher {
   template <typename Map>
   std::vector<Match> matches(const std::vector<Map>& maps, double /*limit*/) const {
     std::vector<Match> found;
+    found.reserve(maps.size() * surfels_.size() / stride_ + 1);
     for (std::size_t k = 0; k < maps.size(); ++k)
       for (Index i = 0; i < surfels_.size(); i += stride_) {
         const Surfel& own = surfels_[i];

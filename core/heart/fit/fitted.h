@@ -30,11 +30,15 @@ class GaussNewton {
     const Eigen::Matrix<double, 3, size> slopes = map.slopes(x);
     const Change across = slopes.transpose() * metric.normal;
     const double off = weight * metric.off_surface, all = weight * metric.isotropic;
-    hessian_.noalias() += off * across * across.transpose();
-    gradient_ += off * metric.normal.dot(gap) * across;
-    if (all == 0) return;
-    hessian_.noalias() += all * (slopes.transpose() * slopes);
-    gradient_.noalias() += all * (slopes.transpose() * gap);
+    if (all == 0) {
+      hessian_.noalias() += off * across * across.transpose();
+      gradient_ += off * metric.normal.dot(gap) * across;
+      return;
+    }
+    Eigen::Matrix<double, 3, size> weighted = all * slopes;
+    weighted.noalias() += off * metric.normal * across.transpose();
+    hessian_.noalias() += slopes.transpose() * weighted;
+    gradient_.noalias() += weighted.transpose() * gap;
   }
 
   const Hessian& hessian() const { return hessian_; }
@@ -168,7 +172,6 @@ Fitted<Map> fitted(std::vector<Map> maps, const Matcher& matcher, const Schedule
     for (const Match& match : found) {
       const Map& map = maps[match.map];
       const Vector3 off = map.reflect(match.point) - match.partner;
-      if (!off.allFinite()) continue;  // the map has moved since
       const Counted one = kernel(map, match, off, tolerance);
       if (!(one.weight > 0)) continue;
       sum.add(map, match.point, off, one.metric, one.weight);

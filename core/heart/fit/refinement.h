@@ -156,6 +156,7 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
     }
   const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
   std::vector<Match> found;
+  found.reserve(asked.size());
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!partners[k].allFinite()) continue;
     const Vector3 x = cloud_.frame.to_frame(partners[k]);
