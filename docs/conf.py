@@ -38,7 +38,7 @@ nitpick_ignore_regex = [
     ("py:.*", r"(Any|Callable|Path|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
     ("py:.*", r"(Iterable|Sequence|Executor|concurrent|ValueError|RuntimeError|UserWarning)\b.*"),
     ("cpp:identifier", r"(std|Eigen|vtk\w*|VTK\w*|ostream)(::.*)?"),
-    ("cpp:identifier", r"(Vector3|Matrix3)::.*|Report|HeightInterpolant|Blend|Grid|Target"),
+    ("cpp:identifier", r"(Vector3|Matrix3)::.*|Report|Motion|HeightInterpolant|Blend|Grid|Target"),
 ]
 
 # Markdown: links to headings as a repository's web page makes them.
