@@ -22,13 +22,13 @@ inline constexpr double alike_shapes = 0.04;
 
 /// Mirrors of few numbers that pairs of patches ask for, refined on the patches and fitted to the
 /// full cloud, the best first. `Kind` has
-///   name, widest, radius(shape)  of the method; the greatest radius, diagonals
-///   through                      of hypotheses_of_pairs
-///   taken_planes(...)            takes out what is a plane rather, and returns the best of it
-///   fitted(candidate)            fitted to the full cloud; closely(candidate): to more of it
-///   rest(candidate)              the cloud without what a mirror pairs, where that may have its
-///   own drop_planes(score, all)      what scores no better than a plane mirror(shape) in input
-///   units
+/// - name, widest, radius(shape): of the method; the greatest radius, diagonals;
+/// - through: of hypotheses_of_pairs;
+/// - taken_planes(...): takes out what is rather a plane, and returns the best of it;
+/// - fitted(candidate), closely(candidate): fitted to the full cloud, and to more of it;
+/// - rest(candidate): the points that it does not pair, where these may have a mirror of their own;
+/// - drop_planes(score, all): drops what scores no better than a plane;
+/// - mirror(shape): in input units.
 template <typename Kind>
 class ParametricSearch {
  public:

@@ -68,7 +68,7 @@ void jet(const Points& points, const std::vector<Neighbour>& around, Vector3& x,
 
 SearchCloud::Posed::Posed(const Cloud& cloud, Index most_points, const Context& context)
     : axes(right_handed(cloud.frame.axes)) {
-  // Those of the frame are right-handed, too, where the last axis turns.
+  // Of a left-handed frame the last axis turns round.
   const Vector3 turn(1, 1, axes.col(2).dot(cloud.frame.axes.col(2)));
   if (cloud.points.size() <= most_points) {
     points = cloud.frame.to_frame(cloud.points, context);
