@@ -41,9 +41,7 @@ Candidate<Shape> refined_on_surfels(const Surfels& surfels, const SurfelMap& map
                                     Candidate<Shape> candidate, double widest, double narrowest,
                                     int steps, Index stride, double contradiction) {
   const PatchMatcher patches(surfels, map, stride);
-  candidate.shape = fitted(std::vector<Shape>{candidate.shape}, patches, {widest, narrowest, steps},
-                           patches.kernel())
-                        .maps.front();
+  candidate.shape = fitted(candidate.shape, patches, {widest, narrowest, steps}, patches.kernel());
   candidate.support =
       support_share(surfels, map, candidate.shape, narrowest, stride, contradiction);
   return candidate;

@@ -182,7 +182,8 @@ std::optional<Shape> fitted_to_exact_pairs(const Shape& shape,
                                            const std::vector<Vector3>& positions,
                                            const NearestPoints& points, const PrincipalFrame& frame,
                                            double spacing) {
-  constexpr double exact = 0.03, rounding = 1e-15;  // exact: of the spacing
+  constexpr double exact = 0.03;  // of the spacing
+  constexpr double rounding = PartnerKernel::rounding;
   const auto [shapes, tolerance] =
       fitted(std::vector<Shape>{shape}, PointMatcher(positions, points, frame, spacing),
              {spacing, rounding, 16, rounding}, PartnerKernel{spacing});

@@ -119,6 +119,8 @@ struct SurfaceKernel {
 /// them all but vanish, while by chance a tenth of all images comes within a fifth of the spacing
 /// at best. The tolerance follows the gaps that a share of the points stays below.
 struct PartnerKernel {
+  static constexpr double rounding = 1e-15;  // diagonals: a step that moves nothing any more
+
   double spacing, share = 0.1, worth_trying = 0.12;  // worth_trying: of the spacing
 
   template <typename Map>
@@ -189,6 +191,12 @@ Fitted<Map> fitted(std::vector<Map> maps, const Matcher& matcher, const Schedule
     }
   }
   return {std::move(maps), tolerance};
+}
+
+/// A single map.
+template <typename Map, typename Matcher, typename Kernel>
+Map fitted(const Map& map, const Matcher& matcher, const Schedule& schedule, const Kernel& kernel) {
+  return fitted(std::vector<Map>{map}, matcher, schedule, kernel).maps.front();
 }
 
 }  // namespace symsurf

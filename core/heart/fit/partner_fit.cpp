@@ -129,13 +129,10 @@ Points PartnerFit::unpaired_points(const UnitSphere& sphere) const {
 }
 
 UnitSphere PartnerFit::refined(const UnitSphere& sphere, Index most) const {
-  constexpr double rounding = 1e-15;
   const std::vector<Vector3> looked_at = positions(most);
-  return fitted(std::vector<UnitSphere>{sphere},
-                PointMatcher(looked_at, points_, cloud_.frame, spacing_),
-                {0.75 * spacing_, exact * spacing_, 12, rounding},
-                PartnerKernel{spacing_, 0.5, infinity})
-      .maps.front();
+  return fitted(sphere, PointMatcher(looked_at, points_, cloud_.frame, spacing_),
+                {0.75 * spacing_, exact * spacing_, 12, PartnerKernel::rounding},
+                PartnerKernel{spacing_, 0.5, infinity});
 }
 
 }  // namespace symsurf

@@ -191,6 +191,11 @@ inline Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& fra
   return {frame.from_frame(sphere.centre()), frame.size * sphere.radius()};
 }
 
+inline Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {
+  return {frame.from_frame(cylinder.point), frame.axes * cylinder.axis,
+          frame.size * cylinder.radius};
+}
+
 /// How a mirror next to a plane bends, in the principal frame: to the second order its height over
 /// the plane through the point is e' C e / 2, e the offset along the plane.
 struct PlaneBend {

@@ -45,9 +45,8 @@ struct CylinderKind {
     }
   };
 
-  CylinderKind(const Cloud& cloud, const NearestPoints&, const Refinement& refinement,
-               const Context&)
-      : frame_(cloud.frame), refinement_(refinement) {}
+  CylinderKind(const Cloud&, const NearestPoints&, const Refinement& refinement, const Context&)
+      : refinement_(refinement) {}
 
   Candidate<UnitCylinder> fitted(const Candidate<UnitCylinder>& start) const {
     return refinement_.fitted(start, of_each);
@@ -62,22 +61,13 @@ struct CylinderKind {
   std::optional<Points> rest(const Candidate<UnitCylinder>&) const { return std::nullopt; }
   void drop_planes(const MirrorScore&, std::vector<Candidate<UnitCylinder>>&) const {}
 
-  std::shared_ptr<Mirror> mirror(const UnitCylinder& cylinder) const {
-    return std::make_shared<Cylinder>(frame_.from_frame(cylinder.point),
-                                      frame_.axes * cylinder.axis, frame_.size * cylinder.radius);
-  }
-
  private:
-  const PrincipalFrame& frame_;
   const Refinement& refinement_;
 };
 
 std::shared_ptr<Mirror> bent_cylinder(const PlaneBend& bend, const Refinement& refinement,
                                       const PrincipalFrame& frame) {
-  const Candidate<UnitCylinder> start{bend.cylinder()};
-  const UnitCylinder cylinder = refinement.fitted(start, of_best).shape;
-  return std::make_shared<Cylinder>(frame.from_frame(cylinder.point), frame.axes * cylinder.axis,
-                                    frame.size * cylinder.radius);
+  return mirror_of(refinement.fitted(bend.cylinder(), of_best), frame);
 }
 
 }  // namespace

@@ -20,6 +20,11 @@ namespace symsurf {
 /// Candidates closer to each other are one, for suppress_non_maxima.
 inline constexpr double alike_shapes = 0.04;
 
+template <typename Shape>
+std::shared_ptr<Mirror> mirror_of(const Shape& shape, const PrincipalFrame& frame) {
+  return std::make_shared<decltype(in_input_units(shape, frame))>(in_input_units(shape, frame));
+}
+
 /// Mirrors of few numbers that pairs of patches ask for, refined on the patches and fitted to the
 /// full cloud, the best first. `Kind` has
 /// - name, widest, radius(shape): of the method; the greatest radius, diagonals;
@@ -27,8 +32,7 @@ inline constexpr double alike_shapes = 0.04;
 /// - taken_planes(...): takes out what is rather a plane, and returns the best of it;
 /// - fitted(candidate), closely(candidate): fitted to the full cloud, and to more of it;
 /// - rest(candidate): the points that it does not pair, where these may have a mirror of their own;
-/// - drop_planes(score, all): drops what scores no better than a plane;
-/// - mirror(shape): in input units.
+/// - drop_planes(score, all): drops what scores no better than a plane.
 template <typename Kind>
 class ParametricSearch {
  public:
@@ -113,7 +117,7 @@ Result searched(const Cloud& cloud, const ParameterValues& values, const Context
   search.kind().drop_planes(score, found);
   if (found.empty()) return best;
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  for (const auto& candidate : found) mirrors.push_back(search.kind().mirror(candidate.shape));
+  for (const auto& candidate : found) mirrors.push_back(mirror_of(candidate.shape, cloud.frame));
   best = score.ranked(Kind::name, mirrors);
   add_pairs(best, cloud, values, context.stage(0.75, 1));
   return best;

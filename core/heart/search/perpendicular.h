@@ -32,16 +32,6 @@ struct SearchCloud : SurfacePoints {
   void smooth(const Context& progress);
 
  private:
-  // The points of a cloud as they are searched.
-  struct Posed {
-    Posed(const Cloud& cloud, Index most_points, const Context& context);
-
-    Matrix3 axes;
-    Points points;
-  };
-
-  SearchCloud(const Cloud& cloud, const Posed& posed, const Context& context);
-
   bool given_normals_;
 };
 

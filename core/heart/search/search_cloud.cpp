@@ -64,12 +64,9 @@ void jet(const Points& points, const std::vector<Neighbour>& around, Vector3& x,
   normal = (axes * Vector3(1, -fit[1], -fit[2])).normalized();
 }
 
-}  // namespace
-
-SearchCloud::Posed::Posed(const Cloud& cloud, Index most_points, const Context& context)
-    : axes(right_handed(cloud.frame.axes)) {
-  // Of a left-handed frame the last axis turns round.
-  const Vector3 turn(1, 1, axes.col(2).dot(cloud.frame.axes.col(2)));
+// The points as they are searched, in the frame with these axes.
+Points posed(const Cloud& cloud, const Matrix3& axes, Index most_points, const Context& context) {
+  Points points;
   if (cloud.points.size() <= most_points) {
     points = cloud.frame.to_frame(cloud.points, context);
   } else {
@@ -77,18 +74,20 @@ SearchCloud::Posed::Posed(const Cloud& cloud, Index most_points, const Context& 
     points.resize(patches.size(), 3);
     for (Index i = 0; i < points.rows(); ++i) points.row(i) = patches[i].sampled;
   }
-  points = rounded(points * turn.asDiagonal());
-  points = chosen_rows(points, ascending(points, context));
+  points.col(2) *= axes.col(2).dot(cloud.frame.axes.col(2));
+  points = rounded(std::move(points));
+  return chosen_rows(points, ascending(points, context));
 }
 
-SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
-    : SearchCloud(cloud, Posed(cloud, most_points, context.stage(0, 0.1)), context) {}
+}  // namespace
 
-SearchCloud::SearchCloud(const Cloud& cloud, const Posed& posed, const Context& context)
-    : SurfacePoints(posed.points, context.stage(0.1, 1), ring + 1),
+SearchCloud::SearchCloud(const Cloud& cloud, Index most_points, const Context& context)
+    : SurfacePoints(
+          posed(cloud, right_handed(cloud.frame.axes), most_points, context.stage(0, 0.1)),
+          context.stage(0.1, 1), ring + 1),
       context(context),
       centroid(cloud.frame.centroid),
-      axes(posed.axes),
+      axes(right_handed(cloud.frame.axes)),
       diagonal(cloud.frame.size),
       given_normals_(!cloud.normals.empty()) {
   spacing = std::max(spacing, single_rounding);  // doubled points are no spacing

@@ -56,8 +56,9 @@ struct SphereKind {
     constexpr double as_much = 0.9;
     const auto is_bent = [&](const SphereCandidate& c) {
       return c.shape.radius() < bent ||
-             refined_on_surfels(surfels, map, touching_plane(c.shape), 0.03, 0.02, 4, 1).support <=
-                 as_much * support_share(surfels, map, c.shape, 0.02);
+             refined_on_surfels(surfels, map, Candidate<UnitPlane>{touching_plane(c.shape)}, 0.03,
+                                0.02, 4, 1)
+                     .support <= as_much * support_share(surfels, map, c.shape, 0.02);
     };
     const auto planes = std::stable_partition(candidates.begin(), candidates.end(), is_bent);
     std::vector<SphereCandidate> taken(planes, candidates.end());
@@ -71,9 +72,9 @@ struct SphereKind {
     std::vector<SphereCandidate> spheres = candidates;
     std::erase_if(spheres, [&](const SphereCandidate& c) {
       if (c.shape.radius() < bent) return false;
-      const UnitPlane plane = refinement_.fitted(touching_plane(c.shape), of_each).shape;
+      const UnitPlane plane = refinement_.fitted(touching_plane(c.shape), of_each);
       return merit(score.fit(in_input_units(plane, cloud_.frame)), "plane") >=
-             merit(score.fit(*mirror(c.shape)), "sphere");
+             merit(score.fit(in_input_units(c.shape, cloud_.frame)), "sphere");
     });
     if (!spheres.empty()) candidates = std::move(spheres);
   }
@@ -88,16 +89,12 @@ struct SphereKind {
     return unpaired;
   }
 
-  std::shared_ptr<Mirror> mirror(const UnitSphere& sphere) const {
-    return std::make_shared<Sphere>(in_input_units(sphere, cloud_.frame));
-  }
-
  private:
   static constexpr double bent = 0.6;  // diagonals: smaller spheres are no planes
 
-  static Candidate<UnitPlane> touching_plane(const UnitSphere& sphere) {
+  static UnitPlane touching_plane(const UnitSphere& sphere) {
     const Vector3 up = sphere.gradient(Vector3::Zero()).normalized();
-    return {{up, sphere.distance(Vector3::Zero())}};
+    return {up, sphere.distance(Vector3::Zero())};
   }
 
   const Cloud& cloud_;
@@ -107,8 +104,7 @@ struct SphereKind {
 
 std::shared_ptr<Mirror> bent_sphere(const PlaneBend& bend, const Refinement& refinement,
                                     const PrincipalFrame& frame) {
-  const SphereCandidate start{bend.sphere()};
-  return std::make_shared<Sphere>(in_input_units(refinement.fitted(start, of_best).shape, frame));
+  return mirror_of(refinement.fitted(bend.sphere(), of_best), frame);
 }
 
 }  // namespace

@@ -178,9 +178,8 @@ Eigen::Affine3d SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vect
                                    double tolerance, int steps) const {
   const PatchMap map = map_of(surface_.points(), start, points, scales_);
   if (!(map.lever > 0)) return start;
-  return symsurf::fitted(std::vector<PatchMap>{map}, PatchMatcher{*this, points, tolerance},
-                         {tolerance, tolerance, steps}, PlaneKernel())
-      .maps.front()
+  return symsurf::fitted(map, PatchMatcher{*this, points, tolerance}, {tolerance, tolerance, steps},
+                         PlaneKernel())
       .map;
 }
 
