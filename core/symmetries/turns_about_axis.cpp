@@ -11,7 +11,7 @@
 #include "base/math.h"
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"
-#include "operations/complete.h"
+#include "operations/operation.h"
 #include "point_group/symmetry_search.h"
 #include "preprocess/surface_samples.h"
 

@@ -1,5 +1,3 @@
-#include "operations/complete.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,8 +10,8 @@
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
 #include "operations/counterparts.h"
+#include "operations/meshes.h"
 #include "operations/operation.h"
-#include "operations/seam.h"
 
 namespace symsurf {
 

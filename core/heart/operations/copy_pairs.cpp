@@ -1,5 +1,3 @@
-#include "operations/copy_pairs.h"
-
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -8,6 +6,7 @@
 #include "base/parallel.h"
 #include "cloud/cloud.h"
 #include "cloud/voxel_grid.h"
+#include "operations/meshes.h"
 
 namespace symsurf {
 

@@ -16,7 +16,7 @@
 #include "cloud/cloud.h"
 #include "cloud/point_tree.h"
 #include "cloud/surface_points.h"
-#include "operations/copy_pairs.h"
+#include "operations/meshes.h"
 
 namespace symsurf {
 

@@ -1,5 +1,3 @@
-#include "operations/cut.h"
-
 #include <symsurf/mirrors.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include "cloud/isotropic_remeshing.h"
 #include "cloud/triangle_mesh.h"
 #include "cloud/triangulation.h"
-#include "operations/half.h"
+#include "operations/meshes.h"
 #include "operations/operation.h"
 
 namespace symsurf {

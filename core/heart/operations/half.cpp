@@ -1,5 +1,3 @@
-#include "operations/half.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "base/math.h"
 #include "cloud/cloud.h"
+#include "operations/meshes.h"
 
 namespace symsurf {
 

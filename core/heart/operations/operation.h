@@ -32,6 +32,13 @@ OperationImplementation remesh_operation();
 OperationImplementation cut_operation();
 OperationImplementation transfer_operation(HomologousMatcher homologous);
 
+/// Makes the result the shape itself, the source of each point and face its own.
+void start_completion(const OperationInput& input, OperationResult& result);
+
+/// Adds to the shape in `result` the preimages under a map of what they are missing from.
+void complete_by(const SymmetryMap& map, const ParameterValues& values, const Context& context,
+                 OperationResult& result);
+
 /// Whether an operation with these values is done over a mirror, not about an axis.
 bool is_over_mirror(const OperationImplementation& operation, const ParameterValues& values);
 

@@ -4,7 +4,7 @@
 #include "cloud/cloud.h"
 #include "cloud/isotropic_remeshing.h"
 #include "cloud/triangle_mesh.h"
-#include "operations/half.h"
+#include "operations/meshes.h"
 #include "operations/operation.h"
 
 namespace symsurf {

@@ -1,5 +1,3 @@
-#include "operations/seam.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +6,7 @@
 #include "base/math.h"
 #include "cloud/point_tree.h"
 #include "cloud/triangulation.h"
+#include "operations/meshes.h"
 
 namespace symsurf {
 

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "operations/counterparts.h"
-#include "operations/half.h"
+#include "operations/meshes.h"
 #include "operations/operation.h"
 
 namespace symsurf {

@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "cloud/triangle_mesh.h"
+
+// What operations do with the faces of a mesh: cut it along a mirror, close the cut, join parts.
+
 namespace symsurf {
 
 /// One side of a shape, cut along a mirror.
@@ -48,5 +52,36 @@ bool keeps_positive(const ParameterValues& values);
 
 /// Puts points and faces, and where they come from, in place of those of the input.
 void set_shape(Half half, OperationResult& result);
+
+/// Faces within a mirror that close a half where it is cut.
+struct Cap {
+  Points points;    ///< within the cut, behind those of the half
+  Triangles faces;  ///< of points of the half and of these
+  Index open = 0;   ///< curves of the cut that do not close: the shape ends at them
+};
+
+/// Triangles about as large as the faces of the half. Closed curves within others bound holes.
+Cap cap_of(const Half& half, const Mirror& mirror, const Context& context);
+
+/// A part that is added to a mesh beside its rims.
+struct AddedPart {
+  Index first;      ///< of its points, which stand behind those of the mesh
+  Triangles faces;  ///< of points from `first` on
+  /// One a point of it: whether the mesh is known to go on where it ends.
+  std::vector<bool> meets_mesh;
+};
+
+/// Triangles between the rims of a mesh and of what was added to it, where the two face each other
+/// or are closer than `touching` (input units); and in those holes that hold no added part because
+/// they are too small, if all their points are `fillable`.
+Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
+                       const std::vector<bool>& fillable, double touching, const Context& context);
+
+/// Chooses among copies of points, which soups, flat shading and seams of textures have, so that
+/// partners pair one to one wherever there are as many copies on both sides: those that mirrored
+/// faces have at the same corner, the others by their order. `partners`: of each point one at the
+/// position of its mirror point, or -1.
+void pair_copies(PointsView points, TrianglesView faces, std::vector<Index>& partners,
+                 const Context& context);
 
 }  // namespace symsurf
