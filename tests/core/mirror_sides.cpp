@@ -1,10 +1,11 @@
+#include "score/mirror_sides.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
 #include "random_cloud.h"
-#include "score/mirror_layers.h"
 
 namespace symsurf::mirror_sides_tests {
 namespace {

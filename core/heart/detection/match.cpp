@@ -102,7 +102,7 @@ Result match(PointsView points, const Mirror& mirror, double pair_distance, cons
   Result result =
       run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
   result.parameters = {{"pair_distance", pair_distance}, {"tolerance", tolerance}};
-  judge(result, true, usual_minimum_score);
+  judge(result, &mirror, usual_minimum_score);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -101,7 +101,7 @@ Result detect_in_one(PointsView points, const Options& options, const MethodImpl
   Cloud cloud = cloud_of(points, options.normals, options, values.real("tolerance"));
   cloud.faces = options.faces;
   Result result = run_pipeline(method, values, cloud, options.refuse_nonfinite, context);
-  judge(result, result.mirror || result.pairs.rows() > 0, values.real("minimum_score"));
+  judge(result, result.mirror.get(), values.real("minimum_score"));
   return result;
 }
 

@@ -6,75 +6,43 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <utility>
 
+#include "base/linear_algebra.h"
 #include "base/math.h"
 #include "cloud/principal_frame.h"
-#include "cloud/surfels.h"
 #include "pairing/correspondence.h"
-#include "score/mirror_layers.h"
+#include "score/mirror_sides.h"
 
 namespace symsurf {
 
 namespace {
 
 // Lengths are in diagonals.
-constexpr Index sample_count = 500;                             // points whose support is measured
-constexpr double least_radius = 0.035, greatest_radius = 0.15;  // of the balls
-constexpr double points_in_ball = 18;  // cells, in the median, where the cloud is that dense
-constexpr double far_off = 4.5;        // tolerances: the worst miss
-// One random split of so many points is as good as any; of fewer several are compared.
-constexpr Index many = 10000, most_splits = 4;
-// From which distance from the mirror on a point counts in full, near which any surface is
-// symmetric: at least, in standard deviations of the noise, in shares of the cloud's extent.
-constexpr double least_moved = 0.006, moved_by_noise = 5, moved_by_extent = 0.25;
-constexpr double most_moved = 0.1;      // of few points scattered at random all passes for noise
-constexpr double layer_of_noise = 15;   // standard deviations: what lies farther apart is no layer
-constexpr double least_share = 0.2;     // of all points, that the mean is taken over
-constexpr double least_ceiling = 0.25;  // of points too few to say anything of each other
-constexpr double rounding = 1e-6;       // single precision
-constexpr double held_out = 0.06;       // radius of the windows that sides are predicted over
+constexpr Index sample_count = 1000;
+// Distance from the mirror from which on a sample counts in full, near which any surface is
+// symmetric: that; of a thin body a share of its extent, some tolerances at least; some deviations
+// of the noise.
+constexpr double fully_moved = 0.02, moved_by_extent = 0.25, moved_by_noise = 4;
+constexpr double moved_by_tolerance = 2;
+constexpr double least_share = 0.2;  // of all samples, that the mean is taken over
+constexpr double held_out = 0.06;    // radius of the windows that sides are predicted over
 
-// What mirrors of a kind are free to do. Of two that fit alike the simpler is meant: `cost`, of
-// the score. Of random solids the best quadric maps 0.6, the best plane, sphere and cylinder 0.4:
-// what is beyond `by_chance` favours a quadric.
-struct Freedom {
-  double cost = 0, by_chance = 0;
-  // Of a kind that may have any height over each position.
-  struct Evidence {
-    double open, closed;  // nats, to begin with: closed where MirrorLayers has a single one
-  };
-  std::optional<Evidence> any_shape = {};
-};
-
-// So the best free forms of 1 % of 216 random bodies (1500 to 40,000 points, clean, noisy and with
-// holes) have a score of 0.5, and 71 % of the right ones of 65 bent bodies. Any solid has a height
-// field half-way through it, along any direction.
-Freedom freedom_of(std::string_view kind) {
-  static const std::map<std::string_view, Freedom> freedoms{
-      {"sphere", {0.01}},
-      {"cylinder", {0.02}},
-      {"quadric", {0.03, 0.2}},
-      {"height field", {0.05, 0, {{3, -3}}}},
-      {"free-form", {0.06, 0, {{3, 0}}}},
-  };
-  const auto found = freedoms.find(kind);
-  return found == freedoms.end() ? Freedom() : found->second;
+// Nats that a mirror of any shape begins with, and what it loses with all that contradicts it. Of
+// 75 free forms found by search the right ones map 0.96 of what is there in the median, those of
+// chance 0.93 at most but for tetrahedra and thin clouds of threads. Any solid has a height field
+// half-way through it, along any direction, that maps all.
+std::optional<double> prior_of(std::string_view kind) {
+  if (kind == "free-form") return 7;
+  if (kind == "height field") return -3;
+  return std::nullopt;
 }
+constexpr double contradiction = 100;
 
-// Parts of a shape, each of which a mirror of any shape maps by chance or not.
-constexpr double parts = 30;
-
-// Score of a plane from which on nobody asks whether the shape slides over itself: no sheet without
-// a mirror has so much.
-constexpr double beyond_doubt = 0.9;
-
-void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
-  result.score = score_of(fit, kind);
-  result.statistics["explained_share"] = std::min(1.0, fit.share);
-  result.statistics["exact_share"] = fit.exact;
-  result.statistics["covered_share"] = fit.covered;
-  result.statistics["deviation"] = fit.deviation;
-  if (freedom_of(kind).any_shape) result.statistics["evidence"] = fit.evidence;
+// Of what the cloud has where images fall.
+double contradicted_of(const MirrorFit& fit) {
+  return std::max(0.0, 1 - fit.share / std::max(1 - fit.missing, 1e-9));
 }
 
 Eigen::Isometry3d reflection_over(const UnitPlane& plane) {
@@ -84,221 +52,169 @@ Eigen::Isometry3d reflection_over(const UnitPlane& plane) {
   return reflection;
 }
 
-// Next to a plane: turned both ways about the direction along it in which the cloud is thinnest and
-// the one across, and shifted to both sides.
-std::vector<UnitPlane> planes_beside(const UnitPlane& plane) {
-  constexpr double angle = 0.2, shift = 0.025;  // radians, diagonals
-  const Vector3& normal = plane.normal;
-  const Vector3 thinnest = Vector3::UnitZ() - normal.z() * normal;
-  const Vector3 first =
-      thinnest.norm() > 1e-6 ? thinnest.normalized() : Vector3(normal.unitOrthogonal());
-  std::vector<UnitPlane> found;
-  for (const double side : {-1.0, 1.0}) {
-    for (const Vector3& axis : {first, Vector3(normal.cross(first))}) {
-      const Vector3 turned = Eigen::AngleAxisd(side * angle, axis) * normal;
-      found.push_back({turned, plane.offset * turned.dot(normal)});
-    }
-    found.push_back({normal, plane.offset + side * shift});
+// The image of a surface's point over a rigid map.
+struct RigidImage {
+  Eigen::Isometry3d map;
+
+  ImagePoint operator()(const ImagePoint& at) const {
+    return {map * at.position, map.linear() * at.normal};
   }
-  return found;
+  RigidImage moved(const Eigen::Isometry3d& by) const { return {by * map * by.inverse()}; }
+};
+
+// The same over any mirror, that is moved by a motion.
+struct MirrorImage {
+  const Mirror& mirror;
+  const PrincipalFrame& frame;
+  Eigen::Isometry3d by = Eigen::Isometry3d::Identity();
+
+  Vector3 image(const Vector3& x) const {
+    return by * frame.to_frame(mirror.reflect(frame.from_frame(by.inverse() * x)));
+  }
+  ImagePoint operator()(const ImagePoint& at) const {
+    constexpr double step = 1e-4;
+    const Vector3 here = image(at.position);
+    const Eigen::Matrix<double, 3, 2> along = orthogonal_to(at.normal);
+    const Vector3 first = image(at.position + step * along.col(0)) - here,
+                  second = image(at.position + step * along.col(1)) - here;
+    return {here, second.cross(first).stableNormalized()};  // as a reflection turns them round
+  }
+  MirrorImage moved(const Eigen::Isometry3d& next) const { return {mirror, frame, next * by}; }
+};
+
+// The motions that turn a mirror about four axes in it, and shift it across itself, by groups: a
+// sheet slides in one way only.
+std::vector<std::vector<Eigen::Isometry3d>> chance_motions(const std::vector<PointFit>& fits,
+                                                           const SampledSurface& surface,
+                                                           const Cloud& cloud) {
+  Matrix3 chords = Matrix3::Zero();
+  std::array<std::vector<double>, 3> middles;
+  for (const PointFit& fit : fits) {
+    const Vector3& x = surface[fit.point].position;
+    const Vector3 chord = fit.image - x;
+    if (!(chord.norm() > fully_moved)) continue;
+    chords += chord.normalized() * chord.normalized().transpose();
+    for (int i = 0; i < 3; ++i) middles[i].push_back((x[i] + fit.image[i]) / 2);
+  }
+  if (middles[0].empty()) return {};
+  Vector3 pivot;
+  for (int i = 0; i < 3; ++i) pivot[i] = median(std::move(middles[i]));
+  const Vector3 normal = eigen_of(chords).vectors.col(2);
+  const Matrix3 across = Matrix3::Identity() - normal * normal.transpose();
+  const Matrix3 within =
+      eigen_of(Matrix3(across * cloud.frame.variance.asDiagonal() * across)).vectors;
+  const Vector3 u = within.col(1), v = within.col(2);
+  std::vector<std::vector<Eigen::Isometry3d>> groups;
+  for (const Vector3& axis : {u, v, Vector3((u + v).normalized()), Vector3((u - v).normalized())}) {
+    groups.emplace_back();
+    for (const double degrees : {-55, -25, 25, 55})
+      groups.back().push_back(Eigen::Translation3d(pivot) *
+                              Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis) *
+                              Eigen::Translation3d(-pivot));
+  }
+  groups.emplace_back();
+  for (const double shift : {-0.12, -0.06, 0.06, 0.12})
+    groups.back().push_back(Eigen::Isometry3d(Eigen::Translation3d(shift * normal)));
+  return groups;
 }
 
 }  // namespace
 
 MirrorScore::MirrorScore(const Cloud& cloud, const Context& context)
-    : cloud_(cloud),
-      points_(cloud, context.stage(0, 0)),
-      tolerance_{cloud.tolerance, far_off * cloud.tolerance},
-      coarse_(cloud.patches(sample_count, context.stage(0, 0.5))) {
-  const Index splits = std::clamp<Index>(many / cloud.points.size(), 1, most_splits);
-  for (Index k = 0; k < splits; ++k) splits_.emplace_back(cloud, coarse_, k);
-  radius_ = radius_for(splits_.front());
-  // A surface is no mirror of the noise on its two sides.
-  noise_ = measured_noise();
-  moved_ = std::clamp(moved_by_noise * noise_, least_moved, most_moved);
-  if (cloud.vertices) mesh_.emplace(*cloud.vertices, context.stage(0.5, 0.5));
-  for (Index k = 0; k < coarse_.size(); ++k) {
-    const Vector3& x = coarse_[k].sampled;
-    const std::size_t split = k % splits;
-    const CloudHalves& halves = splits_[split];
-    const Ball own(halves.one, x, radius_), other(halves.two, x, radius_);
-    const double ceiling = BallSupport(own, other, tolerance_).support;
-    samples_.push_back({x, split, own, std::max(least_ceiling, ceiling)});
-  }
+    : cloud_(cloud), surface_(cloud, sample_count, context.stage(0, 0.8)) {
+  if (cloud.vertices) mesh_.emplace(*cloud.vertices, context.stage(0.8, 1));
 }
 
-double MirrorScore::measured_noise() const {
-  std::vector<OnSurface> samples;
-  for (Index k = 0; k < coarse_.size(); ++k) samples.push_back({coarse_[k].sampled, &coarse_[k]});
-  return SurfaceNoise(samples, neighbours_of(samples, cloud_.frame, points_)).deviation();
-}
-
-double MirrorScore::radius_for(const CloudHalves& halves) const {
-  constexpr double growth = 1.15;
-  constexpr Index stride = 8;
-  const auto typical_count = [&](double radius) {
-    std::vector<double> counts;
-    for (Index k = 0; k < coarse_.size(); k += stride)
-      counts.push_back(Ball(halves.one, coarse_[k].sampled, radius).count);
-    return median(std::move(counts));
-  };
-  double radius = least_radius;
-  while (radius * growth <= greatest_radius && typical_count(radius) < points_in_ball)
-    radius *= growth;
-  return radius;
-}
-
-ThinnedHalf MirrorScore::mirrored(const ThinnedHalf& half, const Mirror& mirror) const {
-  const PrincipalFrame& frame = cloud_.frame;
-  Points images(half.points.rows(), 3);
-  for (Index i = 0; i < images.rows(); ++i) {
-    const Vector3 image = mirror.reflect(frame.from_frame(half.points.row(i).transpose()));
-    images.row(i) = frame.to_frame(image).transpose();
-  }
-  return ThinnedHalf(finite_rows(std::move(images)));
-}
-
-// Both sides' surfaces where the line to the image meets them: the means of the balls, as the noise
-// is less there. Where it hardly meets them the distance of surfaces is unreliable.
-void MirrorScore::add_sides(const Sample& sample, const Ball& image, const Vector3& to_image,
-                            MirrorSides& sides) {
+// Both sides' surfaces where the line to the image meets them, as the noise is less there. Where
+// it hardly meets them the distance of surfaces is unreliable.
+void MirrorScore::add_sides(const PointFit& fit, Index partner, MirrorSides& sides) const {
   constexpr double steepest = 0.5;  // cosine
-  const double length = to_image.norm();
-  const Vector3 along = to_image / length;
-  const Vector3 normal = sample.ball.normal();
-  const double facing = normal.dot(along);
-  if (std::abs(facing) < steepest) return;
-  const double own = normal.dot(sample.ball.mean) / facing, other = normal.dot(image.mean) / facing;
+  const Vector3& x = surface_[fit.point].position;
+  const double length = (fit.image - x).norm();
+  const Vector3 along = (fit.image - x) / length;
+  const LocalFacet &here = surface_[fit.point].patch, &there = surface_[partner].patch;
+  const double facing = here.normal.dot(along), facing_there = there.normal.dot(along);
+  if (std::min(std::abs(facing), std::abs(facing_there)) < steepest) return;
+  const double own = -here.above(x) / facing, other = there.above(fit.image) / facing_there;
   const double half = (length - own - other) / 2;
-  if (half > 0) sides.add({sample.position + to_image / 2, along, (own - other) / 2, half});
+  if (half > 0) sides.add({x + length / 2 * along, along, (own - other) / 2, half});
 }
 
-MirrorFit MirrorScore::fit(const Mirror& mirror, std::size_t stride) const {
-  const PrincipalFrame& frame = cloud_.frame;
-  const auto of_mesh = [&](MirrorFit found) {
-    if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
-      found.share = found.covered = found.exact = 1;
-    return found;
-  };
-  if (mirror.kind() == "plane") {
-    const Eigen::Isometry3d reflection = reflection_over(in_frame(mirror, frame));
-    return of_mesh(whole_of(point_fits(reflection, stride), stride));
-  }
-  const Freedom freedom = freedom_of(mirror.kind());
-  MirrorLayers layers(0.7 * splits_.front().cell * frame.size, layer_of_noise * noise_ * frame.size,
-                      frame.size);
+// Calls take(image) with the image of points of the principal frame.
+template <typename Take>
+void MirrorScore::with_image_of(const Mirror& mirror, const Take& take) const {
+  if (mirror.kind() == "plane")
+    take(RigidImage{reflection_over(in_frame(mirror, cloud_.frame))});
+  else
+    take(MirrorImage{mirror, cloud_.frame});
+}
+
+MirrorFit MirrorScore::fit(const Mirror& mirror, Index stride) const {
+  const std::optional<double> prior = prior_of(mirror.kind());
   MirrorSides sides(held_out);
-  std::vector<std::optional<ThinnedHalf>> images(splits_.size());  // where any sample asks for them
-  const std::vector<PointFit> points = point_fits(
-      [&](const Vector3& x) { return mirror.reflect(x); },
-      [&](const Sample& sample) {
-        std::optional<ThinnedHalf>& image = images[sample.split];
-        if (!image) image.emplace(mirrored(splits_[sample.split].two, mirror));
-        return Ball(*image, sample.position, radius_);
-      },
-      stride, freedom.any_shape ? &layers : nullptr, freedom.any_shape ? &sides : nullptr);
-  MirrorFit found = whole_of(points, stride);
-  if (freedom.any_shape) {
-    const auto [open, closed] = *freedom.any_shape;
-    found.evidence = (layers.single() > 0 ? closed : open) + sides.evidence() +
-                     parts * std::log(std::clamp(found.share, 0.01, 1.0));
-  }
-  return of_mesh(found);
+  MirrorFit found;
+  with_image_of(mirror, [&](const auto& image) {
+    found = whole_of(point_fits(image, stride, prior ? &sides : nullptr), stride);
+  });
+  if (prior) found.log_odds = *prior + sides.evidence() - contradiction * contradicted_of(found);
+  if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
+    found = {1, 0, 1, found.deviation, found.log_odds};
+  return found;
 }
 
-double MirrorScore::distinctive_share(const Mirror& plane) const {
-  constexpr double least = 0.1;  // of its weight, that a point keeps whatever it says
-  const UnitPlane here = in_frame(plane, cloud_.frame);
-  // What the planes beside it map at each sample: the most, but for one of them.
-  std::vector<std::array<double, 2>> beside(samples_.size(), {0, 0});
-  for (const UnitPlane& other : planes_beside(here))
-    for (const PointFit& point : point_fits(reflection_over(other))) {
-      const double share = point.weight > 0 ? std::min(1.0, point.support / point.weight) : 0;
-      auto& [most, next] = beside[point.point];
-      next = std::max(next, std::min(most, share));
-      most = std::max(most, share);
-    }
-  double weights = 0, support = 0;
-  for (const PointFit& point : point_fits(reflection_over(here))) {
-    const double tells = least + (1 - least) * (1 - beside[point.point][1]);
-    weights += tells * point.weight;
-    support += tells * point.support;
-  }
-  return weights > 0 ? std::clamp(support / weights, 0.0, 1.0) : 0;
+std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map, Index stride) const {
+  return point_fits(RigidImage{map}, stride);
 }
 
-std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map,
-                                              std::size_t stride) const {
-  const PrincipalFrame& frame = cloud_.frame;
-  const Eigen::Isometry3d back = map.inverse();
-  return point_fits(
-      [&](const Vector3& x) -> Vector3 { return frame.from_frame(map * frame.to_frame(x)); },
-      [&](const Sample& sample) {
-        return Ball(splits_[sample.split].two, back * sample.position, radius_).moved(map.linear());
-      },
-      stride, nullptr, nullptr);
-}
-
-// Points without an image first.
-template <typename Image, typename ImageBall>
-std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, const ImageBall& image_ball,
-                                              std::size_t stride, MirrorLayers* layers,
+template <typename Image>
+std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index stride,
                                               MirrorSides* sides) const {
-  const PrincipalFrame& frame = cloud_.frame;
-  struct Moved {
-    std::size_t sample;
-    double distance;  // from the mirror
-  };
+  std::vector<std::pair<Index, ImagePoint>> images;
   std::vector<PointFit> fits;
-  std::vector<Moved> asked;
-  std::vector<Vector3> images;
-  for (std::size_t k = 0; k < samples_.size(); k += stride) {
-    const Sample& sample = samples_[k];
-    const Vector3 x = frame.from_frame(sample.position), image = image_of(x);
-    if (!image.allFinite()) {
+  std::vector<double> distances{0};
+  for (Index k = 0; k < surface_.size(); k += stride) {
+    const SampledSurface::Sample& sample = surface_[k];
+    const ImagePoint image = image_of({sample.position, sample.facet.normal});
+    if (!image.position.allFinite() || !image.normal.allFinite()) {
       fits.push_back({k, sample.ceiling, 0, sample.ceiling});
       continue;
     }
-    if (layers) layers->add(x, frame.axes * sample.ball.normal(), image);
-    const double distance = (image - x).norm() / (2 * frame.size);
-    if (distance < rounding) continue;
-    asked.push_back({k, distance});
-    images.push_back(image);
+    const double distance = (image.position - sample.position).norm() / 2;
+    if (distance < single_rounding) continue;
+    images.push_back({k, image});
+    distances.push_back(distance);
   }
-  if (asked.empty()) return {};
-  const std::vector<Vector3> partners = points_.nearest(images, tolerance_.far * frame.size);
-  std::vector<double> partnered{0};
-  for (std::size_t k = 0; k < asked.size(); ++k)
-    if (partners[k].allFinite()) partnered.push_back(asked[k].distance);
-  const double extent = quantile(std::move(partnered), 0.95);
-  const double in_full = std::max(moved_, moved_by_extent * extent);
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    const auto& [index, distance] = asked[k];
-    const Sample& sample = samples_[index];
-    const double gap = (partners[k] - images[k]).norm() / frame.size;  // NaN where there is none
-    if (gap < rounding) {
-      fits.push_back({index, 1, 1, 0, 0, true});
-      continue;
+  const double thin =
+      std::max(moved_by_extent * quantile(distances, 0.95), moved_by_tolerance * cloud_.tolerance);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto& [k, image] = images[i];
+    const SampledSurface::Sample& sample = surface_[k];
+    const SampledSurface::Landing landing = surface_.landing(sample, image);
+    PointFit fit{k, 1, 1, 0, 0, landing.exact, image.position};
+    fit.residual = landing.residual;
+    fit.normal = landing.facet.normal;
+    fit.has_partner = !landing.ends && std::abs(fit.residual) < farthest_residual;
+    if (!landing.exact) {
+      const double full = std::max(std::min(fully_moved, thin), moved_by_noise * sample.noise);
+      const double moved = displaced(distances[i + 1], full);
+      fit.weight = moved * sample.ceiling;
+      fit.support = moved * landing.support;
+      const double lost = std::max(0.0, fit.weight - fit.support);
+      fit.missing = lost * std::max(0.0, 1 - landing.there);
+      fit.rim = lost * std::max(0.0, 1 - 1 / std::max(landing.there, 1e-9));
+      if (sides && landing.support > 0.5) add_sides(fit, landing.sample, *sides);
     }
-    const double displacement = displaced(distance, in_full);
-    if (displacement <= 0) continue;
-    const Ball image = image_ball(sample);
-    const BallSupport found(sample.ball, image, tolerance_);
-    if (sides && found.support > 0)
-      add_sides(sample, image, frame.to_frame(images[k]) - sample.position, *sides);
-    const double weight = displacement * sample.ceiling;
-    fits.push_back({index, weight, displacement * found.support, weight * found.missing,
-                    weight * found.rim, false, found.apart});
+    fits.push_back(fit);
   }
   return fits;
 }
 
-MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t stride) const {
+MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, Index stride) const {
   double ceilings = 0, weights = 0, support = 0, missing = 0, exact = 0;
-  for (std::size_t k = 0; k < samples_.size(); k += stride) ceilings += samples_[k].ceiling;
+  for (Index k = 0; k < surface_.size(); k += stride) ceilings += surface_[k].ceiling;
   std::vector<double> deviations{0};
   for (const PointFit& point : points) {
-    if (point.support > 0) deviations.push_back(point.deviation);
+    if (point.mapped() > 0.5) deviations.push_back(std::abs(point.residual));
     weights += point.weight;
     support += point.support;
     missing += point.missing;
@@ -307,60 +223,232 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, std::size_t
   if (!(weights > 0)) return {};
   const double exact_share = exact / weights;
   const double least = least_share * (1 - exact_share) * ceilings;
-  return {std::max(0.0, support / std::max(weights, least)), 1 - missing / weights, exact_share,
+  return {std::min(1.0, support / std::max(weights, least)), missing / weights, exact_share,
           median(std::move(deviations)) * cloud_.frame.size};
 }
 
-void MirrorScore::fill(const Mirror& mirror, const MirrorFit& fit, Result& result) const {
-  tell(mirror.kind(), fit, result);
-  if (mirror.kind() == "plane" && result.score < beyond_doubt)
-    result.statistics["distinctive_share"] = distinctive_share(mirror);
+double MirrorScore::evidence(const Mirror& mirror) const {
+  constexpr Index stride = 3;        // three hundred samples say what chance maps
+  constexpr double doubted = 0.9;    // chance that maps more is a symmetry as well: vases, balls
+  constexpr double least = 0.01;     // of its weight, that a sample has whatever chance maps of it
+  constexpr Index around_image = 8;  // samples
+  double sure = 0;
+  with_image_of(mirror, [&](const auto& image) {
+    const std::vector<PointFit> fits = point_fits(image, 1);
+    std::vector<double> unmapped(surface_.size(), 0), chance(surface_.size(), 0);
+    for (const PointFit& fit : fits) unmapped[fit.point] = 1 - fit.mapped();
+    double greatest = 0;
+    for (const auto& group : chance_motions(fits, surface_, cloud_)) {
+      std::vector<double> mapped(surface_.size(), 0);
+      for (const Eigen::Isometry3d& by : group) {
+        std::vector<double> share(surface_.size(), 0);
+        for (const PointFit& fit : point_fits(image.moved(by), stride))
+          share[fit.point] = fit.mapped();
+        double sum = 0, weights = 0;
+        for (const PointFit& fit : fits)
+          if (fit.point % stride == 0) {
+            sum += fit.weight * share[fit.point];
+            weights += fit.weight;
+            mapped[fit.point] += share[fit.point] / static_cast<double>(group.size());
+          }
+        if (weights > 0) greatest = std::max(greatest, sum / weights);
+      }
+      for (Index k = 0; k < surface_.size(); ++k) chance[k] = std::max(chance[k], mapped[k]);
+    }
+    double mapped = 0, contradicted = 0, support = 0, weights = 0;
+    for (const PointFit& fit : fits) {
+      weights += fit.weight;
+      support += fit.weight * (1 - unmapped[fit.point]);
+      if (fit.point % stride != 0) continue;
+      const double tells = fit.weight * (least + 1 - chance[fit.point]);
+      mapped += tells * (1 - unmapped[fit.point]);
+      if (!fit.image.allFinite()) continue;
+      // Where the shape goes on around the image, or is itself unmapped there; else it is missing.
+      const std::vector<Index> near = surface_.nearest(fit.image, around_image);
+      double there = fit.weight > fit.support ? 1 - fit.missing / (fit.weight - fit.support) : 1;
+      for (const Index j : near) there += unmapped[j] / static_cast<double>(near.size());
+      contradicted += tells * unmapped[fit.point] * std::min(1.0, there);
+    }
+    if (!(mapped > 0)) return;
+    const double top = std::min(doubted, greatest), share = std::min(1.0, support / weights);
+    sure = (mapped / (mapped + contradicted) + std::max(0.0, (share - top) / (1 - top))) / 2;
+  });
+  return sure;
+}
+
+namespace {
+
+// The residuals of samples over a mirror, and where on it.
+struct Residuals {
+  std::vector<double> residual, noise, weight;
+  std::vector<char> has_partner;
+  std::vector<Eigen::Vector2d> foot;
+
+  // Likeliest asymmetry, share without a partner and log density.
+  struct Likeliest {
+    double asymmetry = 0, unpaired = 0, log = -infinity;
+  };
+  Likeliest likeliest() const {
+    Likeliest best;
+    const auto look = [&](double asymmetry, double unpaired) {
+      const double log = log_density(asymmetry, unpaired);
+      if (log > best.log) best = {asymmetry, unpaired, log};
+    };
+    for (const double unpaired : {0.01, 0.05, 0.15, 0.3, 0.5, 0.7})
+      for (double asymmetry = 1e-5; asymmetry < 0.02; asymmetry = std::max(2e-4, 1.8 * asymmetry))
+        look(asymmetry, unpaired);
+    for (const auto& [factor, step] : {std::pair{1.3, 0.05}, {1.08, 0.015}, {1.02, 0.005}}) {
+      const Likeliest from = best;
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j)
+          look(from.asymmetry * std::pow(factor, i),
+               std::clamp(from.unpaired + step * j, 0.005, 0.9));
+    }
+    return best;
+  }
+
+  // Samples that count as one: the variance of sums over windows over that of independent ones.
+  double correlation(double asymmetry) const {
+    std::vector<double> scaled(residual.size());
+    double independent = 1e-12, most = 1;
+    for (std::size_t k = 0; k < residual.size(); ++k) {
+      const double z = residual[k] / std::hypot(noise[k], asymmetry);
+      scaled[k] = has_partner[k] ? weight[k] * std::clamp(z, -3.0, 3.0) : 0;
+      independent += scaled[k] * scaled[k];
+    }
+    for (const double window : {0.12, 0.24}) {
+      double together = 0;
+      for (const double shift : {0.0, 0.33, 0.67}) {
+        std::map<std::pair<int, int>, double> sums;
+        for (std::size_t k = 0; k < residual.size(); ++k)
+          sums[{static_cast<int>(std::floor(foot[k].x() / window + shift)),
+                static_cast<int>(std::floor(foot[k].y() / window + shift))}] += scaled[k];
+        for (const auto& [cell, sum] : sums) together += sum * sum / 3;
+      }
+      most = std::max(most, together / independent);
+    }
+    return most;
+  }
+
+ private:
+  double log_density(double asymmetry, double unpaired) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < residual.size(); ++k) {
+      const double scale = std::hypot(noise[k], asymmetry), z = residual[k] / scale;
+      const double student =
+          2 / (std::numbers::pi * std::sqrt(3.0) * scale) / ((1 + z * z / 3) * (1 + z * z / 3));
+      sum += weight[k] * std::log((1 - unpaired) * student + unpaired / (2 * farthest_residual));
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+double MirrorScore::nats(const Mirror& freer, const Mirror& simpler, double freedom) const {
+  constexpr double least_noise = 2e-4;
+  std::vector<double> weights(surface_.size(), 0);
+  const auto residuals_of = [&](const Mirror& mirror) {
+    Residuals all;
+    with_image_of(mirror, [&](const auto& image) {
+      const std::vector<PointFit> fits = point_fits(image, 1);
+      Matrix3 chords = Matrix3::Zero();
+      for (const PointFit& fit : fits) {
+        const Vector3 chord = fit.image - surface_[fit.point].position;
+        if (fit.weight > 0 && chord.allFinite()) chords += chord * chord.transpose();
+      }
+      const Matrix3 axes = eigen_of(chords).vectors;
+      all.residual.assign(surface_.size(), farthest_residual);
+      all.has_partner.assign(surface_.size(), 0);
+      all.foot.assign(surface_.size(), Eigen::Vector2d::Zero());
+      for (const PointFit& fit : fits) {
+        const Index k = fit.point;
+        weights[k] += fit.weight / 2;
+        if (!fit.image.allFinite()) continue;
+        const Vector3 foot = (fit.image + surface_[k].position) / 2;
+        all.foot[k] = axes.leftCols<2>().transpose() * foot;
+        if (!fit.has_partner) continue;
+        all.has_partner[k] = 1;
+        all.residual[k] = fit.normal.dot(axes.col(2)) < 0 ? -fit.residual : fit.residual;
+      }
+      for (Index k = 0; k < surface_.size(); ++k)
+        all.noise.push_back(std::max(least_noise, surface_[k].noise));
+    });
+    return all;
+  };
+  Residuals less = residuals_of(simpler), more = residuals_of(freer);
+  less.weight = more.weight = weights;
+  double samples = 0;
+  for (const double weight : weights) samples += weight;
+  const Residuals::Likeliest at = more.likeliest();
+  const double alike = more.correlation(at.asymmetry);
+  return (at.log - less.likeliest().log) / alike -
+         freedom / 2 * std::log(std::max(2.0, samples / alike));
+}
+
+namespace {
+
+void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
+  result.score = score_of(fit, kind);
+  result.statistics["mapped_share"] = result.statistics["explained_share"] = fit.share;
+  result.statistics["missing_share"] = fit.missing;
+  result.statistics["covered_share"] = 1 - fit.missing;
+  result.statistics["contradicted_share"] = std::max(0.0, 1 - fit.share - fit.missing);
+  result.statistics["exact_share"] = fit.exact;
+  result.statistics["deviation"] = fit.deviation;
+  if (prior_of(kind)) result.statistics["log_odds"] = fit.log_odds;
+}
+
+// Of those that map alike the one whose partners are more exact.
+std::pair<double, double> order_of(const MirrorFit& fit) {
+  return {fit.exact >= 1 ? infinity : fit.share, fit.exact};
+}
+
+}  // namespace
+
+void MirrorScore::fill(const Mirror& mirror, Result& result) const {
+  // Shares that say by themselves whether a mirror is found.
+  constexpr double certain = 0.97, hopeless = 0.3;
+  const MirrorFit its = fit(mirror);
+  tell(mirror.kind(), its, result);
+  result.statistics["evidence"] = its.share > certain    ? 1.0
+                                  : its.share < hopeless ? 0.0
+                                                         : evidence(mirror);
 }
 
 Result MirrorScore::ranked(const std::string& method,
                            const std::vector<std::shared_ptr<Mirror>>& mirrors) const {
+  constexpr std::size_t closely = 4;
   struct Ranked {
     std::shared_ptr<Mirror> mirror;
     MirrorFit fit;
-    double merit;
+  };
+  const auto better = [](const Ranked& a, const Ranked& b) {
+    return order_of(a.fit) > order_of(b.fit);
   };
   std::vector<Ranked> found;
-  for (const std::shared_ptr<Mirror>& mirror : mirrors) {
-    MirrorFit its = fit(*mirror);
-    const double rank = merit(its, mirror->kind());
-    found.push_back({mirror, std::move(its), rank});
-  }
-  // Of those that chance explains, the one that it explains least.
-  std::stable_sort(found.begin(), found.end(), [](const Ranked& a, const Ranked& b) {
-    return std::pair(a.merit, a.fit.share) > std::pair(b.merit, b.fit.share);
-  });
+  for (const std::shared_ptr<Mirror>& mirror : mirrors) found.push_back({mirror, glance(*mirror)});
+  std::stable_sort(found.begin(), found.end(), better);
+  const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(closely, found.size()));
+  std::for_each(found.begin(), end, [&](Ranked& one) { one.fit = fit(*one.mirror); });
+  std::stable_sort(found.begin(), end, better);
   Result best;
   for (const Ranked& one : found) {
     const bool is_best = &one == &found.front();
     Result& result = is_best ? best : best.candidates.emplace_back();
     result.method = method;
     result.mirror = one.mirror;
-    if (is_best)
-      fill(*one.mirror, one.fit, result);
-    else
-      tell(one.mirror->kind(), one.fit, result);
+    tell(one.mirror->kind(), one.fit, result);
   }
+  fill(best);
   cap_candidates(best);
   return best;
 }
 
-double merit(const MirrorFit& fit, std::string_view kind) {
-  if (fit.exact >= 1) return infinity;
-  const double others = 1 - fit.exact;
-  const Freedom freedom = freedom_of(kind);
-  const double by_chance = freedom.by_chance * others;
-  return (1 - freedom.cost * others) * std::max(0.0, fit.share - by_chance) / (1 - by_chance);
-}
-
 double score_of(const MirrorFit& fit, std::string_view kind) {
   if (fit.exact >= 1) return 1;
-  const double likely = freedom_of(kind).any_shape ? 1 / (1 + std::exp(-fit.evidence)) : 1;
-  return std::min(1.0, merit(fit, kind) * std::max(fit.exact, likely));
+  const double likely = prior_of(kind) ? 1 / (1 + std::exp(-fit.log_odds)) : 1;
+  return fit.share * std::max(fit.exact, likely);
 }
 
 double statistic(const Result& result, const char* name) {

@@ -22,21 +22,12 @@ namespace symsurf {
 
 namespace {
 
-// Shares of what a mirror covers: one that maps so much leaves freer mirrors, and none that it is
-// bent into, nothing to explain; where it covers so much, as what has lost a fifth of its points on
-// one side does.
-constexpr double enough = 0.85, straight = 0.97, enough_covered = 0.6;
-// Of what a simple mirror covers and does not map, a freer simple kind has to leave less; and it
-// has to explain so much more of the shape.
-constexpr double left = 0.4, tie = 0.01;
-// Beside one that maps enough it has to leave so much: sides that differ smoothly look bent, too.
-constexpr double left_of_little = 0.01;
+// Of what has a counterpart over it, that a mirror maps: freer ones have nothing to explain.
+constexpr double enough = 0.95;
+// For a mirror with so many numbers more (MirrorScore::nats): below it straight skulls bend.
+constexpr double decisive = 20;
+constexpr double numbers_of_sphere = 1, numbers_of_others = 3, numbers_of_free_form = 12;
 constexpr std::size_t planes_bent = 3;  // the best ones
-// Explained share of the shape that a free form has to gain. On 24 bent bodies of 10,000 points
-// with noise of 0 to 1 % the right simple mirror explained 0.03 less than the free form at most,
-// the best of the wrong ones 0.26 less at least, where a mirror was found.
-constexpr double free_form_gain = 0.12;
-constexpr double well_explained = 0.6;  // by a free form
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
 constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
@@ -67,35 +58,39 @@ double explained(const Result& result) { return statistic(result, "explained_sha
 
 double covered(const Result& result) { return statistic(result, "covered_share"); }
 
-bool maps(double share, const Result& result, double of) {
-  return result.score >= enough_covered && explained(result) >= share * of;
+bool maps_enough(const Result& result) {
+  return result.mirror && explained(result) >= enough * covered(result);
 }
 
-bool maps_of_covered(double share, const Result& result) {
-  return maps(share, result, covered(result));
+bool is_found(const Result& result) {
+  return result.score >= usual_minimum_score && result.mirror &&
+         statistic(result, "evidence") >= least_evidence(*result.mirror);
 }
 
-// Which kind is meant: a freer mirror has to explain more, and to leave a part of what either
-// covers and the simpler one does not map. Where the simpler one is none, a free form that is found
-// has not to: its score knows what chance makes.
-bool explains_more(const Result& freer, const Result& simpler) {
-  if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
-  const bool is_free = freer.mirror->kind() == "free-form";
-  if (is_free && simpler.score < usual_minimum_score && freer.score >= usual_minimum_score)
-    return true;
-  const double gain = is_free ? free_form_gain : tie;
-  const double either_covers = std::max(covered(freer), covered(simpler));
-  const auto lacking = [&](const Result& r) { return either_covers - explained(r); };
-  const double most =
-      maps(enough, simpler, either_covers) ? left_of_little : left * lacking(simpler);
-  return explained(freer) > explained(simpler) + gain && lacking(freer) < most;
-}
+// Which of two mirrors is meant.
+class Comparison {
+ public:
+  Comparison(const Cloud& cloud, const Context& context) : score_(cloud, context) {}
 
-// Whether it maps the shape well, and better than the plane: kinds that come near it do so, too.
-bool leads(const Result& free_form, const Result& plane) {
-  return free_form.mirror && explained(free_form) >= well_explained &&
-         explains_more(free_form, plane);
-}
+  bool explains_more(const Result& freer, const Result& simpler) const {
+    if (!freer.mirror || !simpler.mirror) return !simpler.mirror;
+    if (is_found(freer) != is_found(simpler)) return is_found(freer);
+    if (is_exact(freer)) return !is_exact(simpler);
+    return score_.nats(*freer.mirror, *simpler.mirror, numbers_of(freer) - numbers_of(simpler)) >
+           decisive;
+  }
+
+ private:
+  static double numbers_of(const Result& result) {
+    const std::string_view kind = result.mirror->kind();
+    return kind == "plane"       ? 0
+           : kind == "sphere"    ? numbers_of_sphere
+           : kind == "free-form" ? numbers_of_free_form
+                                 : numbers_of_others;
+  }
+
+  MirrorScore score_;
+};
 
 using Kinds = BentPlanes::Kinds;
 
@@ -128,8 +123,7 @@ struct Contest {
   bool pairs;  // whether the result is to have some
   Result best;
   const MethodImplementation* winner;
-  Run of_all = {};         // finds the winner again, on all points; none where it saw them
-  double least_score = 0;  // simple mirrors are free forms too: what explains more is as certain
+  Run of_all = {};  // finds the winner again, on all points; none where it saw them
   Values scores = {};
   std::string tried = {};
 
@@ -137,7 +131,6 @@ struct Contest {
     scores["score_" + kind.name] = result.score;
     tried += ", " + kind.name + " " + text(explained(result));
     if (!wins) return;
-    least_score = std::max(least_score, best.score);
     best = std::move(result);
     winner = &kind;
     of_all = std::move(again);
@@ -150,12 +143,17 @@ Contest::Run anew(const MethodImplementation& kind, bool pairs) {
   };
 }
 
-// Beside a plane that maps the shape well a free form meets hardly each point: only exact mirrors
+// Beside a mirror that maps the shape well a free form meets hardly each point: only exact mirrors
 // of other kinds count. Elsewhere it comes first, as it says which of them may fit.
-void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const Context& context) {
+void try_freer_kinds(const Cloud& cloud, bool content, const Comparison& comparison,
+                     Contest& contest, const Context& context) {
   double done = 0;
   const auto thinner = [&]() -> const Cloud& {
     return cloud.thinned(thinned_size, context.stage(done, done));
+  };
+  const auto wins = [&](const Result& result) {
+    return is_exact(result) ? !is_exact(contest.best)
+                            : !content && comparison.explains_more(result, contest.best);
   };
   const MethodImplementation& bending = heart_method("perpendicular");
   const bool bends_all = cloud.points.size() <= bent_size;
@@ -166,29 +164,28 @@ void try_freer_kinds(const Cloud& cloud, bool content, Contest& contest, const C
                           context.stage(0, 0.4));
     done = 0.4;
   }
-  const bool leading = free_form && leads(*free_form, contest.best);
+  const bool leading = free_form && is_found(*free_form) && wins(*free_form);
   if (leading) kinds = near_kinds(kinds, *free_form->mirror, cloud.diagonal);
   const bool all = cloud.points.size() <= (leading ? bent_size : thinned_size);
   for (const MethodImplementation* kind : kinds) {
     if (is_exact(contest.best)) break;
-    if (leading && !is_exact(*free_form) && !explains_more(*free_form, contest.best)) break;
+    if (leading && !wins(*free_form)) break;
     Result result = run_usual(*kind, all ? cloud : thinner(), all && contest.pairs,
                               context.stage(done, done + 0.2));
     done += 0.2;
-    const bool wins = is_exact(result) ? result.score > contest.best.score
-                                       : !content && explains_more(result, contest.best);
-    contest.take(*kind, std::move(result), wins, all ? Contest::Run() : anew(*kind, contest.pairs));
+    const bool is_best = wins(result);
+    contest.take(*kind, std::move(result), is_best,
+                 all ? Contest::Run() : anew(*kind, contest.pairs));
   }
-  if (free_form && !is_exact(contest.best)) {
-    const bool wins = is_exact(*free_form) ? free_form->score > contest.best.score
-                                           : explains_more(*free_form, contest.best);
-    contest.take(bending, std::move(*free_form), wins,
-                 bends_all ? Contest::Run() : anew(bending, contest.pairs));
-  }
+  if (!free_form || is_exact(contest.best)) return;
+  const bool is_best = wins(*free_form);
+  contest.take(bending, std::move(*free_form), is_best,
+               bends_all ? Contest::Run() : anew(bending, contest.pairs));
 }
 
 // What the planes are bent into, on no more points than tell.
-void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& context) {
+void try_bent_planes(const Cloud& cloud, const Comparison& comparison, Contest& contest,
+                     const Context& context) {
   std::vector planes{contest.best.mirror};
   for (const Result& other : contest.best.candidates)
     if (planes.size() < planes_bent) planes.push_back(other.mirror);
@@ -199,7 +196,7 @@ void try_bent_planes(const Cloud& cloud, Contest& contest, const Context& contex
     Result result = bent.best_of(kinds, *plane);
     if (!result.mirror) continue;
     const MethodImplementation& kind = heart_method(result.method);
-    const bool wins = explains_more(result, contest.best);
+    const bool wins = comparison.explains_more(result, contest.best);
     const ParameterValues values = usual_values(kind, contest.pairs);
     contest.take(kind, std::move(result), wins,
                  [&kind, plane, values](const Cloud& whole, const Context& c) {
@@ -221,13 +218,13 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
   } else {
-    if (!maps_of_covered(straight, contest.best))
-      try_bent_planes(cloud, contest, context.stage(0.2, 0.3));
-    const bool content = maps_of_covered(enough, contest.best);
+    const Comparison comparison(cloud, context.stage(0.2, 0.2));
+    if (!maps_enough(contest.best))
+      try_bent_planes(cloud, comparison, contest, context.stage(0.2, 0.3));
+    const bool content = maps_enough(contest.best);
     if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))
-      try_freer_kinds(cloud, content, contest, context.stage(0.3, 0.9));
+      try_freer_kinds(cloud, content, comparison, contest, context.stage(0.3, 0.9));
     if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
-    if (contest.best.mirror) contest.best.score = std::max(contest.best.score, contest.least_score);
     if (!content || contest.winner != &plane)
       reason = contest.winner->name +
                " is the simplest of those that explain most of the shape: " + contest.tried;
@@ -283,7 +280,7 @@ Result BentPlanes::best_of(const Kinds& kinds, const PlaneBend& bend) const {
     best.method = kind->name;
     best.mirror = mirror;
   }
-  if (best.mirror) score_.fill(*best.mirror, most, best);
+  if (best.mirror) score_.fill(best);
   return best;
 }
 

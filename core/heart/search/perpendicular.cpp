@@ -277,20 +277,6 @@ void tell_extrapolated(Result& result, const Cloud& cloud, const SearchCloud& se
   result.statistics["extrapolated_share"] = static_cast<double>(far) / voxels;
 }
 
-// What chance explains has no score to rank by: then the search's own order holds.
-void put_first(const std::shared_ptr<Mirror>& mirror, Result& best) {
-  const auto at = std::find_if(best.candidates.begin(), best.candidates.end(),
-                               [&](const Result& other) { return other.mirror == mirror; });
-  if (at == best.candidates.end()) return;
-  Result first = std::move(*at);
-  best.candidates.erase(at);
-  first.candidates = std::move(best.candidates);
-  best.candidates.clear();
-  first.candidates.insert(first.candidates.begin(), std::move(best));
-  best = std::move(first);
-  cap_candidates(best);
-}
-
 }  // namespace
 
 std::shared_ptr<Mirror> in_input_units(const Mirror& mirror, const SearchCloud& searched) {
@@ -306,7 +292,6 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
   for (std::size_t k = 0; k < std::min(most, found.size()); ++k) mirrors.push_back(found[k].mirror);
   Values statistics = std::move(result.statistics);
   result = score.ranked(result.method, mirrors);
-  if (statistic(result, "evidence") < 0) put_first(mirrors.front(), result);
   const GrownSurface& surface =
       found[std::find(mirrors.begin(), mirrors.end(), result.mirror) - mirrors.begin()].surface;
   statistics["typical_miss"] = surface.typical_miss * searched.spacing * searched.diagonal;

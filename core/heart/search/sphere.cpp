@@ -69,12 +69,13 @@ struct SphereKind {
 
   // Unless there is nothing else.
   void drop_planes(const MirrorScore& score, std::vector<SphereCandidate>& candidates) const {
+    constexpr double gain = 0.99;  // a sphere has a number more
     std::vector<SphereCandidate> spheres = candidates;
     std::erase_if(spheres, [&](const SphereCandidate& c) {
       if (c.shape.radius() < bent) return false;
       const UnitPlane plane = refinement_.fitted(touching_plane(c.shape), of_each);
-      return merit(score.fit(in_input_units(plane, cloud_.frame)), "plane") >=
-             merit(score.fit(in_input_units(c.shape, cloud_.frame)), "sphere");
+      return score.fit(in_input_units(plane, cloud_.frame)).share >=
+             gain * score.fit(in_input_units(c.shape, cloud_.frame)).share;
     });
     if (!spheres.empty()) candidates = std::move(spheres);
   }

@@ -45,24 +45,26 @@ struct Result {
   Pairs pairs;                ///< (point, partner), indices into the input
   Eigen::VectorXd residuals;  ///< distance from the image to the partner, input units
   /// 0: no symmetry; 1: as good as the sampling shows. The share of the shape that the mirror maps
-  /// onto it as well as one half of the points, drawn at random, says what the other half does.
-  /// What lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it;
-  /// of quadrics, height fields and free forms what chance maps lacks, too.
+  /// onto its surface, over the share that passes the same test without a mirror. The rest has no
+  /// counterpart, "missing_share" of the statistics, or differs from it, "contradicted_share". Of
+  /// height fields and free forms it is multiplied by the probability that chance did not make
+  /// them.
   double score = 0;
   /// Other mirrors, without pairs, by score; none scores more than the result.
   std::vector<Result> candidates;
   Values parameters;  ///< as used
-  /// "verdict", "found" or "none"; "reason", a sentence that says why; "covered_share": of the
-  /// points that the mirror moves, those with anything of the shape at their image; "deviation":
-  /// how far images lie off the shape, across its surface, in the median over what the mirror maps,
-  /// less what the sampling leaves open, input units; of planes that score less than 0.9
-  /// "distinctive_share", which has to be the minimum_score, too: what they map of what tells them
-  /// from the planes beside them; whatever else the method reports; and, where there are some, how
-  /// many "nonfinite_points" were left out as not finite and how many "outliers" as lying far off:
-  /// they have no partners. "surface_samples": how many points were sampled on the faces.
-  /// "boundary_points" of a volumetric cloud, where the mirror and the score are those of its
-  /// boundary: how many it has. "warning": a sentence for the caller, where the method is not for
-  /// such a cloud.
+  /// "verdict", "found" or "none"; "reason", a sentence that says why; "mapped_share",
+  /// "missing_share" and "contradicted_share" of the points that the mirror moves, 0 to 1, which
+  /// sum to 1; "exact_share": those whose image is a point of the shape; "deviation": the median
+  /// distance of mapped images from the shape's surface, input units; "evidence", 0 to 1: how sure
+  /// it is that the mirror is none of chance's, by the same mirror turned and shifted; of any shape
+  /// "log_odds", the same in nats, by the smoothness of its middle; "explained_share" and
+  /// "covered_share", older names of the mapped share and of what is not missing; whatever else the
+  /// method reports; and, where there are some, how many "nonfinite_points" were left out as not
+  /// finite and how many "outliers" as lying far off: they have no partners. "surface_samples": how
+  /// many points were sampled on the faces. "boundary_points" of a volumetric cloud, where the
+  /// mirror and the score are those of its boundary: how many it has. "warning": a sentence for the
+  /// caller, where the method is not for such a cloud.
   Values statistics;
   double seconds = 0;
 

@@ -47,21 +47,20 @@ class Result(Summarised, Generic[Kind_co]):
     """(m,) distances from the image to the partner; input units."""
     score: float
     """0: no symmetry, 1: as good as the sampling shows. The share of the shape that the mirror maps
-    onto it as well as one half of the points, drawn at random, says what the other half does. What
-    lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it; of
-    quadrics, height fields and free forms what chance maps lacks, too."""
+    onto its surface, over the share that passes the same test without a mirror. The rest has no
+    counterpart, "missing_share" of the statistics, or differs from it, "contradicted_share". Of
+    height fields and free forms it is multiplied by the probability that chance did not make them."""
     candidates: list[Result[Kind_co]]
     """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
     theirs."""
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
-    """Whatever else the method reports, such as "covered_share", of the points that the mirror moves
-    those with anything of the shape at their image, "deviation", how far images lie off the shape,
-    across its surface, in the median over what the mirror maps, less what the sampling leaves open
-    (input units), of planes that score less than 0.9
-    "distinctive_share", which has to be the ``minimum_score``, too: what they map of what tells them
-    from the planes beside them; and, where there are some, how many
+    """Whatever else the method reports, such as "mapped_share", "missing_share" and
+    "contradicted_share" of the points that the mirror moves (0 to 1, their sum is 1), "exact_share",
+    those whose image is a point of the shape, "deviation", the median distance of mapped images from
+    the shape's surface (input units), "evidence", how sure it is that the mirror is none of chance's
+    (0 to 1), and, where there are some, how many
     "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
     have no partners.
     "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
