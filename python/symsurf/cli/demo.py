@@ -17,6 +17,7 @@ from ..report import require_viewer
 from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
+from .output_paths import add_output
 from .terminal import say
 
 SUMMARY = "Finds the mirrors of two real meshes, straight, bent and damaged, and uses them; with a report."
@@ -44,8 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-pictures", action="store_true", help="print the tables only, without a report"
     )
-    parser.add_argument(
-        "--output",
+    add_output(
+        parser,
         type=Path,
         default=Path("symsurf-demo"),
         metavar="DIR",

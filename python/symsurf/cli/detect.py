@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
@@ -23,27 +22,29 @@ from .batch_options import (
     run_tasks,
 )
 from .method_options import add_method_options, given_parameters
+from .output_paths import add_output
 from .shared_options import add_options
 from .values import shown
 
 SUMMARY = "Finds the mirror of each file."
 
+_FORMATS = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_files(parser)
-    parser.add_argument(
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="write each result to DIR, under the file's name and the suffixes of --formats",
+    add_output(
+        parser,
+        metavar="PATH",
+        help="of one file: write the result to this file, in the format of its suffix, such as "
+        "mirror.stl; else to this folder, under the name of each file and the suffixes of --formats",
     )
     parser.add_argument(
         "--formats",
-        default=SUMMARY_SUFFIX[1:],
         metavar="LIST",
-        help="what --output writes, separated by commas: %(default)s, a small file with the mirror, "
-        f"and, with all points, {', '.join(name[1:] for name in FORMATS)}; {MATCHES_SUFFIX[1:]}, how the "
-        "mirror fits each point; default %(default)s",
+        help=f"in a folder, separated by commas: {SUMMARY_SUFFIX[1:]}, a small file with the mirror; with "
+        "the pairs of all points json, vtp, ply, txt; the mirror alone as stl, obj, off, glb; "
+        f"{MATCHES_SUFFIX[1:]}, how the mirror fits each point; default {SUMMARY_SUFFIX[1:]}",
     )
     parser.add_argument(
         "--in-chunks",
@@ -73,9 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    suffixes = _suffixes(arguments.formats)
+    suffixes = _suffixes(arguments.formats or SUMMARY_SUFFIX)
     given = input_tasks(arguments)
-    outputs = planned_outputs(arguments, given, lambda _: suffixes)
+    outputs = planned_outputs(arguments, given, lambda _: suffixes, arguments.formats, _FORMATS)
     divisor = arguments.downsample
     if arguments.use_normals and divisor is not None:
         raise InvalidParameter("use_normals is given beside downsample; allowed is one of them")
@@ -108,9 +109,8 @@ def _divisor(text: str) -> float:
 
 def _suffixes(formats: str) -> list[str]:
     suffixes = [f".{name.strip().lstrip('.')}" for name in formats.split(",")]
-    allowed = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
-    if any(suffix not in allowed for suffix in suffixes):
-        names = ", ".join(name[1:] for name in allowed)
+    if any(suffix not in _FORMATS for suffix in suffixes):
+        names = ", ".join(name[1:] for name in _FORMATS)
         raise InvalidParameter(f"formats is {formats}; allowed are {names}")
     return suffixes
 
