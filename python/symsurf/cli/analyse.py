@@ -30,7 +30,7 @@ from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .shared_options import add_options
 from .terminal import say
-from .values import shown
+from .values import duration, shown
 
 # What pose estimators read, by the record's name for it.
 _TABLES = {
@@ -51,13 +51,14 @@ class AnalysisCommand:
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
+        group = parser.add_argument_group("output")
         add_output(
-            parser,
+            group,
             metavar="PATH",
             help="of one file: write what is found to this file, in the format of its suffix; else to "
             "this folder, one file for each",
         )
-        parser.add_argument(
+        group.add_argument(
             "--format",
             metavar="WORD",
             help=f"in a folder: {' or '.join(name[1:] for name in self._formats)}; json holds all "
@@ -65,15 +66,15 @@ class AnalysisCommand:
             "json",
         )
         for name, content in self._tables.items():
-            parser.add_argument(
+            group.add_argument(
                 f"--{name}",
                 dest="pose_table",
                 action="store_const",
                 const=name,
                 help=f"print one JSON object: for each file {content}",
             )
-        add_batch_options(parser)
-        add_options(parser, Search, ["nonfinite"])
+        add_batch_options(parser, group)
+        add_options(parser.add_argument_group("search"), Search, ["nonfinite"])
         add_absolute(parser)
         add_parameters(parser, self._analysis)
 
@@ -148,7 +149,7 @@ def _text(record: Record) -> str:
             f"  {name.replace('_', ' '):<9} {shown(value)}"
             for name, value in record["statistics"].items()
         ]
-    lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
+    lines.append(f"  time      {duration(record['seconds'])}")
     return "\n".join(lines)
 
 

@@ -26,7 +26,7 @@ from ..saving.output_files import output_files, require_apart
 from ..saving.sole_writer import sole_writer
 from . import output_paths
 from .progress_bar import ProgressBar
-from .shared_options import add_options, given_options
+from .shared_options import Group, add_options, given_options
 from .terminal import complain, say, standard_input
 from .values import whole
 
@@ -34,19 +34,20 @@ STANDARD_INPUT = Path("-")
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
+    group = parser.add_argument_group("input")
+    group.add_argument(
         "files",
         nargs="+",
         type=Path,
         metavar="FILE",
         help=f"{known_names()}; a folder: the files in it that can be read; -: standard input",
     )
-    parser.add_argument(
+    group.add_argument(
         "--input-format",
         metavar="WORD",
         help="of the files, such as ply or ply.gz, in place of their suffixes; standard input needs it",
     )
-    add_options(parser, Reading)
+    add_options(group, Reading)
 
 
 def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
@@ -71,20 +72,22 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
     return tasks
 
 
-def add_batch_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
+def add_batch_options(parser: argparse.ArgumentParser, output: Group) -> None:
+    """Those of many files, and the picture among those of the output."""
+    group = parser.add_argument_group("many files")
+    output.add_argument(
         "--plot", action="store_true", help="draw a PNG per file beside that of --output"
     )
-    parser.add_argument(
+    group.add_argument(
         "--shard",
         metavar="I/N",
         help="work on every N-th file from the I-th on, I from 1 to N, as a job of an array that is "
         "given the same files in each; `symsurf table merge` makes one table of theirs",
     )
-    add_table_options(parser)
+    add_table_options(group)
 
 
-def add_table_options(parser: argparse.ArgumentParser) -> None:
+def add_table_options(parser: Group) -> None:
     parser.add_argument(
         "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
     )
@@ -106,10 +109,12 @@ def add_table_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_mirror_options(parser: argparse.ArgumentParser) -> None:
-    """How the mirror of an operation is found."""
-    add_options(parser, Search)
-    parser.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
+def add_mirror_options(parser: argparse.ArgumentParser) -> Group:
+    """How the mirror of an operation is found; gives what more can be added to."""
+    group = parser.add_argument_group("mirror")
+    add_options(group, Search)
+    group.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
+    return group
 
 
 def add_absolute(parser: argparse.ArgumentParser) -> None:

@@ -19,6 +19,7 @@ from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
 from .output_paths import add_output
 from .terminal import say
+from .values import duration
 
 SUMMARY = "Finds the mirrors of two real meshes, straight, bent and damaged, and uses them; with a report."
 
@@ -106,7 +107,7 @@ def _row(finding: Finding) -> str:
         result.mirror.kind if result.mirror is not None and result.verdict == "found" else "none",
         f"{result.score:.3f}",
         f"{finding.error:.4f} %",
-        f"{1000 * result.seconds:.0f} ms",
+        duration(result.seconds),
     )
 
 

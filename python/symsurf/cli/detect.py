@@ -24,46 +24,49 @@ from .batch_options import (
 from .method_options import add_method_options, given_parameters
 from .output_paths import add_output
 from .shared_options import add_options
-from .values import shown
+from .terminal import Parser
+from .values import duration, shown
 
 SUMMARY = "Finds the mirror of each file."
 
 _FORMATS = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     add_files(parser)
+    group = parser.add_argument_group("output")
     add_output(
-        parser,
+        group,
         metavar="PATH",
         help="of one file: write the result to this file, in the format of its suffix, such as "
         "mirror.stl; else to this folder, under the name of each file and the suffixes of --formats",
     )
-    parser.add_argument(
+    group.add_argument(
         "--formats",
         metavar="LIST",
         help=f"in a folder, separated by commas: {SUMMARY_SUFFIX[1:]}, a small file with the mirror; with "
         "the pairs of all points json, vtp, ply, txt; the mirror alone as stl, obj, off, glb; "
         f"{MATCHES_SUFFIX[1:]}, how the mirror fits each point; default {SUMMARY_SUFFIX[1:]}",
     )
-    parser.add_argument(
+    add_batch_options(parser, group)
+    group = parser.add_argument_group("search")
+    add_options(group, Search)
+    group.add_argument(
         "--in-chunks",
         action="store_const",
         const=True,
         help=f"read LAS, LAZ, E57, NPY, PLY, PVTP and VTKHDF in chunks and thin them as they pass; files of "
         f"more than {LARGE / 1e6:.0f} million points are read so anyway",
     )
-    add_batch_options(parser)
-    add_options(parser, Search)
-    parser.add_argument(
+    group.add_argument(
         "--use-normals",
         action="store_true",
         help="hand the normals in the files to the method, as lines; a file without any is an error",
     )
-    parser.add_argument(
+    group.add_argument(
         "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
     )
-    parser.add_argument(
+    group.add_argument(
         "--downsample",
         metavar="DIVISOR",
         help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
@@ -129,7 +132,7 @@ def _text(record: Record) -> str:
     if others := record["candidates"]:
         scores = " ".join(shown(other["score"], ".3f") for other in others)
         lines.append(f"  others    {len(others)} with scores {scores}")
-    lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
+    lines.append(f"  time      {duration(record['seconds'])}")
     return "\n".join(lines)
 
 

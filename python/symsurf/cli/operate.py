@@ -41,24 +41,24 @@ class OperationCommand:
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
+        group = parser.add_argument_group("output")
         add_output(
-            parser,
+            group,
             metavar="PATH",
             help="of one file: write the shape to this file, in the format of its suffix, such as x.stl; "
             "else write the shapes to this folder; either with what the operation gives each point",
         )
         is_in_arrays = not makes_shape(self._operation)
         other = ", PLY for files in other formats: these hold no arrays" if is_in_arrays else ""
-        parser.add_argument(
+        group.add_argument(
             "--format",
             metavar="WORD",
             help=f"in a folder: input, that of the file, which is kept but for what changes{other}; "
             f"or one of {', '.join(name[1:] for name in SHAPES)}: points and faces, in the first three "
             "with arrays; default input",
         )
-        add_batch_options(parser)
-        add_mirror_options(parser)
-        parser.add_argument(
+        add_batch_options(parser, group)
+        add_mirror_options(parser).add_argument(
             "--mirror",
             type=Path,
             metavar="FILE",

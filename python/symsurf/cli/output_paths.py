@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
@@ -11,11 +10,12 @@ from .._core import InvalidParameter
 from ..reading.formats import FORMATS
 from ..results.operation_results import Correspondences
 from ..saving.shape_files import formats_of
+from .shared_options import Group
 
 _FILES = {*FORMATS, *formats_of(Correspondences), ".png", ".html"}
 
 
-def add_output(parser: argparse.ArgumentParser, **words: Any) -> None:
+def add_output(parser: Group, **words: Any) -> None:
     parser.add_argument("-o", "--output", **words)
 
 
