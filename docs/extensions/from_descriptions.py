@@ -130,12 +130,9 @@ def _rst(directives: Iterable[str]) -> str:
 def commands() -> str:
     """The help of every command."""
     os.environ["COLUMNS"] = "88"  # argparse's width
-    chosen = next(
-        action for action in symsurf.cli.parser()._actions if isinstance(action.choices, dict)
-    )
     texts = [
-        f"## {name}\n\n```text\n{command.format_help()}```"
-        for name, command in chosen.choices.items()
+        f"## {name}\n\n```text\n{symsurf.cli.parser_of(name).format_help()}```"
+        for name in symsurf.cli.COMMANDS
     ]
     return "\n\n".join(texts)
 

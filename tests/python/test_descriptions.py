@@ -82,8 +82,7 @@ def test_descriptions_are_whole(name):
 
 
 def test_command_line_options():
-    commands = cli.parser()._subparsers._group_actions[0].choices
-    options = commands["detect"]._option_string_actions
+    options = cli.parser_of("detect")._option_string_actions
     for method in METHODS.values():
         for parameter in method.parameters:
             assert f"--{parameter.name}" in options

@@ -303,8 +303,10 @@ def test_save_keeps_points_faces_and_arrays(ball, tmp_path):
         np.testing.assert_array_equal(mesh[name], values)
     symsurf.asymmetry(shape.points, PLANE).save(tmp_path / "cloud.vtp")
     assert pyvista.read(tmp_path / "cloud.vtp").n_verts == len(shape.points)
-    with pytest.raises(symsurf.InvalidParameter, match="allowed are the suffixes .ply, .vtp"):
+    with pytest.warns(symsurf.InputWarning, match="OBJ holds no vector, distance"):
         result.save(tmp_path / "ball.obj")
+    with pytest.raises(symsurf.InvalidParameter, match="allowed are the suffixes .ply, .vtp"):
+        result.save(tmp_path / "ball.docx")
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -332,9 +334,9 @@ def test_commands_name_what_is_wrong(ball, tmp_path):
         ("align ball.ply --axis w", 2, "axis is w"),
         ("asymmetry ball.ply gone.ply", 1, "gone.ply"),
         (
-            "asymmetry ball.ply --output made --format obj",
+            "asymmetry ball.ply --output made --format docx",
             2,
-            "format is obj; allowed are input, ply, vtp",
+            "format is docx; allowed are input, ply, vtp",
         ),
         ("asymmetry ball.ply --output . --format ply", 2, "would overwrite an input"),
     ]:

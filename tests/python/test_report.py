@@ -75,7 +75,10 @@ def test_page_of_a_mesh(ball, browse, tmp_path):
     page = tmp_path / "made" / "report.html"
     done = run("report", ball, "--output", page, "--unit", "mm", "--method", "plane")
     assert done.returncode == 0 and done.stderr == ""
-    assert done.stdout.splitlines()[-1] == str(page) and "ball.ply: found, plane" in done.stdout
+    assert (
+        done.stdout.splitlines()[-1] == f"  written   {page}"
+        and "ball.ply: found, plane" in done.stdout
+    )
     text = told(page.read_text())
     asymmetry = symsurf.asymmetry(ball, symsurf.detect(ball, "plane"))
     for name in ("maximum", "rms", "p95"):

@@ -28,10 +28,9 @@ from ..reading.in_chunks import chunks_of, is_chunked
 from ..reading.inputs import InputWarning, nonfinite_message
 from ..report.page import shape_page
 from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
-from ..saving import write_whole
+from ..saving import save_shape, write_whole
 from ..saving.json_format import mirror_record, record_bytes, summary
 from ..saving.matches import save_matches
-from ..saving.shape_files import save_shape
 from ..shape_analyses.analyse import analyse
 from ..shapes import Shape
 
@@ -180,7 +179,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         notices.append(nonfinite_message(left_out))
     record |= about(found)
     if task.operation == DETECT:
-        _write(task, shape, found, record, points=shape.points)
+        _write(task, found, record, points=shape.points)
     else:
         mirror, warning = found_mirror(found, task.require_found)
         if warning:
@@ -233,7 +232,7 @@ def _detect_in_chunks(task: FileTask, record: Record, progress: Progress | None)
     if left_out := found.statistics.get("nonfinite_points", 0):
         record["notices"].append(nonfinite_message(left_out))
     record |= about(found)
-    _write(task, Shape(thinned), found, record, points=task.file)
+    _write(task, found, record, points=task.file)
 
 
 def _needs_mirror(task: FileTask) -> bool:
@@ -258,7 +257,7 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
     record |= plain(found.to_json())
     if isinstance(found, Symmetries):
         record |= {"bop": found.to_bop(), "isaac": found.to_isaac()}
-    _write(task, shape, found, record)
+    _write(task, found, record)
 
 
 def _operate(
@@ -274,18 +273,18 @@ def _operate(
         **task.parameters,
     )
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
-    _write(task, shape, result, record)
+    _write(task, result, record)
 
 
 def _write(
     task: FileTask,
-    shape: Shape,
     found: Result | OperationResult | AnalysisResult,
     record: Record,
     points: Any = None,
 ) -> None:
     """Raises what nobody foresaw as an error of that file, so that the next ones are done; ``read``
     does the same for what it reads."""
+    record["written"] = [str(output) for output in task.outputs]
     try:
         for output in task.outputs:
             output.parent.mkdir(parents=True, exist_ok=True)
@@ -293,12 +292,11 @@ def _write(
                 found.plot(output)
             elif isinstance(found, Asymmetry) and output.suffix.lower() == PAGE_SUFFIX:
                 write_whole(output, shape_page(record, found))
-            elif isinstance(found, OperationResult):
-                source = task.file, task.suffix, task.content
-                record["notices"] += save_shape(output, found, shape, *source)
-            elif isinstance(found, Result) and output.name.endswith(SUMMARY_SUFFIX):
+            elif not isinstance(found, Result):
+                record["notices"] += save_shape(found, output)
+            elif output.name.endswith(SUMMARY_SUFFIX):
                 write_whole(output, record_bytes(record))
-            elif isinstance(found, Result) and output.name.endswith(MATCHES_SUFFIX):
+            elif output.name.endswith(MATCHES_SUFFIX):
                 save_matches(
                     output,
                     points,

@@ -1,49 +1,34 @@
-"""The command line. Each command is a module, or an object, with SUMMARY, add_arguments(parser) and
-run(arguments), which returns the exit status."""
+"""The command line."""
 
 from __future__ import annotations
 
-import argparse
 import signal
 import sys
 from collections.abc import Sequence
-from typing import Any
 
-from .._core import InvalidInput, InvalidParameter, __version__, analyses, operations
-from . import cohort, damage, demo, detect, evaluate, generate, methods, report, table
-from .analyse import AnalysisCommand
-from .operate import OperationCommand
-from .terminal import Parser, complain, drop_output, open_streams
+from .._core import InvalidInput, InvalidParameter, __version__
+from .commands import COMMANDS, overview, parser_of
+from .suggestions import closest, with_suggestion
+from .terminal import complain, drop_output, open_streams, say
 from .values import attach_negative_numbers
-
-COMMANDS: dict[str, Any] = {
-    "detect": detect,
-    **{name: OperationCommand(operation) for name, operation in operations().items()},
-    **{name: AnalysisCommand(analysis) for name, analysis in analyses().items()},
-    "cohort": cohort,
-    "report": report,
-    "table": table,
-    "generate": generate,
-    "damage": damage,
-    "evaluate": evaluate,
-    "methods": methods,
-    "demo": demo,
-}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
     open_streams()
     try:
-        chosen = parser().parse_args(attach_negative_numbers(words))
-        status = chosen.run(chosen)
+        name, *rest = words or ["--help"]
+        if name not in COMMANDS:
+            return _without_command(name)
+        chosen = parser_of(name).parse_args(attach_negative_numbers(rest))
+        status = COMMANDS[name].run(chosen)
         sys.stdout.flush()
         return status
     except BrokenPipeError:  # the reader, such as head, has seen enough
         drop_output()
         return 128 + getattr(signal, "SIGPIPE", 13)  # which Windows has not
     except (InvalidInput, InvalidParameter, ImportError) as error:  # an optional package
-        complain(str(error))
+        complain(with_suggestion(str(error)))
         return 2
     except OSError as error:
         if error.filename is None:  # such as a full disk
@@ -57,22 +42,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def parser() -> Parser:
-    top = Parser(
-        prog="symsurf",
-        description="Finds the mirror of 3D point sets: a plane, a sphere or a curved surface.",
-        allow_abbrev=False,
-    )
-    top.add_argument("--version", action="version", version=f"symsurf {__version__}")
-    commands = top.add_subparsers(required=True, metavar="COMMAND")
-    for name, command in COMMANDS.items():
-        sub = commands.add_parser(
-            name,
-            help=command.SUMMARY,
-            description=command.SUMMARY,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-            allow_abbrev=False,
+def _without_command(word: str) -> int:
+    if word in ("-h", "--help"):
+        say("usage: symsurf COMMAND ...\n")
+        say("Finds the mirror of 3D point sets and meshes: a plane, a sphere or a curved surface.")
+        say(overview())
+        say(
+            "\nsymsurf COMMAND --help shows the options of a command, symsurf --version the version."
         )
-        command.add_arguments(sub)
-        sub.set_defaults(run=command.run)
-    return top
+        return 0
+    if word == "--version":
+        say(f"symsurf {__version__}")
+        return 0
+    kind = "option" if word.startswith("-") else "command"
+    complain(f"there is no {kind} {word!r}{closest(word, COMMANDS)} symsurf --help lists all")
+    return 2

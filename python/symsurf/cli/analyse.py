@@ -6,7 +6,6 @@ import argparse
 import json
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from .._core import Analysis, InvalidParameter
@@ -14,7 +13,8 @@ from ..base.options import Search
 from ..base.printable import printable
 from ..batching.file_task import FileTask, Record
 from ..results import Symmetries
-from ..saving import ANALYSIS_FORMATS
+from ..results.analysis_results import RESULTS
+from ..saving.shape_files import formats_of
 from .batch_options import (
     add_absolute,
     add_batch_options,
@@ -27,9 +27,10 @@ from .batch_options import (
     worked_on,
 )
 from .described_options import add_parameters, given_values
+from .output_paths import add_output
 from .shared_options import add_options
 from .terminal import say
-from .values import shown
+from .values import duration, shown
 
 # What pose estimators read, by the record's name for it.
 _TABLES = {
@@ -45,40 +46,47 @@ class AnalysisCommand:
     def __init__(self, analysis: Analysis) -> None:
         self._analysis = analysis
         self.SUMMARY = analysis.summary
+        self._formats = formats_of(RESULTS[analysis.name])
         self._tables = _TABLES if analysis.name == Symmetries.analysis else {}
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
-        parser.add_argument(
-            "--output",
-            type=Path,
-            metavar="DIR",
-            help="write what is found to DIR, a file for each",
+        group = parser.add_argument_group("output")
+        add_output(
+            group,
+            metavar="PATH",
+            help="of one file: write what is found to this file, in the format of its suffix; else to "
+            "this folder, one file for each",
         )
-        parser.add_argument(
+        group.add_argument(
             "--format",
-            default="json",
             metavar="WORD",
-            help=f"of --output: {' or '.join(name[1:] for name in ANALYSIS_FORMATS)}; json holds all "
-            "that is found, ply and vtp the shape with what the analysis gives each point; default "
-            "%(default)s",
+            help=f"in a folder: {' or '.join(name[1:] for name in self._formats)}; json holds all "
+            "that is found, ply, vtp and glb the shape with what the analysis gives each point; default "
+            "json",
         )
         for name, content in self._tables.items():
-            parser.add_argument(
+            group.add_argument(
                 f"--{name}",
                 dest="pose_table",
                 action="store_const",
                 const=name,
                 help=f"print one JSON object: for each file {content}",
             )
-        add_batch_options(parser)
-        add_options(parser, Search, ["nonfinite"])
+        add_batch_options(parser, group)
+        add_options(parser.add_argument_group("search"), Search, ["nonfinite"])
         add_absolute(parser)
         add_parameters(parser, self._analysis)
 
     def run(self, arguments: argparse.Namespace) -> int:
         given = input_tasks(arguments)
-        outputs = planned_outputs(arguments, given, lambda _: [_output_suffix(arguments.format)])
+        outputs = planned_outputs(
+            arguments,
+            given,
+            lambda _: [self._suffix(arguments.format or "json")],
+            arguments.format,
+            self._formats,
+        )
         _, threads = jobs_and_threads(arguments)
         tasks = [
             replace(
@@ -100,12 +108,11 @@ class AnalysisCommand:
                 )
         return _print_pose_table(pose_table, tasks, arguments)
 
-
-def _output_suffix(format_name: str) -> str:
-    if f".{format_name}" not in ANALYSIS_FORMATS:
-        allowed = ", ".join(name[1:] for name in ANALYSIS_FORMATS)
-        raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
-    return f".{format_name}"
+    def _suffix(self, format_name: str) -> str:
+        if f".{format_name}" not in self._formats:
+            allowed = ", ".join(name[1:] for name in self._formats)
+            raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
+        return f".{format_name}"
 
 
 def _print_pose_table(name: str, tasks: Sequence[FileTask], arguments: argparse.Namespace) -> int:
@@ -142,7 +149,7 @@ def _text(record: Record) -> str:
             f"  {name.replace('_', ' '):<9} {shown(value)}"
             for name, value in record["statistics"].items()
         ]
-    lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
+    lines.append(f"  time      {duration(record['seconds'])}")
     return "\n".join(lines)
 
 

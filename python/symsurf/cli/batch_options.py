@@ -22,11 +22,11 @@ from ..batching.running import Ended, ended, in_order
 from ..batching.shards import positions, shard_from
 from ..plotting.drawing import import_pyvista
 from ..reading import files_in, known_names, require_format
-from ..saving.output_files import output_files
+from ..saving.output_files import output_files, require_apart
 from ..saving.sole_writer import sole_writer
-from .output_paths import require_apart, require_suffix
+from . import output_paths
 from .progress_bar import ProgressBar
-from .shared_options import add_options, given_options
+from .shared_options import Group, add_options, given_options
 from .terminal import complain, say, standard_input
 from .values import whole
 
@@ -34,19 +34,20 @@ STANDARD_INPUT = Path("-")
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
+    group = parser.add_argument_group("input")
+    group.add_argument(
         "files",
         nargs="+",
         type=Path,
         metavar="FILE",
         help=f"{known_names()}; a folder: the files in it that can be read; -: standard input",
     )
-    parser.add_argument(
+    group.add_argument(
         "--input-format",
         metavar="WORD",
         help="of the files, such as ply or ply.gz, in place of their suffixes; standard input needs it",
     )
-    add_options(parser, Reading)
+    add_options(group, Reading)
 
 
 def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
@@ -71,20 +72,22 @@ def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
     return tasks
 
 
-def add_batch_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--plot", action="store_true", help="draw a PNG a file into the folder of --output"
+def add_batch_options(parser: argparse.ArgumentParser, output: Group) -> None:
+    """Those of many files, and the picture among those of the output."""
+    group = parser.add_argument_group("many files")
+    output.add_argument(
+        "--plot", action="store_true", help="draw a PNG per file beside that of --output"
     )
-    parser.add_argument(
+    group.add_argument(
         "--shard",
         metavar="I/N",
         help="work on every N-th file from the I-th on, I from 1 to N, as a job of an array that is "
         "given the same files in each; `symsurf table merge` makes one table of theirs",
     )
-    add_table_options(parser)
+    add_table_options(group)
 
 
-def add_table_options(parser: argparse.ArgumentParser) -> None:
+def add_table_options(parser: Group) -> None:
     parser.add_argument(
         "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
     )
@@ -106,10 +109,12 @@ def add_table_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_mirror_options(parser: argparse.ArgumentParser) -> None:
-    """How the mirror of an operation is found."""
-    add_options(parser, Search)
-    parser.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
+def add_mirror_options(parser: argparse.ArgumentParser) -> Group:
+    """How the mirror of an operation is found; gives what more can be added to."""
+    group = parser.add_argument_group("mirror")
+    add_options(group, Search)
+    group.add_argument("--require-found", action="store_true", help=require_found_parameter().doc)
+    return group
 
 
 def add_absolute(parser: argparse.ArgumentParser) -> None:
@@ -132,18 +137,43 @@ def planned_outputs(
     arguments: argparse.Namespace,
     tasks: Sequence[FileTask],
     suffixes_of: Callable[[Path], Sequence[str]],
+    formats: str | None,
+    allowed: Sequence[str],
 ) -> dict[Path, list[Path]]:
-    """The files to write for each file to read, a picture last."""
+    """The files to write for each file to read, a picture last.
+
+    Args:
+        suffixes_of: those of the files in a folder.
+        formats: what was asked for by name; the suffix of an output that is a file is its format.
+        allowed: the suffixes of such a file.
+    """
     if arguments.output is None:
         if arguments.plot:
-            raise InvalidParameter("plot is given without output; allowed is with a folder")
+            raise InvalidParameter("plot is given without output; allowed is with one")
         return {}
     if arguments.plot:
         import_pyvista()  # missing, it is missed before the work is done
     picture = [PICTURE_SUFFIX] if arguments.plot else []
+    output = Path(arguments.output)
+    if len(tasks) == 1 and output_paths.names_file(arguments.output):
+        allowed = list(dict.fromkeys([*allowed, PICTURE_SUFFIX]))
+        if formats is not None:
+            raise InvalidParameter(
+                f"output is {str(output)!r}, a file, whose suffix says the format, and {formats} is asked "
+                "for, too; allowed is one of them"
+            )
+        if not output.name.lower().endswith(tuple(allowed)):
+            raise InvalidParameter(
+                f"output is {str(output)!r}; allowed are a folder and files that end in "
+                f"{', '.join(allowed)}"
+            )
+        files = [output, *(output.with_suffix(suffix) for suffix in picture)]
+        outputs = {tasks[0].file: list(dict.fromkeys(files))}
+        require_apart(outputs)
+        return outputs
     return output_files(
         [task.file for task in tasks],
-        arguments.output,
+        output,
         lambda path: [*suffixes_of(path), *picture],
     )
 
@@ -170,8 +200,12 @@ def run_tasks(
         for record in worked_on([tasks[index] for index in left], arguments, keep):
             status = max(status, tell(record))
             if "error" not in record:
-                say(json.dumps(record) if arguments.json else text_of(record))
+                say(json.dumps(record) if arguments.json else _said(record, text_of))
     return status, [rows[index] for index in range(len(tasks))]
+
+
+def _said(record: Record, text_of: Callable[[Record], str]) -> str:
+    return "\n".join([text_of(record), *(f"  written   {file}" for file in record["written"])])
 
 
 def _share_of(
@@ -255,7 +289,7 @@ def _title(tasks: Sequence[FileTask], done: int) -> str:
 
 def _require_table(table: Path, tasks: Sequence[FileTask]) -> None:
     """Raises what would be wrong with the table before the work is done."""
-    require_suffix("table", table, ".csv")
+    output_paths.require_suffix("table", table, ".csv")
     taken = {task.file.resolve() for task in tasks}
     taken |= {output.resolve() for task in tasks for output in task.outputs}
-    require_apart(table, taken)
+    output_paths.require_apart(table, taken)

@@ -14,6 +14,7 @@ from ..saving.points_format import require_points_suffix
 from ..saving.truth import read_truth, truth_path, write_sample
 from ..synthetic import rotation_matrix
 from .described_options import add_kinds, given_values
+from .output_paths import add_output
 from .terminal import say
 from .values import whole
 
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _add_files(parser: argparse.ArgumentParser, kind: Damage) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the points")
-    parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
+    add_output(parser, type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
     parser.add_argument("--seed", default="0", metavar="N")
 
 

@@ -17,7 +17,9 @@ from ..report import require_viewer
 from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
+from .output_paths import add_output
 from .terminal import say
+from .values import duration
 
 SUMMARY = "Finds the mirrors of two real meshes, straight, bent and damaged, and uses them; with a report."
 
@@ -44,8 +46,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-pictures", action="store_true", help="print the tables only, without a report"
     )
-    parser.add_argument(
-        "--output",
+    add_output(
+        parser,
         type=Path,
         default=Path("symsurf-demo"),
         metavar="DIR",
@@ -105,7 +107,7 @@ def _row(finding: Finding) -> str:
         result.mirror.kind if result.mirror is not None and result.verdict == "found" else "none",
         f"{result.score:.3f}",
         f"{finding.error:.4f} %",
-        f"{1000 * result.seconds:.0f} ms",
+        duration(result.seconds),
     )
 
 

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
-from .._core import Analysis, Damage, Generator, Operation
+from .._core import Analysis, Damage, Generator, Operation, Parameter
 from .values import shown, value_from
 
 Description: TypeAlias = Generator | Damage | Operation | Analysis
@@ -35,7 +35,6 @@ def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
     group = parser.add_argument_group("parameters")
     for parameter in kind.parameters:
         about = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
-        vector = parameter.type in ("direction", "position")
         bare: dict[str, Any] = (
             {"nargs": "?", "const": "true"} if parameter.type == "boolean" else {}
         )
@@ -43,10 +42,16 @@ def add_parameters(parser: argparse.ArgumentParser, kind: Description) -> None:
             *sorted({f"--{parameter.name.replace('_', '-')}", f"--{parameter.name}"}),
             dest=f"value:{parameter.name}",
             default=argparse.SUPPRESS,
-            metavar="X,Y,Z" if vector else "VALUE",
+            metavar=metavar_of(parameter),
             help=about.replace("%", "%%"),
             **bare,
         )
+
+
+def metavar_of(parameter: Parameter) -> str:
+    if parameter.type == "choice":
+        return f"{{{','.join(parameter.choices)}}}"
+    return "X,Y,Z" if parameter.type in ("direction", "position") else "VALUE"
 
 
 def given_values(arguments: argparse.Namespace) -> dict[str, Any]:

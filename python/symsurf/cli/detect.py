@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from .._core import InvalidParameter
@@ -23,46 +22,51 @@ from .batch_options import (
     run_tasks,
 )
 from .method_options import add_method_options, given_parameters
+from .output_paths import add_output
 from .shared_options import add_options
-from .values import shown
+from .terminal import Parser
+from .values import duration, shown
 
 SUMMARY = "Finds the mirror of each file."
 
+_FORMATS = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+
+def add_arguments(parser: Parser) -> None:
     add_files(parser)
-    parser.add_argument(
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="write each result to DIR, under the file's name and the suffixes of --formats",
+    group = parser.add_argument_group("output")
+    add_output(
+        group,
+        metavar="PATH",
+        help="of one file: write the result to this file, in the format of its suffix, such as "
+        "mirror.stl; else to this folder, under the name of each file and the suffixes of --formats",
     )
-    parser.add_argument(
+    group.add_argument(
         "--formats",
-        default=SUMMARY_SUFFIX[1:],
         metavar="LIST",
-        help="what --output writes, separated by commas: %(default)s, a small file with the mirror, "
-        f"and, with all points, {', '.join(name[1:] for name in FORMATS)}; {MATCHES_SUFFIX[1:]}, how the "
-        "mirror fits each point; default %(default)s",
+        help=f"in a folder, separated by commas: {SUMMARY_SUFFIX[1:]}, a small file with the mirror; with "
+        "the pairs of all points json, vtp, ply, txt; the mirror alone as stl, obj, off, glb; "
+        f"{MATCHES_SUFFIX[1:]}, how the mirror fits each point; default {SUMMARY_SUFFIX[1:]}",
     )
-    parser.add_argument(
+    add_batch_options(parser, group)
+    group = parser.add_argument_group("search")
+    add_options(group, Search)
+    group.add_argument(
         "--in-chunks",
         action="store_const",
         const=True,
         help=f"read LAS, LAZ, E57, NPY, PLY, PVTP and VTKHDF in chunks and thin them as they pass; files of "
         f"more than {LARGE / 1e6:.0f} million points are read so anyway",
     )
-    add_batch_options(parser)
-    add_options(parser, Search)
-    parser.add_argument(
+    group.add_argument(
         "--use-normals",
         action="store_true",
         help="hand the normals in the files to the method, as lines; a file without any is an error",
     )
-    parser.add_argument(
+    group.add_argument(
         "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
     )
-    parser.add_argument(
+    group.add_argument(
         "--downsample",
         metavar="DIVISOR",
         help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
@@ -73,9 +77,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    suffixes = _suffixes(arguments.formats)
+    suffixes = _suffixes(arguments.formats or SUMMARY_SUFFIX)
     given = input_tasks(arguments)
-    outputs = planned_outputs(arguments, given, lambda _: suffixes)
+    outputs = planned_outputs(arguments, given, lambda _: suffixes, arguments.formats, _FORMATS)
     divisor = arguments.downsample
     if arguments.use_normals and divisor is not None:
         raise InvalidParameter("use_normals is given beside downsample; allowed is one of them")
@@ -108,9 +112,8 @@ def _divisor(text: str) -> float:
 
 def _suffixes(formats: str) -> list[str]:
     suffixes = [f".{name.strip().lstrip('.')}" for name in formats.split(",")]
-    allowed = [SUMMARY_SUFFIX, MATCHES_SUFFIX, *FORMATS]
-    if any(suffix not in allowed for suffix in suffixes):
-        names = ", ".join(name[1:] for name in allowed)
+    if any(suffix not in _FORMATS for suffix in suffixes):
+        names = ", ".join(name[1:] for name in _FORMATS)
         raise InvalidParameter(f"formats is {formats}; allowed are {names}")
     return suffixes
 
@@ -129,7 +132,7 @@ def _text(record: Record) -> str:
     if others := record["candidates"]:
         scores = " ".join(shown(other["score"], ".3f") for other in others)
         lines.append(f"  others    {len(others)} with scores {scores}")
-    lines.append(f"  time      {1000 * record['seconds']:.1f} ms")
+    lines.append(f"  time      {duration(record['seconds'])}")
     return "\n".join(lines)
 
 

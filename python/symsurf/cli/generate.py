@@ -13,6 +13,7 @@ from ..saving.truth import Truth, write_sample
 from ..synthetic import Sample
 from . import generate_benchmark
 from .described_options import add_kinds, given_values
+from .output_paths import add_output
 from .terminal import say
 
 SUMMARY = "Makes points with a known mirror, and a file with the truth beside them."
@@ -29,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _add_files(parser: argparse.ArgumentParser, kind: Generator) -> None:
     if kind.mirrors_points:
         parser.add_argument("--points", type=Path, metavar="FILE", help="the cloud to mirror")
-    parser.add_argument("--output", type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
+    add_output(parser, type=Path, required=True, metavar="FILE", help="XYZ, CSV, TXT")
 
 
 def run(arguments: argparse.Namespace) -> int:

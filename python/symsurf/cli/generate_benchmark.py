@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..benchmark import SIZES, benchmark
 from ..benchmark.files import write_benchmark
+from .output_paths import add_output
 from .terminal import say
 from .values import whole
 
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATTERN",
         help="cases to make, such as 'head-*-noise-1'; default all",
     )
-    parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="a folder")
+    add_output(parser, type=Path, required=True, metavar="DIR", help="a folder")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,22 +7,29 @@ from typing import Any
 
 from .._core import Method, Parameter
 from .._core import methods as all_methods
+from .described_options import metavar_of
+from .terminal import Parser
 from .values import shown, value_from
 
 _PREFIX = "parameter:"
 
 
-def add_method_options(parser: argparse.ArgumentParser) -> None:
-    """One option for each parameter that any method has."""
-    group = parser.add_argument_group("parameters of the methods")
+def add_method_options(parser: Parser) -> None:
+    """One option for each parameter that any method has; help shows those of the chosen method."""
+    group = parser.add_argument_group(
+        "parameters of the method", "of another method: symsurf detect --method M --help"
+    )
     for name, owners in _owners().items():
-        group.add_argument(
+        action = group.add_argument(
             *sorted({f"--{name.replace('_', '-')}", f"--{name}"}),
             dest=_PREFIX + name,
             default=argparse.SUPPRESS,
-            metavar=_metavar(owners[0][1]),
-            help="; ".join(_helps(owners)).replace("%", "%%"),
+            metavar=metavar_of(owners[0][1]),
+            help="; ".join(_helps(owners)),
         )
+        parser.help_of_methods[action] = {
+            method.name: _text(parameter) for method, parameter in owners
+        }
 
 
 def given_parameters(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -48,13 +55,13 @@ def _owners() -> dict[str, list[tuple[Method, Parameter]]]:
     return owners
 
 
+def _text(parameter: Parameter) -> str:
+    text = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
+    return text.replace("%", "%%")
+
+
 def _helps(owners: list[tuple[Method, Parameter]]) -> list[str]:
     texts: dict[str, list[str]] = {}
     for method, parameter in owners:
-        text = f"{parameter.doc} {parameter.allowed}, default {shown(parameter.default)}"
-        texts.setdefault(text, []).append(method.name)
+        texts.setdefault(_text(parameter), []).append(method.name)
     return [f"({', '.join(names)}) {text}" for text, names in texts.items()]
-
-
-def _metavar(parameter: Parameter) -> str:
-    return "X,Y,Z" if parameter.type in ("direction", "position") else "VALUE"

@@ -9,12 +9,13 @@ from pathlib import Path
 from .._core import Operation
 from ..base.options import Search, part
 from ..base.printable import printable
-from ..batching.file_task import Record
+from ..batching.file_task import PAGE_SUFFIX, Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
+from ..results.operation_results import RESULTS, Asymmetry
 from ..results.summary import figures, of_the_diagonal
-from ..saving import makes_shape, shape_formats
-from ..saving.shape_files import output_suffix
+from ..saving.same_format import REWRITERS
+from ..saving.shape_files import SHAPES, formats_of, makes_shape, output_suffix
 from .batch_options import (
     add_absolute,
     add_batch_options,
@@ -26,6 +27,7 @@ from .batch_options import (
     run_tasks,
 )
 from .described_options import add_parameters, given_values
+from .output_paths import add_output
 from .shared_options import given_options
 from .values import shown
 
@@ -39,25 +41,24 @@ class OperationCommand:
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
-        parser.add_argument(
-            "--output",
-            type=Path,
-            metavar="DIR",
-            help="write each shape to DIR, with what the operation gives each point",
+        group = parser.add_argument_group("output")
+        add_output(
+            group,
+            metavar="PATH",
+            help="of one file: write the shape to this file, in the format of its suffix, such as x.stl; "
+            "else write the shapes to this folder; either with what the operation gives each point",
         )
         is_in_arrays = not makes_shape(self._operation)
         other = ", PLY for files in other formats: these hold no arrays" if is_in_arrays else ""
-        parser.add_argument(
+        group.add_argument(
             "--format",
-            default="input",
             metavar="WORD",
-            help=f"of --output: input, that of the file, which is kept but for what changes{other}; "
-            f"or one of {', '.join(name[1:] for name in shape_formats(self._operation))}: points and faces, in the first two "
-            "with arrays; default %(default)s",
+            help=f"in a folder: input, that of the file, which is kept but for what changes{other}; "
+            f"or one of {', '.join(name[1:] for name in SHAPES)}: points and faces, in the first three "
+            "with arrays; default input",
         )
-        add_batch_options(parser)
-        add_mirror_options(parser)
-        parser.add_argument(
+        add_batch_options(parser, group)
+        add_mirror_options(parser).add_argument(
             "--mirror",
             type=Path,
             metavar="FILE",
@@ -70,10 +71,16 @@ class OperationCommand:
     def run(self, arguments: argparse.Namespace) -> int:
         name = self._operation.name
         given = input_tasks(arguments)
+        own = {*(task.suffix for task in given)}.intersection(REWRITERS)
+        pages = [PAGE_SUFFIX] if name == Asymmetry.operation else []
         outputs = planned_outputs(
             arguments,
             given,
-            lambda path: [output_suffix(path, name, arguments.format, arguments.input_format)],
+            lambda path: [
+                output_suffix(path, name, arguments.format or "input", arguments.input_format)
+            ],
+            arguments.format,
+            [*formats_of(RESULTS[name]), *own, *pages],
         )
         _, threads = jobs_and_threads(arguments)
         mirror = arguments.mirror and read_mirror(arguments.mirror)

@@ -4,8 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 from .._core import InvalidParameter
+from ..reading.formats import FORMATS
+from ..results.operation_results import Correspondences
+from ..saving.shape_files import formats_of
+from .shared_options import Group
+
+_FILES = {*FORMATS, *formats_of(Correspondences), ".png", ".html"}
+
+
+def add_output(parser: Group, **words: Any) -> None:
+    parser.add_argument("-o", "--output", **words)
+
+
+def names_file(output: str) -> bool:
+    """Whether it has the suffix of a format, and is no folder that is there or ends in a slash."""
+    path = Path(output)
+    is_folder = output.endswith(("/", "\\")) or path.is_dir()
+    return path.suffix.lower() in _FILES and not is_folder
 
 
 def require_suffix(name: str, path: Path, suffix: str) -> None:

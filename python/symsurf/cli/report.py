@@ -21,6 +21,7 @@ from .batch_options import (
     run_tasks,
 )
 from .described_options import add_parameters, given_values
+from .output_paths import add_output
 from .terminal import say
 
 SUMMARY = "Writes an HTML page with each shape, its mirror and its asymmetry, in 3D and in figures."
@@ -28,8 +29,8 @@ SUMMARY = "Writes an HTML page with each shape, its mirror and its asymmetry, in
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_files(parser)
-    parser.add_argument(
-        "--output",
+    add_output(
+        parser,
         type=Path,
         required=True,
         metavar="FILE",
@@ -57,8 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
     tasks = report_tasks(asked, arguments.output)
     status, rows = run_tasks(tasks, arguments, _text)
     write_report(arguments.output, tasks, rows)
-    if len(tasks) > 1 or status == 0:
-        say(str(arguments.output))
+    if len(tasks) > 1:
+        say(f"  written   {arguments.output}")
     return status
 
 

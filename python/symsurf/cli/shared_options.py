@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Collection
 from dataclasses import fields
-from typing import Any
+from typing import Any, TypeAlias
 
 from ..base.options import Options, Reading, Search
 from .values import number, whole
 
+Group: TypeAlias = argparse._ActionsContainer
+"""A parser, or a group of its options in its help."""
 
-def add_options(
-    parser: argparse.ArgumentParser, kind: Options, names: Collection[str] = ()
-) -> None:
+
+def add_options(parser: Group, kind: Options, names: Collection[str] = ()) -> None:
     """One for each, or for those of these names."""
     for each in fields(kind):
         if names and each.name not in names:

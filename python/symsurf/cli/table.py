@@ -10,7 +10,7 @@ from ..batching.result_table import columns_of
 from ..batching.shards import merged
 from ..saving import write_whole
 from ..saving.csv_rows import rows_bytes
-from .output_paths import require_suffix
+from .output_paths import add_output, require_suffix
 from .terminal import complain
 
 SUMMARY = "Merges the tables of shards."
@@ -23,9 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     merge = commands.add_parser("merge", help=summary, description=summary, allow_abbrev=False)
     merge.add_argument("tables", nargs="+", type=Path, metavar="TABLE", help="what --table wrote")
-    merge.add_argument(
-        "--output", type=Path, required=True, metavar="FILE", help="the table of all, a CSV"
-    )
+    add_output(merge, type=Path, required=True, metavar="FILE", help="the table of all, a CSV")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,13 +6,15 @@ import argparse
 import codecs
 import errno
 import os
+import re
 import sys
 from io import BytesIO, TextIOWrapper
-from typing import Any
+from typing import Any, NoReturn
 
 from ..base.printable import escaped, printable
 from ..reading.errors import naming
 from ..reading.location import require_memory
+from .suggestions import closest
 
 _BLOCK = 1 << 20  # bytes of standard input that are read at once
 
@@ -27,8 +29,33 @@ def complain(text: str) -> None:
     print(f"symsurf: {printable(text)}", file=sys.stderr)
 
 
+class _Help(argparse._HelpAction):
+    """Shows of the options of the methods those of the method that was named before."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, *given: Any
+    ) -> None:
+        assert isinstance(parser, Parser)
+        for action, texts in parser.help_of_methods.items():
+            action.help = texts.get(namespace.method, argparse.SUPPRESS)
+        super().__call__(parser, namespace, *given)
+
+
 class Parser(argparse.ArgumentParser):
     """Of the command line, whose words may be names of files."""
+
+    def __init__(self, **words: Any) -> None:
+        super().__init__(**words | {"add_help": False})
+        self.help_of_methods: dict[argparse.Action, dict[str, str]] = {}
+        """Of an option, by the name of each method that has it."""
+        self.add_argument("-h", "--help", action=_Help, help="show this and exit")
+
+    def error(self, message: str) -> NoReturn:
+        """Ends the program; with the nearest of the options for one that there is not."""
+        unknown = re.search(r"unrecognized arguments: (--[\w-]+)", message)
+        if unknown is not None:
+            message += closest(unknown[1], self._option_string_actions)
+        super().error(message)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         super()._print_message(escaped(message), file)

@@ -52,6 +52,13 @@ def shown(value: Any, digits: str = "g") -> str:
     return format(value, digits) if isinstance(value, float) else str(value)
 
 
+def duration(seconds: float) -> str:
+    """In the unit that a reader would say it in, to three digits."""
+    if seconds < 1:
+        return f"{1000 * seconds:.3g} ms"
+    return f"{seconds:.3g} s" if seconds < 100 else f"{seconds / 60:.3g} min"
+
+
 def attach_negative_numbers(words: Sequence[str]) -> list[str]:
     """Joins an option and the negative number after it, which argparse takes for an option."""
     joined: list[str] = []

@@ -80,9 +80,7 @@ def operate(
     return RESULTS[name].from_fields(
         made
         | {
-            "given_faces": given.faces,
-            "given_polygons": given.polygons,
-            "space": given.space,
+            "given": given.as_shape(made["given"]),
             "mirror": mirror,
             "found": found,
         }

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, cast
 
 from .._core import InvalidInput, InvalidParameter
 from ..base.options import Reading, documented, part
 from ..shapes import Shape
+from ..shapes.shape import SourceFile
 from .errors import broken, naming
 from .formats import format_of, known_names, known_suffixes, stem_of, suffix_of
 from .location import located
@@ -114,7 +117,11 @@ def _read(name: str, suffix: str, stream: BinaryIO | None, reading: Reading) -> 
                 size = os.path.getsize(name) if is_packed else file.stat().st_size
                 shape = described.read(file.absolute(), reading, size, suffix != described.suffix)
             _require_sound(shape)
-    return shape
+    content = stream.getvalue() if isinstance(stream, BytesIO) else None
+    is_file = stream is None or content is not None
+    return replace(
+        shape, source=SourceFile(Path(name).absolute(), suffix, content) if is_file else None
+    )
 
 
 def _require_sound(shape: Shape) -> None:

@@ -6,7 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -31,12 +31,18 @@ class Input:
     """What the core reads as (n, 3) numbers."""
     faces: NDArray[np.int64] | None
     """(m, 3) indices of points; None for a bare cloud."""
-    space: str | None = None
-    """Of the axes; see ``Shape``."""
     colours: Any = None
     """(n, k) of the points, where the input brings some."""
-    polygons: NDArray[np.int64] | None = None
-    """Of the faces; see ``Shape``."""
+    shape: Shape = field(default_factory=lambda: Shape(np.empty((0, 3))))
+    """What is known beside them, in the fields of a shape that was given or read."""
+
+    @property
+    def space(self) -> str | None:
+        return self.shape.space
+
+    def as_shape(self, points: NDArray[np.float64], **fields: Any) -> Shape:
+        """The shape with the points as the core has read them."""
+        return replace(self.shape, points=points, faces=self.faces, **fields)
 
 
 def as_input(
@@ -73,14 +79,9 @@ def as_input(
         return Input(parts.points, _faces(parts.faces), colours=parts.colours)
     if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
         return Input(given, None)
-    is_shape = isinstance(given, Shape)
-    return Input(
-        _points(given),
-        _faces(_first_of(given, "faces", "triangles")),
-        given.space if is_shape else None,
-        _colours(given),
-        given.polygons if is_shape else None,
-    )
+    known = {"shape": given} if isinstance(given, Shape) else {}
+    points, own = _points(given), _faces(_first_of(given, "faces", "triangles"))
+    return Input(points, own, _colours(given), **known)
 
 
 def triangles(faces: ArrayLike) -> NDArray[np.int64]:

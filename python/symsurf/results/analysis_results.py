@@ -129,12 +129,9 @@ class AnalysisResult(Summarised):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the shape or what was found, in the format of the suffix, whole or not at all.
 
-        ``.json``: what ``to_json`` gives, with ``arrays``. ``.ply``: binary, ``arrays`` as properties
-        of the points. ``.vtp``: for VTK, ParaView and PyVista. ``.csv`` and ``.npy``: ``arrays``
-        alone, a row a point. Raises InvalidParameter for another suffix, OSError where nothing can
-        be written.
+        ``.json``: what ``to_json`` gives, with ``arrays``. Others as of ``OperationResult.save``.
         """
-        save(self, path)
+        warn_of(save(self, path))
 
     def plot(
         self,

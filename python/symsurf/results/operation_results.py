@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, Plane, operations
+from ..reading.inputs import warn_of
 from ..shapes import Shape
 from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
@@ -68,18 +69,13 @@ class OperationResult(Summarised):
         images = point_sources
         if has_parents:  # others lie between several
             images = np.where(made["point_shares"].max(axis=1) == 1, point_sources, -1)
-        given = Shape(
-            made["given"],
-            made["given_faces"],
-            space=made["space"],
-            polygons=made["given_polygons"],
-        )
+        given = made["given"]
         return cls(
             given=given,
             shape=Shape(
                 made["points"],
                 faces,
-                space=frame or made["space"],
+                space=frame or given.space,
                 polygons=None
                 if faces is None
                 else carried_polygons(faces, face_sources, images, given),
@@ -179,13 +175,20 @@ class OperationResult(Summarised):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the shape or its table, in the format of the suffix, whole or not at all.
 
+        A shape that was read from a file of the same format keeps whatever else that file holds: of
+        OBJ materials, groups, texture coordinates and polygons, of PLY all properties, of text all
+        columns. Otherwise the file holds points, faces and, where it can, ``arrays``:
+
         ``.ply``: binary, ``arrays`` as properties of the points. ``.vtp``: for VTK, ParaView and
-        PyVista, which read no such properties. ``.stl``, ``.obj`` and ``.off``: the shape alone.
-        ``.csv`` and ``.npy``: ``arrays`` alone, a row a
-        point, in the latter a structured array. ``.json``: mirror, parameters, statistics and
-        ``arrays``. Raises InvalidParameter for another suffix, OSError where nothing can be written.
+        PyVista, which read no such properties. ``.glb``: ``arrays`` as attributes "_NAME", all in
+        single precision. ``.stl``, ``.obj`` and ``.off``: the shape alone.
+        ``.csv`` and ``.npy``: ``arrays`` alone, one row per point, in the latter a structured array.
+        ``.json``: mirror, parameters, statistics and ``arrays``.
+
+        An InputWarning names what the file does not hold. Raises InvalidParameter for another suffix,
+        InvalidInput for the STL of a cloud, OSError if nothing can be written.
         """
-        save(self, path)
+        warn_of(save(self, path))
 
     def plot(
         self,
@@ -411,8 +414,9 @@ class Completed(OperationResult):
 
     @staticmethod
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
-        given_faces = 0 if made["given_faces"] is None else len(made["given_faces"])
-        return {"patch": _patch(made["points"], len(made["given"]), made["faces"][given_faces:])}
+        given = made["given"]
+        given_faces = 0 if given.faces is None else len(given.faces)
+        return {"patch": _patch(made["points"], len(given.points), made["faces"][given_faces:])}
 
 
 RESULTS: dict[str, type[OperationResult]] = {

@@ -8,8 +8,9 @@ from typing import Any
 
 
 @singledispatch
-def save(result: object, path: str | os.PathLike[str]) -> None:
-    """Writes a result; ``symsurf.saving`` registers how."""
+def save(result: object, path: str | os.PathLike[str]) -> list[str]:
+    """Writes a result; ``symsurf.saving`` registers how. Gives what the file does not hold, a sentence
+    each."""
     raise NotImplementedError(type(result).__name__)
 
 

@@ -123,13 +123,14 @@ class Result(Summarised, Generic[Kind_co]):
 
         ``.json``: everything but ``points`` and ``faces``, for ``load``; of a candidate its method,
         mirror and score. ``.vtp``:
-        mirror, surface points, pairs and residuals for VTK and ParaView. ``.ply``: surface points
+        mirror, surface points, pairs and residuals for VTK and ParaView. ``.stl``, ``.obj``, ``.off``
+        and ``.glb``: the mirror as triangles over the shape. ``.ply``: surface points
         with residuals as quality. ``.txt``: comment lines starting with ``#``, then the surface
-        points, x,y,z a line; a sphere as its centre, then its radius. Each names the axes where
-        ``space`` does.
+        points, x,y,z a line; a sphere as its centre, then its radius. Each but GLB names the axes
+        where ``space`` does.
 
-        Raises InvalidParameter for another suffix, OSError where nothing can be written. A file is
-        written whole or not at all.
+        Raises InvalidParameter for another suffix, InvalidInput for the triangles of no mirror,
+        OSError where nothing can be written. A file is written whole or not at all.
         """
         save(self, path)
 

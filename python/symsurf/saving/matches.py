@@ -12,7 +12,7 @@ import numpy as np
 
 from ..detection.chunks import match_chunks
 from ..results import Result
-from . import write_whole
+from .whole_files import write_whole
 
 ROW = np.dtype([("partner", "<i8"), ("residual", "<f8")])
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 
@@ -18,6 +18,15 @@ def output_files(
         path: [folder / f"{stem_of(path)}{suffix}" for suffix in suffixes_of(path)]
         for path in files
     }
+    require_apart(outputs)
+    if folder.exists():
+        folder.mkdir(exist_ok=True)  # refuses what is no folder
+    return outputs
+
+
+def require_apart(outputs: Mapping[Path, Sequence[Path]]) -> None:
+    """Raises InvalidParameter where a file of those by the file to read would be written twice, or over
+    one to read."""
     first: dict[Path, Path] = {}
     for path, made in outputs.items():
         for output in made:
@@ -25,10 +34,7 @@ def output_files(
                 raise InvalidParameter(
                     f"{first[output]} and {path} would both be written as {output.name}"
                 )
-    inputs = {path.resolve() for path in files}
+    inputs = {path.resolve() for path in outputs}
     for output in chain.from_iterable(outputs.values()):
         if output.resolve() in inputs:
-            raise InvalidParameter(f"{output} would overwrite an input; allowed is another folder")
-    if folder.exists():
-        folder.mkdir(exist_ok=True)  # refuses what is no folder
-    return outputs
+            raise InvalidParameter(f"{output} would overwrite an input; allowed is another name")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .._core import InvalidParameter
-from . import write_whole
+from .whole_files import write_whole
 
 _SEPARATORS = {".xyz": " ", ".csv": ",", ".txt": ","}
 

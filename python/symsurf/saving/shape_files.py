@@ -1,28 +1,83 @@
-"""Writing what an operation has made of a file."""
+"""Writing the shapes of operations and analyses, in the format of a suffix: one that keeps what the
+file of the shape holds where that is of the same format, else one of points, faces and arrays."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import _core
 from .._core import InvalidInput, InvalidParameter
 from ..reading import read
 from ..reading.formats import format_of
 from ..reading.location import leads_away
-from ..results import OperationResult
+from ..results import AnalysisResult, Correspondences, OperationResult, Transferred
 from ..shapes import Shape
-from . import BARE_FORMATS, makes_shape, shape_formats, write_whole
-from .same_format import OTHER_REWRITERS, REWRITERS, NewShape, Rewritten, lost_arrays, plain_content
+from ..shapes.shape import SourceFile
+from .glb_format import shape_glb_bytes
+from .json_format import analysis_bytes, operation_bytes
+from .ply_format import shape_ply_bytes
+from .same_format import (
+    OTHER_REWRITERS,
+    REWRITERS,
+    NewShape,
+    Rewritten,
+    lost_arrays,
+    plain_content,
+    shape_bytes,
+)
+from .table_format import csv_bytes, mirror_bytes, npy_bytes
+from .vtp_format import shape_vtp_bytes
+from .whole_files import write_whole
 
-_BARE = (".stl", ".xyz", ".off")  # without normals and colours they hold nothing beside
 _SINGLE = 1e-6  # of the largest coordinate: what binary STL rounds to
+_PLAIN = (".stl", ".xyz", ".off")  # without normals and colours they hold nothing beside
+
+_Arrays = Mapping[str, NDArray[Any]]
+
+
+def _bare_bytes(suffix: str, shape: Shape, _arrays: _Arrays, _face_arrays: _Arrays) -> bytes:
+    if suffix == ".stl" and shape.faces is None:
+        raise InvalidInput("STL holds triangles, and the shape has none; allowed is another format")
+    return shape_bytes(shape, suffix)
+
+
+SHAPES: dict[str, Callable[[Shape, _Arrays, _Arrays], bytes]] = {
+    ".ply": shape_ply_bytes,
+    ".vtp": shape_vtp_bytes,
+    ".glb": shape_glb_bytes,
+    **{suffix: partial(_bare_bytes, suffix) for suffix in (".obj", ".off", ".stl")},
+}
+_ARRAYS = {".csv": csv_bytes, ".npy": npy_bytes}
+# The arrays that each holds of points and of faces; the others of ``SHAPES`` hold none.
+_HELD = {".ply": (True, True), ".vtp": (True, True), ".glb": (True, False)}
+
+
+def formats_of(kind: type[OperationResult | AnalysisResult]) -> list[str]:
+    """The suffixes that any result of the class can be saved with, whatever it was made of."""
+    own = [".mirror"] if issubclass(kind, Correspondences) else []
+    return [*SHAPES, *_ARRAYS, ".json", *own]
+
+
+def require_format(path: str | os.PathLike[str], formats: Iterable[str]) -> None:
+    """Raises InvalidParameter for another suffix."""
+    if Path(path).suffix.lower() not in formats:
+        allowed = ", ".join(formats)
+        raise InvalidParameter(f"path is {os.fspath(path)!r}; allowed are the suffixes {allowed}")
+
+
+def makes_shape(operation: _core.Operation) -> bool:
+    """Whether there is more than arrays of the points that are given."""
+    return operation.moves_points or operation.adds_points or operation.carries_values
 
 
 def output_suffix(
@@ -37,9 +92,8 @@ def output_suffix(
         return ".summary.json"
     described = _core.operations()[operation]
     if format_name != "input":
-        formats = shape_formats(described)
-        if f".{format_name}" not in formats:
-            allowed = ", ".join(["input", *(name[1:] for name in formats)])
+        if f".{format_name}" not in SHAPES:
+            allowed = ", ".join(["input", *(name[1:] for name in SHAPES)])
             raise InvalidParameter(f"format is {format_name}; allowed are {allowed}")
         return f".{format_name}"
     suffix = file.suffix if input_format is None else f".{input_format}"
@@ -47,101 +101,147 @@ def output_suffix(
     return suffix if is_kept or suffix.lower() == ".ply" else ".ply"
 
 
-def save_shape(
-    path: Path,
-    result: OperationResult,
-    shape: Shape,
-    source: Path,
-    suffix: str,
-    content: bytes | None = None,
-) -> list[str]:
-    """Writes the result whole or not at all; gives what of the source it does not hold.
-
-    Args:
-        path: in the source's format whatever the source holds is kept; other suffixes are those of
-            ``result.save``.
-        shape: what was read from the source.
-        suffix: of the format that the source was read in, such as ".ply" or ".ply.gz".
-        content: of the source, where that is no file.
-    """
-    is_same = suffix in REWRITERS and suffix == path.suffix.lower()
-    carries = _core.operations()[result.operation].carries_values
-    if carries and not is_same:
+def save_shape(result: OperationResult | AnalysisResult, path: str | os.PathLike[str]) -> list[str]:
+    """Writes the result whole or not at all; gives what of its file and its arrays is not in what was
+    written, a sentence each."""
+    path = Path(path)
+    suffix = path.suffix.lower()
+    given = result.given if isinstance(result, OperationResult) else result.shape
+    if given.source is not None and _is_rewritten(result, given.source, suffix):
+        rewritten = _rewritten(result, given, given.source, path)
+        write_whole(path, rewritten.content)
+        return _lost_polygons(result) + rewritten.lost
+    require_format(path, formats_of(type(result)))
+    if suffix not in SHAPES:
+        write_whole(path, _table_bytes(result, suffix))
+        return []
+    if given.source is not None and _lacks_values(result):
         raise InvalidInput(
-            f"what the points of a {suffix} file have cannot be carried over in {path.suffix}; allowed "
-            f"are {', '.join(REWRITERS)}, each written in its own format"
+            f"what the points of a {given.source.suffix} file have cannot be carried over in {suffix}; "
+            f"allowed are {', '.join(REWRITERS)}, each written in its own format"
         )
-    if not is_same:
-        result.save(path)
-        return _lost_polygons(result) + _left_out(shape, suffix, path) + _lost_arrays(result, path)
+    face_arrays = result.face_arrays if isinstance(result, OperationResult) else {}
+    write_whole(path, SHAPES[suffix](result.shape, result.arrays, face_arrays))
+    held = [
+        () if is_held else arrays
+        for arrays, is_held in zip((result.arrays, face_arrays), _HELD.get(suffix, (False, False)))
+    ]
+    names = [name for arrays in held for name in arrays]
+    lost = [lost_arrays(suffix[1:].upper(), names)] if names else []
+    return _lost_polygons(result) + _left_out(given, suffix) + lost
+
+
+def _is_rewritten(
+    result: OperationResult | AnalysisResult, source: SourceFile, suffix: str
+) -> bool:
+    """Whether the file is kept but for what changes. The table of what gives nothing but arrays is
+    that of these alone."""
+    if suffix != source.suffix or suffix not in REWRITERS:
+        return False
+    return suffix not in _ARRAYS or (
+        isinstance(result, OperationResult) and makes_shape(_core.operations()[result.operation])
+    )
+
+
+def _lacks_values(result: OperationResult | AnalysisResult) -> bool:
+    """Whether all that it has to give is what the file's points have."""
+    return isinstance(result, Transferred) and result.values is None
+
+
+def _table_bytes(result: Any, suffix: str) -> bytes:
+    if suffix == ".json":
+        is_operation = isinstance(result, OperationResult)
+        return operation_bytes(result) if is_operation else analysis_bytes(result)
+    if suffix == ".mirror":
+        return mirror_bytes(result)
+    if isinstance(result, AnalysisResult) and not result.arrays:
+        raise InvalidParameter(
+            f"the suffix is {suffix}; {result.analysis} gives no arrays: allowed are the other suffixes"
+        )
+    return _ARRAYS[suffix](result.arrays)
+
+
+def _rewritten(
+    result: OperationResult | AnalysisResult, given: Shape, source: SourceFile, path: Path
+) -> Rewritten:
+    if isinstance(result, OperationResult):
+        new = _new_shape(result, given, partial(_reached, source, path))
+    else:
+        faces = _faces(given)
+        rows = np.arange(len(given.points))
+        new = NewShape(given.points, faces, len(faces), rows, moved=False, arrays=result.arrays)
+    rewritten = None
+    with suppress(OSError):  # it is gone, or may not be read any more
+        content = source.path.read_bytes() if source.content is None else source.content
+        rewritten = _kept(content, source.suffix, new)
+    if rewritten is None and _lacks_values(result):
+        raise InvalidInput(
+            f"{source.path} is written in a way that values cannot be carried over in"
+        )
+    return rewritten or _anew(given, source.suffix, new)
+
+
+def _faces(shape: Shape) -> NDArray[np.int64]:
+    return np.empty((0, 3), np.int64) if shape.faces is None else shape.faces
+
+
+def _new_shape(
+    result: OperationResult, given: Shape, reached: Callable[[str], str | None]
+) -> NewShape:
     matrix = result.statistics.get("matrix")
     frame = result.parameters.get("frame")
-    faces = result.shape.faces
-    new = NewShape(
+    carries = _core.operations()[result.operation].carries_values
+    count = len(given.points)
+    is_moved = not np.array_equal(result.shape.points[:count], given.points, equal_nan=True)
+    return NewShape(
         points=result.shape.points,
-        faces=np.empty((0, 3), np.int64) if faces is None else faces,
-        old_faces=0 if shape.faces is None or result.is_other else len(shape.faces),
-        sources=np.arange(len(shape.points)) if carries else result.sources,
-        moved=result.is_other
-        or not np.array_equal(
-            result.shape.points[: len(shape.points)], shape.points, equal_nan=True
-        ),
+        faces=_faces(result.shape),
+        old_faces=0 if result.is_other else len(_faces(given)),
+        sources=np.arange(count) if carries else result.sources,
+        moved=result.is_other or is_moved,
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],
         space=frame.upper().encode() if frame in ("ras", "lps") else None,
         arrays=result.arrays,
         face_arrays=result.face_arrays,
         is_other=result.is_other,
-        given_faces=shape.faces,
+        given_faces=given.faces,
         face_sources=result.face_sources,
         parents=result.parents,
         shares=result.shares,
         carried=None if result.parents is None else result.carried,
         polygons=result.shape.polygons,
-        reached=partial(_reached, source if content is None else None, path),
+        reached=reached,
     )
-    given = source.read_bytes() if content is None else content
-    rewritten = _kept(given, suffix, new)
-    if rewritten is None and carries:
-        raise InvalidInput(f"{source} is written in a way that values cannot be carried over in")
-    rewritten = rewritten or _anew(shape, suffix, new)
-    write_whole(path, rewritten.content)
-    return _lost_polygons(result) + rewritten.lost
 
 
-def _lost_polygons(result: OperationResult) -> list[str]:
+def _lost_polygons(result: OperationResult | AnalysisResult) -> list[str]:
     """What to say of polygons that are written as triangles."""
-    given, made = result.given.polygons, result.shape.polygons
-    if given is None:
+    if not isinstance(result, OperationResult) or result.given.polygons is None:
         return []
+    given, made = result.given.polygons, result.shape.polygons
     parts = np.bincount(given)[given][result.face_sources] > 1
     kept = np.bincount(made)[made] > 1 if made is not None else np.zeros(len(parts), bool)
     count = int(np.count_nonzero(parts & ~kept))
     return [f"{count} triangles are written of what were larger polygons"] if count else []
 
 
-def _left_out(shape: Shape, suffix: str, output: Path) -> list[str]:
+def _left_out(given: Shape, suffix: str) -> list[str]:
     """What to say of a file of which points and faces alone are kept."""
-    described = format_of(suffix)
-    is_plain = shape.normals is None and shape.colours is None
-    if described is None or described.is_image or (is_plain and described.suffix in _BARE):
+    described = given.source and format_of(given.source.suffix)
+    is_plain = given.normals is None and given.colours is None
+    if not described or described.is_image or (is_plain and described.suffix in _PLAIN):
         return []
-    made = output.suffix[1:].upper()
-    text = (
-        f"{made} is written anew: of the {described.name} file points and faces are kept, none of "
+    name = suffix[1:].upper()
+    kept = (
+        f"{name} is written anew: of the {described.name} file points and faces are kept, none of "
     )
-    return [text + "its normals, colours, textures, materials and other attributes"]
+    return [kept + "its normals, colours, textures, materials and other attributes"]
 
 
-def _lost_arrays(result: OperationResult, output: Path) -> list[str]:
-    names = [*result.arrays, *result.face_arrays]
-    if not names or output.suffix.lower() not in BARE_FORMATS:
-        return []
-    return [lost_arrays(output.suffix[1:].upper(), names)]
-
-
-def _reached(source: Path | None, output: Path, name: str) -> str | None:
+def _reached(source: SourceFile, output: Path, name: str) -> str | None:
     """The name of a file beside the source as it is seen from the output."""
-    if source is None or leads_away(file := source.parent / name, source):
+    file = source.path.parent / name
+    if source.content is not None or leads_away(file, source.path):
         return None
     try:
         if not file.is_file():

@@ -12,7 +12,6 @@ from ..base.options import Reading, part
 from ..base.progress import Progress
 from ..reading.inputs import as_input, refuses, warn
 from ..results.analysis_results import RESULTS, AnalysisResult
-from ..shapes import Shape
 
 
 def analyse(
@@ -46,7 +45,7 @@ def analyse(
         name, given.points, given.faces, refuses(nonfinite), counted, threads, progress, parameters
     )
     warn(made["statistics"])
-    found = Shape(made["points"], given.faces, space=given.space, colours=counted)
+    found = given.as_shape(made["points"], colours=counted)
     return RESULTS[name].from_fields(found, made)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,17 @@ from ..base.optional import require
 
 if TYPE_CHECKING:
     import pyvista
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """The file that a shape was read from."""
+
+    path: Path
+    suffix: str
+    """Of its format, such as ".ply" or ".ply.gz"."""
+    content: bytes | None = None
+    """Of what was read from memory; None: it is in the file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +44,8 @@ class Shape:
     polygons: NDArray[np.int64] | None = None
     """(m,) the number of the polygon that each triangle is a part of; None where all polygons of the
     file are triangles, or none are known."""
+    source: SourceFile | None = None
+    """The file, of which ``save`` of a result keeps what it can; None where the shape is of none."""
 
     def __repr__(self) -> str:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"

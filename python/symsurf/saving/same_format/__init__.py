@@ -88,5 +88,8 @@ def shape_bytes(shape: Shape, suffix: str) -> bytes:
     """Points and faces alone in one of these formats."""
     faces = np.empty((0, 3), np.int64) if shape.faces is None else shape.faces
     rows = np.arange(len(shape.points))
-    same = NewShape(shape.points, faces, old_faces=len(faces), sources=rows, moved=False)
+    space = shape.space.encode() if shape.space else None
+    same = NewShape(
+        shape.points, faces, old_faces=len(faces), sources=rows, moved=False, space=space
+    )
     return REWRITERS[suffix](plain_content(shape, suffix), same).content
