@@ -24,7 +24,7 @@ constexpr Index sample_count = 1000;
 // Distance from the mirror from which on a sample counts in full, near which any surface is
 // symmetric: that; of a thin body a share of its extent, some tolerances at least; some deviations
 // of the noise.
-constexpr double fully_moved = 0.02, moved_by_extent = 0.25, moved_by_noise = 4;
+constexpr double moved_by_extent = 0.25, moved_by_noise = 4;
 constexpr double moved_by_tolerance = 2;
 constexpr double least_share = 0.2;  // of all samples, that the mean is taken over
 constexpr double held_out = 0.06;    // radius of the windows that sides are predicted over

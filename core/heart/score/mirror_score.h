@@ -19,6 +19,9 @@ namespace symsurf {
 
 class MirrorSides;
 
+/// Diagonals from the mirror, from which on a sample counts in full.
+inline constexpr double fully_moved = 0.02;
+
 /// How well a mirror maps a cloud onto itself. Shares are of the samples that it moves.
 struct MirrorFit {
   double share = 0;      ///< that it maps onto the surface, over what the identity does

@@ -9,7 +9,6 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
-#include "base/nelder_mead.h"
 #include "cloud/cloud.h"
 #include "cloud/exact_isometries.h"
 #include "cloud/point_tree.h"
@@ -112,9 +111,6 @@ namespace {
 
 constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
 constexpr Index refined_at_most = 4;
-// Score below which planes are moved to its maximum, and what that has to gain over the best: a
-// tenth of clutter beside a nearly symmetric body leaves .76, and makes other planes gain .02.
-constexpr double worth_polishing = 0.75, least_gain = 0.03;
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
 constexpr double alike_planes = 0.05;  // planes closer than this are one
 
@@ -183,19 +179,6 @@ class FullCloud {
   }
 
   PlaneCandidate glanced(const PlaneCandidate& c) const { return {c.shape, share(c.shape)}; }
-
-  // The score's maximum next to a plane.
-  UnitPlane polished(const UnitPlane& plane) const {
-    constexpr double step = 0.02, precision = 5e-4;  // radians and diagonals
-    int evaluations = 80;
-    const Matrix3 axes = least_rotation(Vector3::UnitZ(), plane.normal);
-    const auto moved = [&](const Vector3& by) -> UnitPlane {
-      return {(axes * Vector3(by.x(), by.y(), 1)).normalized(), plane.offset + by.z()};
-    };
-    const auto share_of = [&](const Vector3& by) { return share(moved(by)); };
-    const Vector3 start = Vector3::Zero();
-    return moved(nelder_mead<3>(share_of, start, step, precision, evaluations));
-  }
 
  private:
   double share(const UnitPlane& plane) const {
@@ -299,19 +282,6 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     drop_known(more, planes);
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
-    // Where much of a side is missing or unlike the other, the fit to partners is not the score's
-    // maximum. What gains little stays, as the fit is the more exact; vertices tell of meshes.
-    if (!is_mesh && best.score < worth_polishing) {
-      const double enough = best.score + least_gain;
-      bool any_gains = false;
-      for (UnitPlane& plane : planes) {
-        const UnitPlane moved = whole.polished(plane);
-        if (score.fit(in_input_units(moved, cloud.frame)).share <= enough) continue;
-        plane = moved;
-        any_gains = true;
-      }
-      if (any_gains) best = ranked(planes);
-    }
   }
   const auto most = static_cast<std::size_t>(values.integer("max_candidates"));
   if (best.candidates.size() > most) best.candidates.resize(most);
