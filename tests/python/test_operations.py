@@ -52,7 +52,7 @@ def test_each_has_a_function_and_a_result_as_described(name):
     assert RESULTS[name].operation == name
     shown = inspect.signature(function).parameters
     first = ["values"] if operation.carries_values else []
-    assert list(shown)[: len(first) + 2] == [*first, "shape", "result"]
+    assert list(shown)[: len(first) + 2] == [*first, "shape", "mirror"]
     assert ("mask" in shown) == operation.takes_mask
     documentation = " ".join(function.__doc__.split())
     assert operation.summary in documentation
@@ -154,7 +154,7 @@ def test_straighten_goes_there_and_back(ball):
 @pytest.mark.parametrize(
     ("arguments", "error", "says"),
     [
-        ({"result": 3}, symsurf.InvalidParameter, "result is of type int"),
+        ({"result": 3}, symsurf.InvalidParameter, "mirror is of type int"),
         ({"max_angle": 200}, symsurf.InvalidParameter, "max_angle"),
         ({"speed": 1}, symsurf.InvalidParameter, "speed"),
         ({"result": symsurf.Sphere((0, 0, 0), 0.01)}, symsurf.InvalidInput, "have an image"),
