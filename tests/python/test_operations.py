@@ -269,7 +269,7 @@ def test_a_mirror_that_is_none_warns_unless_refused():
         with pytest.raises(symsurf.InvalidInput, match="the shape has no mirror") as error:
             symsurf.asymmetry(points, result, require_found=True)
         assert found.reason in str(error.value)
-    symsurf.asymmetry(points, found.mirror, require_found=True)  # nobody judged it
+    symsurf.asymmetry(points, found.mirror, require_found=True)  # it has no verdict
 
 
 def test_what_is_said_of_a_mirror_that_is_none(tmp_path):

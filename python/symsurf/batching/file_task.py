@@ -49,7 +49,7 @@ _LEAST_BYTES = 1  # of a file for each of its points: LAZ packs them to a few
 _NO_SETTINGS = {"file", "content", "threads", "outputs", "operation", "parameters"}
 
 Record = dict[str, Any]
-"""What is told of a file, in what JSON knows. A file that failed has an "error"."""
+"""What is reported of a file, in what JSON knows. A file that failed has an "error"."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
     record = _head(task)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", InputWarning)  # it is told in the record
+            warnings.simplefilter("ignore", InputWarning)  # the record has it
             _perform(task, record, progress)
     except (InvalidParameter, ImportError):
         raise

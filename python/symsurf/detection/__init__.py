@@ -116,7 +116,7 @@ def match(
         shape: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror, or a result that has one.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
-        tolerance: how unlike the two sides may be, as a fraction of the diagonal in [1e-4, 0.1]:
+        tolerance: how far the two sides may differ, as a fraction of the diagonal in [1e-4, 0.1]:
             where an image lies so far from the shape, across its surface, the score counts it half.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threshold, label, scalars, external_files, threads, progress: as for ``detect``.

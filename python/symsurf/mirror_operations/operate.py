@@ -92,7 +92,7 @@ def operate(
 
 def with_values(made: Transferred, values: Any) -> Transferred:
     """The result with the values that its points then have of those of the input's points, an array
-    or a dictionary of arrays. Raises InvalidInput where one is not a value a point."""
+    or a dictionary of arrays. Raises InvalidInput where one is not one value per point."""
     if values is None:
         return made
     if isinstance(values, Mapping):

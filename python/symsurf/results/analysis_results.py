@@ -349,7 +349,7 @@ class SymmetryEmbedding(AnalysisResult):
 
     @property
     def orbit(self) -> NDArray[np.int64]:
-        """(n,): of each point the number of its orbit, from 0 on."""
+        """(n,) the number of each point's orbit, from 0 on."""
         return self.arrays["orbit"]
 
     @property
@@ -377,7 +377,7 @@ class IntrinsicSymmetry(AnalysisResult):
 
     @property
     def image(self) -> NDArray[np.int64]:
-        """(n,): of each point the one on the other side, -1 for none."""
+        """(n,) the point on the other side, -1 for none."""
         return self.arrays["image"]
 
     @property

@@ -360,8 +360,8 @@ class Straightened(_OverMirror):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Completed(OperationResult):
-    """The shape with what one side lacks filled in from the other, or what a turn lacks from the rest
-    of it.
+    """The shape with what is missing on one side filled in from the other, or what is missing of a turn
+    from the rest of it.
 
     ``statistics``: "added_points", "added_faces" and "seam_faces"; over a mirror why points are
     unmatched, as those of an asymmetry; about an axis how many "turns" were made and "axis_point",
@@ -420,7 +420,7 @@ def require_one_a_point(values: NDArray[Any], given: Shape, name: object) -> Non
     points = len(given.points)
     if values.ndim == 0 or len(values) != points:
         raise InvalidInput(
-            f"{name} has shape {values.shape}; allowed is one value a point: ({points}, ...)"
+            f"{name} has shape {values.shape}; allowed is one value per point: ({points}, ...)"
         )
 
 

@@ -39,7 +39,7 @@ class Shape:
     space: str | None = None
     """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
     colours: NDArray[np.float64] | None = None
-    """(n, k), a channel a column, as the file gives them; None where it gives none."""
+    """(n, k), one channel per column, as the file gives them; None where it gives none."""
 
     polygons: NDArray[np.int64] | None = None
     """(m,) the number of the polygon that each triangle is a part of; None where all polygons of the
