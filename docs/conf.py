@@ -35,7 +35,7 @@ nitpick_ignore_regex = [
         "py:.*",
         r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.results.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*",
     ),
-    ("py:.*", r"(Any|Callable|Path|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
+    ("py:.*", r"(Any|Callable|Path|pathlib|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
     ("py:.*", r"(Iterable|Sequence|Executor|concurrent|ValueError|RuntimeError|UserWarning)\b.*"),
     ("cpp:identifier", r"(std|Eigen|vtk\w*|VTK\w*|ostream)(::.*)?"),
     ("cpp:identifier", r"(Vector3|Matrix3)::.*|Report|Motion|HeightInterpolant|Blend|Grid|Target"),

@@ -37,8 +37,12 @@ class BaseResult(Summarised):
 
     @classmethod
     def in_order(cls, statistics: Mapping[str, Any]) -> dict[str, Any]:
-        """The statistics, those that matter first in front."""
-        return {name: statistics[name] for name in cls.FIRST if name in statistics} | {**statistics}
+        """The statistics, those that matter first in front; an index that is rounding is 0."""
+        first = {name: statistics[name] for name in cls.FIRST if name in statistics}
+        return {
+            name: 0.0 if name.endswith("_index") and abs(value) < 1e-12 else value
+            for name, value in (first | {**statistics}).items()
+        }
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the result whole or not at all, in the format of the suffix.

@@ -51,9 +51,9 @@ class Result(BaseResult, Generic[Kind_co]):
     """(m,) distances from the image to the partner; input units."""
     score: float
     """0: no symmetry, 1: as good as the sampling shows. The share of the shape that the mirror maps
-    onto it as well as one half of the points, drawn at random, says what the other half does. What
-    lacks to 1 has no counterpart, 1 - "covered_share" of the statistics, or differs from it; of
-    quadrics, height fields and free forms what chance maps lacks, too."""
+    onto it as well as one half of the points, drawn at random, says what the other half does. The
+    remainder (1 - score) has no counterpart (1 - "covered_share" of the statistics), or differs from it;
+    scores of quadrics, height fields and free forms do not count what chance maps."""
     candidates: list[Result[Kind_co]]
     """Other mirrors, by score; none scores more than the result. Without pairs; ``match`` gives them
     theirs."""
@@ -63,9 +63,9 @@ class Result(BaseResult, Generic[Kind_co]):
     """Whatever else the method reports, such as "covered_share", of the points that the mirror moves
     those with anything of the shape at their image, "deviation", how far images lie off the shape,
     across its surface, in the median over what the mirror maps, less what the sampling leaves open
-    (input units), of planes that score less than 0.9
-    "distinctive_share", which has to be the ``minimum_score``, too: what they map of what tells them
-    from the planes beside them; and, where there are some, how many
+    (input units), for planes scoring below 0.9
+    "distinctive_share", the share of the distinguishing surface that the plane maps, which must also
+    reach ``minimum_score``; and, where there are some, how many
     "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
     have no partners.
     "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
@@ -74,7 +74,7 @@ class Result(BaseResult, Generic[Kind_co]):
     seconds: float
     """Run time in seconds."""
     points: NDArray[np.float64] | Any = None
-    """(n, 3) the input: the caller's own array where it could be read in place. Of a grid the points
+    """(n, 3) the input: the caller's own array where it could be read in place. For a grid the points
     that were chosen, which ``pairs`` are indices into. None of a candidate and of what ``load`` has read."""
     faces: NDArray[np.int64] | None = None
     """(m, 3) the triangles between them; None for a bare cloud."""
@@ -107,12 +107,12 @@ class Result(BaseResult, Generic[Kind_co]):
 
     @property
     def verdict(self) -> str:
-        """Either "found" where there is a mirror, "none" where there is none, or where nobody judged."""
+        """ "found", or "none" if no mirror was found or no verdict was computed."""
         return self.statistics.get("verdict", "none")
 
     @property
     def reason(self) -> str:
-        """Why, in a sentence; "" where nobody judged."""
+        """Why, in a sentence; "" if no verdict was computed."""
         return self.statistics.get("reason", "")
 
     @property
@@ -199,15 +199,15 @@ class Result(BaseResult, Generic[Kind_co]):
         camera: Sequence[float] | Any = None,
         score: bool = True,
     ) -> Plotter:
-        """Draws the object coloured by residual, its mirror translucent, and the verdict above;
-        needs PyVista.
+        """Draws the object coloured by its asymmetry, how far each point lies from the other side's
+        surface, its mirror translucent, and the verdict above; needs PyVista.
 
         Args:
             path: a PNG to write off-screen, whole or not at all; without it a window opens.
             shape: another object with as many points, with its faces.
             points: its points (n, 3) alone; without both, the points and faces of the detection.
-            clim: the residual, above 0 and in % of the diagonal, that the colours end at; without
-                it what 98 % of the residuals stay below, at least 0.1.
+            clim: the asymmetry, above 0 and in % of the diagonal, that the colours end at; without
+                it what 98 % of the points stay below, at least 0.1.
             camera: a direction (3,) to look from, so that all is seen, or what PyVista takes for
                 ``Plotter.camera_position``, such as "xy"; without it across the mirror, from above.
             score: False: without verdict and score above.
