@@ -6,7 +6,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 BUILD = Path(os.environ["SYMSURF_DOCS_BUILD"])
-sys.path.insert(0, str(HERE / "extensions"))
+sys.path[:0] = [str(HERE / "extensions"), str(HERE)]
 
 import pictures_of_examples
 
@@ -35,7 +35,10 @@ nitpick_ignore_regex = [
         "py:.*",
         r"(np|numpy|NDArray|ArrayLike|Progress|Kind_co|symsurf.results.result.Kind_co|pyvista|vtk|vtkmodules|os|collections|argparse)\b.*",
     ),
-    ("py:.*", r"(Any|Callable|Path|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*"),
+    (
+        "py:.*",
+        r"(Any|Callable|Path|pathlib|Plotter|Self|T|typing|SupportsInt|SupportsFloat|Buffer)\b.*",
+    ),
     ("py:.*", r"(Iterable|Sequence|Executor|concurrent|ValueError|RuntimeError|UserWarning)\b.*"),
     ("cpp:identifier", r"(std|Eigen|vtk\w*|VTK\w*|ostream)(::.*)?"),
     ("cpp:identifier", r"(Vector3|Matrix3)::.*|Report|Motion|HeightInterpolant|Blend|Grid|Target"),

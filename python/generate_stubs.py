@@ -21,7 +21,11 @@ def compiled_stub() -> str:
         variable = ["--ignore-unresolved-names", "T"]  # a mesh's own type, for Mirror.reflect
         pybind11_stubgen.main(["symsurf._core", "-o", folder, "--exit-code", *variable])
         stub = (Path(folder) / "symsurf" / "_core.pyi").read_text()
-    return stub.replace("\n__all__", '\nT = typing.TypeVar("T")\n\n__all__', 1)
+    head = '\nfrom symsurf.shapes import Shape\n\nT = typing.TypeVar("T")\n\n__all__'
+    stub = stub.replace("\n__all__", head, 1)
+    # A Shape is an array of its points, too.
+    first = "    @typing.overload\n    def reflect(self, "
+    return stub.replace(first, f"{first}mesh: Shape) -> Shape: ...\n{first}", 1)
 
 
 def detectors_stub() -> str:
@@ -63,7 +67,7 @@ def analyses_stub() -> str:
 
 
 def _functions_stub(module: ModuleType, *imports: str) -> str:
-    lines = [*imports, "", f"__all__ = {module.__all__}"]
+    lines = ["from typing import Literal", "", *imports, "", f"__all__ = {module.__all__}"]
     for function in (getattr(module, name) for name in module.__all__):
         lines += ["", *_declaration(function.__name__, inspect.signature(function))]
         lines += textwrap.indent(f'"""{inspect.getdoc(function)}\n"""', "    ").splitlines()

@@ -1,7 +1,7 @@
 """Pages made from the descriptions that the front ends are made from.
 
-Functions that give Markdown, which pages call as substitutions, `{{ methods() }}`; and on the page of
-each method and operation the table of its parameters in place of the paragraph about them.
+Functions that give Markdown, which pages call as substitutions, `{{ detectors() }}`. What pages have that
+are read in the repository, too, ``docs/tables.py`` writes.
 """
 
 from __future__ import annotations
@@ -14,80 +14,12 @@ from typing import Any
 from xml.etree import ElementTree
 
 from sphinx.application import Sphinx
+from tables import table
 
 import symsurf
 import symsurf.cli
 
 HOSTS = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "hosts"
-
-
-def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [list(header), ["---"] * len(list(header)), *map(list, rows)]
-    return "\n".join(
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
-    )
-
-
-def methods() -> str:
-    return table(
-        ("method", "what it does", "least points"),
-        (
-            (f"[{each.name}](/methods/{each.name}.md)", each.summary, str(each.minimum_points))
-            for each in symsurf.methods().values()
-        ),
-    )
-
-
-def operations() -> str:
-    return table(
-        ("operation", "what it does"),
-        (
-            (f"[{each.name}](/operations/{each.name}.md)", each.summary)
-            for each in symsurf.operations().values()
-        ),
-    )
-
-
-def analyses() -> str:
-    return table(
-        ("analysis", "what it does"),
-        (
-            (f"[{each.name}](/symmetries/{each.name}.md)", each.summary)
-            for each in symsurf.analyses().values()
-        ),
-    )
-
-
-def parameters(described: symsurf.Method | symsurf.Operation | symsurf.Analysis) -> str:
-    return table(
-        ("parameter", "default", "allowed", "what it is"),
-        (
-            (f"`{each.name}`", f"`{_shown(each.default)}`", each.allowed, each.doc)
-            for each in described.parameters
-        ),
-    )
-
-
-def arrays(described: symsurf.Operation | symsurf.Analysis) -> str:
-    return table(
-        ("array", "a point", "what it is"),
-        (
-            (f"`{each.name}`", f"{each.components} {each.type}", each.doc)
-            for each in described.arrays
-        ),
-    )
-
-
-def _shown(value: Any) -> str:
-    if isinstance(value, str):
-        return f'"{value}"'
-    return (
-        str(value.tolist())
-        if hasattr(value, "tolist")
-        else f"{value:g}"
-        if isinstance(value, float)
-        else str(value)
-    )
 
 
 def functions(names: Iterable[str]) -> str:
@@ -265,24 +197,13 @@ def _texts_of_samples() -> dict[str, str]:
     return texts
 
 
-def add_parameters(app: Sphinx, page: str, source: list[str]) -> None:
-    folder, _, name = page.rpartition("/")
-    described = {
-        "methods": symsurf.methods,
-        "operations": symsurf.operations,
-        "symmetries": symsurf.analyses,
-    }.get(folder)
-    if not described or name not in described():
-        return
-    text = f"**Parameters**\n\n{parameters(described()[name])}\n"
-    if folder != "methods" and described()[name].arrays:
-        text += f"\n**What each point gets**\n\n{arrays(described()[name])}\n"
-    source[0], count = re.subn(
-        r"^\*\*Parameters\.\*\*.*?(?:\n\n|\Z)", lambda _: text + "\n", source[0],
-        flags=re.MULTILINE | re.DOTALL,
-    )  # fmt: skip
-    if not count:
-        raise ValueError(f"{page} has no paragraph that begins with **Parameters.**")
+def link_examples(app: Sphinx, page: str, source: list[str]) -> None:
+    """To the pages that are made of the scripts, in place of these."""
+    source[0] = re.sub(
+        r"\]\((?:\.\./)*examples/python(?:/(\w+)\.py)?\)",
+        lambda match: f"](/how_to/{match[1] or 'index'}.rst)",
+        source[0],
+    )
 
 
 def escape(app: Sphinx, what: str, *described: Any) -> None:
@@ -303,11 +224,11 @@ def name_aliases(*described: Any) -> tuple[str | None, str | None]:
 def setup(app: Sphinx) -> dict[str, bool]:
     app.config.myst_substitutions = {
         function.__name__: function
-        for function in (methods, operations, analyses, detectors, operating_functions,
+        for function in (detectors, operating_functions,
                          analysing_functions, functions, classes,
                          vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
     }  # fmt: skip
-    app.connect("source-read", add_parameters)
+    app.connect("source-read", link_examples)
     app.connect("autodoc-process-signature", name_aliases)
     app.connect("autodoc-process-docstring", escape, priority=400)  # before Napoleon
     return {"parallel_read_safe": True}

@@ -32,7 +32,7 @@ print(
 )
 
 # %%
-# With ``strength=0.5`` the points go half the way; a ``mask``, one number a point, says how far each
+# With ``strength=0.5`` the points go half the way; a ``mask``, one number per point, says how far each
 # may move.
 
 half = symsurf.symmetrize(sculpt, found, side="negative", strength=0.5)

@@ -31,7 +31,7 @@ both = np.maximum(weights, weights[pairs.index])
 print(weights.sum(), both.sum())
 
 # %%
-# The table as a file, a row a vertex. On a mesh whose sides have different vertices, ``face`` and
+# The table as a file, one row per vertex. On a mesh whose sides have different vertices, ``face`` and
 # ``weights`` say where on the surface the mirror point lies.
 
 pairs.save("pairs.csv")

@@ -22,7 +22,7 @@ for number, depth in enumerate(np.linspace(0, 0.1, 6)):
 (folder / "scan6.ply").write_text("not a scan")
 
 # %%
-# ``batch`` gives a dictionary a file, as they come; with ``jobs=4`` four files are in work at once.
+# ``batch`` gives one dictionary per file, as they come; with ``jobs=4`` four files are in work at once.
 # ``pandas.DataFrame(rows)`` is the table.
 
 rows = list(symsurf.batch(sorted(folder.glob("*.ply")), "asymmetry"))

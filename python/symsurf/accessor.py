@@ -11,15 +11,18 @@ PyVista finds it by itself where symsurf is installed.
 
 from __future__ import annotations
 
+import inspect
 import os
+from collections.abc import Callable
 from hashlib import blake2b
 from typing import Any
 
 import numpy as np
 import pyvista
 
-from . import shape_analyses
+from . import mirror_operations, shape_analyses
 from ._core import InvalidInput
+from .base.descriptions import name_function, renamed
 from .detection import detect
 from .mirror_operations.operate import operate
 from .results import AnalysisResult, Result
@@ -48,6 +51,11 @@ class Symmetry:
     def result(self, result: Result | None) -> None:
         self._result, self._found_for = result, _digest(self._mesh)
 
+    def __repr__(self) -> str:
+        about = f"Symmetry of {type(self._mesh).__name__} ({self._mesh.n_points} points)"
+        found = self._current()
+        return f"{about}: {'detect() finds its mirror' if found is None else repr(found)}"
+
     def detect(self, method: str = "auto", **options: Any) -> Result:
         """Finds the mirror; options, result and errors are those of ``symsurf.detect``.
 
@@ -68,81 +76,6 @@ class Symmetry:
             result = self.detect(**options)
         return result.plot(path)
 
-    def asymmetry(self, **options: Any) -> pyvista.DataSet:
-        """A copy of the mesh with the point arrays of ``symsurf.asymmetry``, and its statistics in
-        ``field_data``. Over ``result``, or the mirror last detected if points and cells are still
-        the same, or the one that is found first; options and errors are those of the function. The
-        other operations likewise; where they move points, the copy has no normals."""
-        return self._operated("asymmetry", options)
-
-    def correspondences(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.correspondences``."""
-        return self._operated("correspondences", options)
-
-    def align(self, **options: Any) -> pyvista.DataSet:
-        """A copy turned by ``symsurf.align``; ``field_data["matrix"]`` has the turn."""
-        return self._operated("align", options)
-
-    def complete(self, **options: Any) -> pyvista.PolyData:
-        """The surface of triangles, or the points, with what ``symsurf.complete`` adds: the point
-        array "origin" says which is which. What is added has the attributes that its counterpart
-        has."""
-        return self._operated("complete", options)
-
-    def symmetrize(self, **options: Any) -> pyvista.DataSet:
-        """A copy made symmetric by ``symsurf.symmetrize``; with ``triangles="mirrored"`` a surface of
-        triangles, or points, with the attributes that lie between those of the mesh."""
-        return self._operated("symmetrize", options)
-
-    def straighten(self, **options: Any) -> pyvista.DataSet:
-        """A copy whose mirror ``symsurf.straighten`` has laid flat."""
-        return self._operated("straighten", options)
-
-    def remesh(self, **options: Any) -> pyvista.PolyData:
-        """The surface with the even, exactly symmetric triangles of ``symsurf.remesh``, with the
-        attributes that lie between those of the mesh."""
-        return self._operated("remesh", options)
-
-    def cut(self, **options: Any) -> pyvista.PolyData:
-        """One side of the mirror, by ``symsurf.cut``, with the attributes that lie between those of
-        the mesh; the cell array "cap" says which faces close it."""
-        return self._operated("cut", options)
-
-    def transfer(self, **options: Any) -> pyvista.DataSet:
-        """A copy whose point arrays ``symsurf.transfer`` has carried to the other side, but for
-        normals and texture coordinates; the point array "failed" says where that was not possible."""
-        return self._operated("transfer", options)
-
-    def illuminate(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.illuminate``: how many paths lead from the light
-        over the mirror to each point, and how bright it is."""
-        return self._operated("illuminate", options)
-
-    def symmetries(self, **options: Any) -> pyvista.DataSet:
-        """A copy of the mesh with the group of ``symsurf.symmetries`` and its other statistics in
-        ``field_data``; planes, axes and elements are then in ``analysis``. Options and errors are
-        those of the function. The other analyses likewise, with point arrays where they give any."""
-        return self._analysed("symmetries", options)
-
-    def partial_symmetries(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.partial_symmetries``: the transformation that
-        maps a point's patch, and the side."""
-        return self._analysed("partial_symmetries", options)
-
-    def recurring_parts(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.recurring_parts``: the part, and its instance."""
-        return self._analysed("recurring_parts", options)
-
-    def symmetry_embedding(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.symmetry_embedding``: orbits, coordinates and the
-        distance from what stays in its place."""
-        return self._analysed("symmetry_embedding", options)
-
-    def intrinsic_symmetry(self, **options: Any) -> pyvista.DataSet:
-        """A copy with the point arrays of ``symsurf.intrinsic_symmetry``: the point on the other side,
-        and the confidence."""
-        return self._analysed("intrinsic_symmetry", options)
-
     def _analysed(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         self._require_points(name)
         self.analysis = getattr(shape_analyses, name)(self._mesh, **options)
@@ -150,9 +83,9 @@ class Symmetry:
 
     def _operated(self, name: str, options: dict[str, Any]) -> pyvista.DataSet:
         self._require_points(name)
-        if not options.keys() & {"result", "symmetry", "method", "seed"}:
-            options = options | {"result": self._current()}
-        made = operate(name, self._mesh, **options)
+        if not options.keys() & {"mirror", "result", "symmetry", "method", "seed"}:
+            options = options | {"mirror": self._current()}
+        made = renamed(result="mirror")(operate)(name, self._mesh, **options)
         if made.found is not None:
             self.result = made.found
         return made.like(self._mesh)
@@ -168,6 +101,41 @@ class Symmetry:
                 f"{name} takes the points of a surface or a cloud; {type(self._mesh).__name__} has "
                 "none: give a surface of it, such as contour()"
             )
+
+
+def _method(name: str, function: Callable[..., Any]) -> Callable[..., pyvista.DataSet]:
+    """The function as a method, with its signature but for the shape."""
+
+    def method(self: Symmetry, **options: Any) -> pyvista.DataSet:
+        is_operation = name in mirror_operations.__all__
+        return (self._operated if is_operation else self._analysed)(name, options)
+
+    words = [
+        word.replace(kind=word.KEYWORD_ONLY)
+        for word in inspect.signature(function).parameters.values()
+        if word.name not in ("shape", "values")
+    ]
+    own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+    summary, *_ = (function.__doc__ or "").split("\n\n")
+    return name_function(
+        method,
+        name,
+        __name__,
+        inspect.Signature([own, *words], return_annotation="pyvista.DataSet"),
+        [*summary.split("\n"), "", *_ABOUT.format(name=name).splitlines()],
+    )
+
+
+_ABOUT = """\
+Gives a copy of the mesh with what ``symsurf.{name}`` gives: its points and faces, if they change, the
+attributes that these take from the mesh, point arrays, and statistics in ``field_data``. Normals are
+left out if points move. An operation uses ``mirror``, else the mirror last detected if points and cells
+are still the same, else it finds one first; planes, axes and transformations of an analysis are then in
+``analysis``. Options and errors are those of the function."""
+
+for _module in (mirror_operations, shape_analyses):
+    for _name in _module.__all__:
+        setattr(Symmetry, _name, _method(_name, getattr(_module, _name)))
 
 
 def _digest(mesh: pyvista.DataSet) -> bytes:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ._core import Cylinder, Mirror, Plane
 from .base.optional import require
+from .base.progress import Progress
 from .detection import detect
 from .mirror_operations.operate import operate
 from .reading import read
@@ -80,10 +81,10 @@ def cases() -> Iterator[Case]:
     yield replace(straight, change="one tip raised", shape=raise_tip(whole))
 
 
-def find(case: Case) -> Finding:
+def find(case: Case, progress: Progress | None = None) -> Finding:
     """By the default call."""
     # Thin wings mostly slide over themselves: with a tip raised, little tells of the plane.
-    result = detect(case.shape, minimum_score=0.3)
+    result = detect(case.shape, minimum_score=0.3, progress=progress)
     error = float("nan")
     if result.mirror is not None:
         points = case.shape.points

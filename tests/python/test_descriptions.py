@@ -38,8 +38,8 @@ def plain(value):
 @pytest.mark.parametrize("name", METHODS)
 def test_signatures(name):
     method, function = METHODS[name], getattr(symsurf, f"detect_{name}")
-    points, *keywords = inspect.signature(function).parameters.values()
-    assert points.name == "points"
+    shape, *keywords = inspect.signature(function).parameters.values()
+    assert shape.name == "shape"
     assert all(keyword.kind is keyword.KEYWORD_ONLY for keyword in keywords)
     described = {parameter.name: plain(parameter.default) for parameter in method.parameters}
     shown = {keyword.name: keyword.default for keyword in keywords}

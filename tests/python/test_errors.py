@@ -199,7 +199,7 @@ TAKE_A_MIRROR = {
     "match": ("mirror", lambda mirror: symsurf.match(GOOD, mirror).residuals),
     "bend": ("mirror", lambda mirror: symsurf.bend(GOOD, mirror)),
     "straight_mirror": ("mirror", lambda mirror: symsurf.straight_mirror(mirror, GOOD).numbers),
-    "asymmetry": ("result", lambda mirror: symsurf.asymmetry(GOOD, mirror or 0).distance),
+    "asymmetry": ("mirror", lambda mirror: symsurf.asymmetry(GOOD, mirror or 0).distance),
     "coverage": ("truth", lambda mirror: symsurf.metrics.coverage(GOOD, mirror, GOOD)),
     "surface_distance": (
         "truth",

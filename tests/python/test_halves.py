@@ -235,8 +235,6 @@ def test_values_of_another_mesh_are_an_error():
     transferred = symsurf.transfer(None, mesh, PLANE)
     for carry in (half.carried, transferred.carried, transferred.displaced):
         for count in (len(mesh.points) - 1, len(mesh.points) + 1):
-            says = (
-                f"has shape \\({count}, 3\\); allowed is one value a point: \\({len(mesh.points)}, "
-            )
+            says = f"has shape \\({count}, 3\\); allowed is one value per point: \\({len(mesh.points)}, "
             with pytest.raises(symsurf.InvalidInput, match=says):
                 carry(np.zeros((count, 3)))

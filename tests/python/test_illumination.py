@@ -71,6 +71,6 @@ def test_the_mirror_of_a_file_is_taken(screen, tmp_path):
 
 
 def test_meshes_of_pyvista_take_the_mirror_as_well(screen):
-    made = screen.symmetry.illuminate(result=SPHERE, light=LIGHT)
+    made = screen.symmetry.illuminate(mirror=SPHERE, light=LIGHT)
     expected = symsurf.illuminate(screen, SPHERE, light=LIGHT)
     np.testing.assert_array_equal(made["irradiance"], expected.irradiance)

@@ -52,7 +52,7 @@ def test_each_has_a_function_and_a_result_as_described(name):
     assert RESULTS[name].operation == name
     shown = inspect.signature(function).parameters
     first = ["values"] if operation.carries_values else []
-    assert list(shown)[: len(first) + 2] == [*first, "shape", "result"]
+    assert list(shown)[: len(first) + 2] == [*first, "shape", "mirror"]
     assert ("mask" in shown) == operation.takes_mask
     documentation = " ".join(function.__doc__.split())
     assert operation.summary in documentation
@@ -154,7 +154,7 @@ def test_straighten_goes_there_and_back(ball):
 @pytest.mark.parametrize(
     ("arguments", "error", "says"),
     [
-        ({"result": 3}, symsurf.InvalidParameter, "result is of type int"),
+        ({"result": 3}, symsurf.InvalidParameter, "mirror is of type int"),
         ({"max_angle": 200}, symsurf.InvalidParameter, "max_angle"),
         ({"speed": 1}, symsurf.InvalidParameter, "speed"),
         ({"result": symsurf.Sphere((0, 0, 0), 0.01)}, symsurf.InvalidInput, "have an image"),
@@ -269,7 +269,7 @@ def test_a_mirror_that_is_none_warns_unless_refused():
         with pytest.raises(symsurf.InvalidInput, match="the shape has no mirror") as error:
             symsurf.asymmetry(points, result, require_found=True)
         assert found.reason in str(error.value)
-    symsurf.asymmetry(points, found.mirror, require_found=True)  # nobody judged it
+    symsurf.asymmetry(points, found.mirror, require_found=True)  # it has no verdict
 
 
 def test_what_is_said_of_a_mirror_that_is_none(tmp_path):

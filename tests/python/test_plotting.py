@@ -13,6 +13,8 @@ from symmetric_shapes import mirrored_surface
 import symsurf
 from symsurf import synthetic
 from symsurf.mirror_operations.operate import operate
+from symsurf.plotting import operation_plotting, result_plotting
+from symsurf.plotting.drawing import new_plotter
 
 BACKGROUND, UNPAIRED = (255, 255, 255), (0x9A, 0xA3, 0xAD)
 
@@ -250,3 +252,30 @@ def test_straightening_shows_before_and_after(tmp_path):
     picture = pixels(tmp_path / "both.png").reshape(900, 1200, 3)
     for half in np.split(picture, 2, axis=1):
         assert 0.02 < (half.reshape(-1, 3) != BACKGROUND).any(axis=1).mean() < 0.9
+
+
+def test_detections_are_coloured_by_the_asymmetry_of_the_surface():
+    """Which does not depend on where the vertices lie on it."""
+    pyvista = pytest.importorskip("pyvista")
+    rng = np.random.default_rng(0)
+    mesh = pyvista.Icosphere(nsub=3)
+    points = mesh.points + rng.normal(scale=0.01, size=mesh.points.shape)
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    shape = symsurf.Shape(points * (1, 1.3, 0.8), mesh.regular_faces)
+    result = symsurf.match(shape, symsurf.Plane((1, 0, 0), 0))
+    plotter = new_plotter(off_screen=True)
+    result_plotting.draw(plotter, result)
+    title = "asymmetry, % of the diagonal"
+    assert list(plotter.scalar_bars.keys()) == [title]
+    drawn = next(each for each in plotter.meshes if title in each.array_names)
+    assert drawn[title].max() < 50 * np.median(result.residuals) / drawn.length
+
+
+def test_parts_have_legends_that_can_be_read():
+    grid = np.linspace(-1, 1, 21)
+    points = np.array([(x, y, 0.2 * y * y) for x in grid for y in grid if x < 0.5])
+    result = symsurf.complete(points, symsurf.Plane((1, 0, 0), 0))
+    assert set(result.origin) == {0, 1}
+    plotter = new_plotter(off_screen=True)
+    operation_plotting.draw(plotter, result)
+    assert list(plotter.scalar_bars.keys()) == ["original", "mirrored"]

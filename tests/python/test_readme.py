@@ -1,5 +1,4 @@
-"""The README's examples in Python and those of every page run; the table of operations is their own
-descriptions."""
+"""The README's examples in Python and those of every page run."""
 
 from __future__ import annotations
 
@@ -101,7 +100,7 @@ def test_pages_have_pictures_and_parameters(name):
         assert (page_of(name).parent / picture).is_file()
     assert f"../images/{folder}/{name}.png" in page
     for parameter in described.parameters:
-        assert f"`{parameter.name}`" in page.split("**Parameters.**")[1]
+        assert f"`{parameter.name}`" in page.split("**Parameters**")[1]
 
 
 def script_of(page: Path) -> str:
@@ -159,11 +158,3 @@ def test_examples_of_many_files(line, folder):
 
 def test_there_are_examples():
     assert examples("python", README) and command_lines()
-
-
-def test_table_of_operations():
-    page = (ROOT / "docs/operations.md").read_text()
-    rows = re.findall(r"^\| `\w+` \| .* \|$", page, re.MULTILINE)
-    assert rows[: len(OPERATIONS)] == [
-        f"| `{each.name}` | {each.summary} |" for each in OPERATIONS.values()
-    ]

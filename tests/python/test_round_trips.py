@@ -19,7 +19,7 @@ from symsurf.benchmark.answers import answer_in
 from symsurf.benchmark.files import read_benchmark
 from symsurf.mirror_operations.operate import operate
 from symsurf.reading.json_records import mirror_from
-from symsurf.saving.json_format import mirror_record
+from symsurf.results.base_result import mirror_record
 from symsurf.saving.truth import read_truth
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)

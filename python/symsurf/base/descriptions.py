@@ -5,7 +5,8 @@ from __future__ import annotations
 import inspect
 import textwrap
 from collections.abc import Callable, Iterable
-from typing import Any
+from functools import wraps
+from typing import Any, TypeVar, cast
 
 from .._core import Parameter
 
@@ -13,7 +14,6 @@ _TYPES = {
     "boolean": "bool",
     "integer": "int",
     "real": "float",
-    "choice": "str",
     "direction": "ArrayLike",
     "position": "ArrayLike",
 }
@@ -28,8 +28,27 @@ def keyword(parameter: Parameter) -> inspect.Parameter:
         parameter.name,
         inspect.Parameter.KEYWORD_ONLY,
         default=default,
-        annotation=_TYPES[parameter.type],
+        annotation=_TYPES.get(parameter.type) or f"Literal[{str(parameter.choices)[1:-1]}]",
     )
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def renamed(**names: str) -> Callable[[Function], Function]:
+    """Of a function whose arguments had other names: these are still taken by keyword."""
+
+    def decorate(function: Function) -> Function:
+        @wraps(function)
+        def taking(*given: Any, **options: Any) -> Any:
+            for old, new in names.items():
+                if old in options and new not in options:
+                    options[new] = options.pop(old)
+            return function(*given, **options)
+
+        return cast(Function, taking)
+
+    return decorate
 
 
 def argument_text(text: str) -> str:

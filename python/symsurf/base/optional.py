@@ -21,7 +21,7 @@ def require(what: str, *packages: str) -> ModuleType:
     try:
         return [import_module(package) for package in packages][-1]
     except ModuleNotFoundError as error:
-        if error.name not in packages:  # a package that is there lacks one of its own
+        if error.name not in packages:  # a package that is there misses one of its own
             raise
         names = " and ".join(_EXTRAS[package][0] for package in packages)
         extra = _EXTRAS[packages[-1]][1]

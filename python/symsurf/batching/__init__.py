@@ -65,7 +65,7 @@ def batch(
         **parameters: the operation's own, and of "detect" the method's.
 
     Returns:
-        A row a file, in the order of the files, each as soon as it and those before it are done.
+        One row per file, in the order of the files, each as soon as it and those before it are done.
         A row is what ``symsurf OPERATION --table`` writes, by the name of the column. A file that
         fails, or whose worker dies, has the reason in "error", which is "" for the others. What an
         executor loses it is asked for once more, at the end; what a broken one leaves is done by a

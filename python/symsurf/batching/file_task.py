@@ -28,8 +28,9 @@ from ..reading.in_chunks import chunks_of, is_chunked
 from ..reading.inputs import InputWarning, nonfinite_message
 from ..report.page import shape_page
 from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
+from ..results.base_result import mirror_record
 from ..saving import save_shape, write_whole
-from ..saving.json_format import mirror_record, record_bytes, summary
+from ..saving.json_format import record_bytes
 from ..saving.matches import save_matches
 from ..shape_analyses.analyse import analyse
 from ..shapes import Shape
@@ -48,7 +49,7 @@ _LEAST_BYTES = 1  # of a file for each of its points: LAZ packs them to a few
 _NO_SETTINGS = {"file", "content", "threads", "outputs", "operation", "parameters"}
 
 Record = dict[str, Any]
-"""What is told of a file, in what JSON knows. A file that failed has an "error"."""
+"""What is reported of a file, in what JSON knows. A file that failed has an "error"."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +117,7 @@ def perform(task: FileTask, progress: Progress | None = None) -> Record:
     record = _head(task)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", InputWarning)  # it is told in the record
+            warnings.simplefilter("ignore", InputWarning)  # the record has it
             _perform(task, record, progress)
     except (InvalidParameter, ImportError):
         raise
@@ -323,7 +324,7 @@ def about(found: Result) -> Record:
         "verdict": found.verdict,
         "reason": found.reason,
         "mirror": mirror_record(found.mirror),
-    } | summary(found)
+    } | found.to_json()
 
 
 def distribution(lengths: NDArray[np.float64]) -> dict[str, float]:

@@ -15,7 +15,7 @@ from .result_table import POSITION, columns_of, read_table, row_from
 
 
 class GrowingTable:
-    """A CSV with a row a file. Whenever the process ends, it holds the rows of the files that have
+    """A CSV with one row per file. Whenever the process ends, it holds the rows of the files that have
     ended, and perhaps a part of one more; ``finish`` puts them in the order of the files.
 
     Args:

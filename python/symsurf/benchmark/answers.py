@@ -32,7 +32,7 @@ def answer_in(folder: Path, name: str, points: NDArray[np.float64]) -> Answer | 
 
     A JSON holds "mirror", a record as symsurf writes it or null, and may hold "kind" and
     "verdict", "found" or "none". Raises InvalidInput, naming the file, for a broken one and for
-    other than one image a point.
+    other than one image per point.
     """
     images = next((p for s in _IMAGES if (p := folder / f"{name}{s}").exists()), None)
     record = next((p for s in _RECORDS if (p := folder / f"{name}{s}").exists()), None)

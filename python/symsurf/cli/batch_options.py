@@ -89,7 +89,10 @@ def add_batch_options(parser: argparse.ArgumentParser, output: Group) -> None:
 
 def add_table_options(parser: Group) -> None:
     parser.add_argument(
-        "--table", type=Path, metavar="FILE", help="write a CSV with a row a file, failed ones too"
+        "--table",
+        type=Path,
+        metavar="FILE",
+        help="write a CSV with one row per file, failed ones too",
     )
     parser.add_argument(
         "--resume",
@@ -97,7 +100,9 @@ def add_table_options(parser: Group) -> None:
         help="keep what the table has, and do the other files and those that failed; without a table "
         "begin one",
     )
-    parser.add_argument("--json", action="store_true", help="print a JSON object a file, on a line")
+    parser.add_argument(
+        "--json", action="store_true", help="print one JSON object per file, each on a line"
+    )
     parser.add_argument(
         "--jobs", default="1", metavar="N", help="files worked on at once; default %(default)s"
     )

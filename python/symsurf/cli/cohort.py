@@ -57,7 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--table", type=Path, metavar="FILE", help="write the ANOVA, CSV")
     parser.add_argument(
-        "--individuals", type=Path, metavar="FILE", help="write a CSV with a row an individual"
+        "--individuals", type=Path, metavar="FILE", help="write a CSV with one row per individual"
     )
     parser.add_argument(
         "--report",

@@ -18,6 +18,7 @@ from ..saving import write_whole
 from ..saving.ply_format import shape_ply_bytes
 from . import demo_thesis
 from .output_paths import add_output
+from .progress_bar import ProgressBar
 from .terminal import say
 from .values import duration
 
@@ -68,9 +69,10 @@ def run(arguments: argparse.Namespace) -> int:
     findings: list[Finding] = []
     done: list[Deed] = []
     for case in cases():
-        finding = find(case)
-        findings.append(finding)
-        done += deeds(finding)
+        with ProgressBar(f"{case.name} {case.change}") as bar:
+            finding = find(case, bar)
+            findings.append(finding)
+            done += deeds(finding)
         say(_row(finding))
     say(f"\n{DEED_ROW.format(*DEED_HEADINGS)}")
     for deed in done:
@@ -94,7 +96,12 @@ def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
     page = folder / "report.html"
     threads = threads_of_each(0, jobs)
     tasks = report_tasks([FileTask(mesh, threads=threads) for mesh in meshes], page)
-    write_report(page, tasks, list(map(row_of, records(tasks, jobs=jobs))))
+    rows = []
+    with ProgressBar("report") as bar:
+        for record in records(tasks, jobs=jobs):
+            rows.append(row_of(record))
+            bar(len(rows) / len(tasks))
+    write_report(page, tasks, rows)
     say(f"report\n  {page}")
 
 

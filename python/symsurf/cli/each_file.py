@@ -10,7 +10,7 @@ from .terminal import complain
 
 
 def for_each_file(files: Iterable[Path], do: Callable[[Path], None]) -> int:
-    """The exit status; one line a file that failed."""
+    """The exit status; one line for each file that failed."""
     failed = 0
     for path in files:
         try:

@@ -36,10 +36,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--benchmark", type=Path, metavar="DIR", help="what generate benchmark has written"
     )
     parser.add_argument(
-        "--json", action="store_true", help="print a JSON object a result, or a case"
+        "--json", action="store_true", help="print one JSON object per result, or per case"
     )
     parser.add_argument(
-        "--table", type=Path, metavar="FILE", help="with --benchmark: write a CSV with a row a case"
+        "--table",
+        type=Path,
+        metavar="FILE",
+        help="with --benchmark: write a CSV with one row per case",
     )
 
 

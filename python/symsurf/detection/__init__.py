@@ -5,6 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..base.descriptions import renamed
 from ..base.lengths import as_fractions
 from ..base.options import Reading, documented, part
 from ..base.progress import Progress
@@ -14,8 +15,9 @@ from .summaries import summary_in, summary_statistics
 
 
 @documented
+@renamed(points="shape")
 def detect(
-    points: object,
+    shape: object,
     method: str = "auto",
     *,
     faces: ArrayLike | None = None,
@@ -35,7 +37,7 @@ def detect(
     """Finds the mirror of a point set, a mesh or a mask.
 
     Args:
-        points: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
+        shape: (n, 3) coordinates in any unit: an array, a nested list, a file to ``read``, a
             ``Shape``, a mesh or a cloud of PyVista, VTK, trimesh, Open3D, ITK or meshio, a table of
             pandas or polars with the columns x, y and z or with three that hold numbers, or another
             object with ``points`` or ``vertices``, with the ``faces`` or ``triangles`` that it has. A
@@ -44,7 +46,7 @@ def detect(
             ``threshold`` or ``label`` chooses: ``Result.points`` are then these, and pairs are indices into
             them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
         {Search}
-        faces: (m, 3) indices of points, where ``points`` does not bring them. With faces, samples
+        faces: (m, 3) indices of points, where ``shape`` does not bring them. With faces, samples
             spread evenly over the surface find the mirror; score and candidates are those of the
             samples, pairs those of the points. The thesis's methods see the points only.
         use_faces: False: the points alone find the mirror, whatever faces there are.
@@ -72,25 +74,26 @@ def detect(
     """
     refuse = refuses(nonfinite)
     reading = Reading(**part(Reading, locals()))
-    summary = summary_in(points)
-    shape = as_input(points if summary is None else summary.means, faces, reading)
-    used = shape.faces if use_faces else None
+    summary = summary_in(shape)
+    given = as_input(shape if summary is None else summary.means, faces, reading)
+    used = given.faces if use_faces else None
     if absolute and method in _core.methods():
         described = _core.methods()[method].parameters
         parameters = as_fractions(
-            parameters, described, lambda: _core.diagonal(shape.points, method, refuse)
+            parameters, described, lambda: _core.diagonal(given.points, method, refuse)
         )
     fields = _core.detect(
-        shape.points, used, method, normals, refuse, seed, threads, progress, parameters
+        given.points, used, method, normals, refuse, seed, threads, progress, parameters
     )
     if summary is not None:
         fields["statistics"] |= summary_statistics(summary)
     warn(fields["statistics"])
-    return Result.from_fields(fields | {"faces": shape.faces, "space": shape.space})
+    return Result.from_fields(fields | {"faces": given.faces, "space": given.space})
 
 
+@renamed(points="shape")
 def match(
-    points: object,
+    shape: object,
     mirror: Result | _core.Mirror,
     pair_distance: float = 0.05,
     *,
@@ -110,10 +113,10 @@ def match(
     the rest have no partners, as in ``detect``, and do not count for the diagonal.
 
     Args:
-        points: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
+        shape: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror, or a result that has one.
         pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
-        tolerance: how unlike the two sides may be, as a fraction of the diagonal in [1e-4, 0.1]:
+        tolerance: how far the two sides may differ, as a fraction of the diagonal in [1e-4, 0.1]:
             where an image lies so far from the shape, across its surface, the score counts it half.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threshold, label, scalars, external_files, threads, progress: as for ``detect``.
@@ -130,11 +133,11 @@ def match(
     mirror = mirror_of(mirror)
     refuse = refuses(nonfinite)
     reading = Reading(**part(Reading, locals()))
-    shape = as_input(points, reading=reading)
+    given = as_input(shape, reading=reading)
     if absolute:
-        pair_distance /= _core.diagonal(shape.points, "auto", refuse)
-    fields = _core.match(shape.points, mirror, pair_distance, tolerance, refuse, threads, progress)
+        pair_distance /= _core.diagonal(given.points, "auto", refuse)
+    fields = _core.match(given.points, mirror, pair_distance, tolerance, refuse, threads, progress)
     warn(fields["statistics"])
     return Result.from_fields(
-        fields | {"mirror": mirror, "faces": shape.faces, "space": shape.space}
+        fields | {"mirror": mirror, "faces": given.faces, "space": given.space}
     )

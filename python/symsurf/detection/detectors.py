@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .._core import Method, methods
-from ..base.descriptions import keyword, name_function, parameter_texts
+from ..base.descriptions import keyword, name_function, parameter_texts, renamed
 from ..results import Result
 from . import detect
 
@@ -35,10 +35,10 @@ _MIRRORS = {
 
 
 def _signature(method: Method) -> inspect.Signature:
-    points = inspect.signature(detect).parameters["points"]
+    shape = inspect.signature(detect).parameters["shape"]
     own = [keyword(parameter) for parameter in method.parameters]
     found = f"Result[{_MIRRORS.get(method.name, 'Mirror')}]"
-    return inspect.Signature([points, *own, *_OPTIONS.values()], return_annotation=found)
+    return inspect.Signature([shape, *own, *_OPTIONS.values()], return_annotation=found)
 
 
 def _documentation(method: Method) -> list[str]:
@@ -47,7 +47,7 @@ def _documentation(method: Method) -> list[str]:
         textwrap.fill(method.summary, 96),
         "",
         "Args:",
-        f"    points: {least}, or a mesh, as ``detect`` takes them.",
+        f"    shape: {least}, or a mesh, as ``detect`` takes them.",
         *parameter_texts(method.parameters),
         # A name list that breaks over a line is no entry to the documentation's reader.
         *(
@@ -58,8 +58,9 @@ def _documentation(method: Method) -> list[str]:
 
 
 def _detector(method: Method) -> Callable[..., Result]:
-    def detector(points: Any, **options: Any) -> Result:
-        return detect(points, method.name, **options)
+    @renamed(points="shape")
+    def detector(shape: Any, **options: Any) -> Result:
+        return detect(shape, method.name, **options)
 
     return name_function(
         detector, f"detect_{method.name}", __name__, _signature(method), _documentation(method)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from .._core import Operation, operations, require_found_parameter
-from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
+from ..base.descriptions import argument_text, keyword, name_function, parameter_texts, renamed
 from ..base.options import Reading, Search, documentation
 from ..results.operation_results import RESULTS, OperationResult, Transferred
 from .operate import operate, with_values
@@ -23,7 +23,7 @@ _VALUES = (
 _DOCUMENTED = {
     "shape": "points, a mesh or a file, as ``detect`` takes them; points that are not finite keep their "
     'places and have no counterpart: ``statistics`` counts them as "nonfinite_points".',
-    "result": "what ``detect`` found, or a mirror of any kind, in the unit and pose of the points; "
+    "mirror": "what ``detect`` found, or a mirror of any kind, in the unit and pose of the points; "
     "without it the mirror is found first.",
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
     "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
@@ -56,10 +56,12 @@ def _signature(operation: Operation) -> inspect.Signature:
         del shared["mask"]
     own = {parameter.name: keyword(parameter) for parameter in operation.parameters}
     if _takes_axis(operation):
-        own["symmetry"] = own["symmetry"].replace(annotation="str | Mirror | Result | Axis")
+        own["symmetry"] = own["symmetry"].replace(
+            annotation=f"{own['symmetry'].annotation} | Mirror | Result | Axis"
+        )
     else:
-        shared["result"] = shared["result"].replace(annotation="Result | Mirror | None")
-    words = {name: shared.pop(name) for name in ("shape", "result")} | own | shared
+        shared["mirror"] = shared["mirror"].replace(annotation="Result | Mirror | None")
+    words = {name: shared.pop(name) for name in ("shape", "mirror")} | own | shared
     if operation.carries_values:
         values = inspect.Parameter(
             "values", inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation="ArrayLike | dict | None"
@@ -72,7 +74,7 @@ def _signature(operation: Operation) -> inspect.Signature:
 def _documentation(operation: Operation) -> list[str]:
     texts = dict(_DOCUMENTED)
     if _takes_axis(operation):
-        texts["result"] += _OR_AXIS
+        texts["mirror"] += _OR_AXIS
     if not operation.takes_mask:
         del texts["mask"]
     shared = [argument_text(f"{name}: {text}") for name, text in texts.items()]
@@ -90,11 +92,13 @@ def _documentation(operation: Operation) -> list[str]:
 
 
 def _function(operation: Operation) -> Callable[..., OperationResult]:
-    def function(shape: Any, result: Any = None, **options: Any) -> OperationResult:
-        return operate(operation.name, shape, result, **options)
+    @renamed(result="mirror")
+    def function(shape: Any, mirror: Any = None, **options: Any) -> OperationResult:
+        return operate(operation.name, shape, mirror, **options)
 
-    def carry(values: Any, shape: Any, result: Any = None, **options: Any) -> OperationResult:
-        made = operate(operation.name, shape, result, **options)
+    @renamed(result="mirror")
+    def carry(values: Any, shape: Any, mirror: Any = None, **options: Any) -> OperationResult:
+        made = operate(operation.name, shape, mirror, **options)
         return with_values(cast(Transferred, made), values)
 
     return name_function(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -26,7 +27,7 @@ FOUND_AT = 0.8
 def operate(
     name: str,
     shape: object,
-    result: Result | Mirror | Axis | None = None,
+    mirror: Result | Mirror | Axis | None = None,
     *,
     mask: ArrayLike | None = None,
     faces: ArrayLike | None = None,
@@ -51,37 +52,39 @@ def operate(
         require_finite(given.points)
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
-        result, parameters = _named_symmetry(result, parameters)
+        mirror, parameters = _named_symmetry(mirror, parameters)
     _require_conditions(parameters, described)
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
-    mirror, found, own = None, None, progress
-    if result is not None or not _core.needs_mirror(name, parameters):
+    used, found, own = None, None, progress
+    if mirror is not None or not _core.needs_mirror(name, parameters):
         require_no_search(search)
     if _core.needs_mirror(name, parameters):
-        if result is None:
+        if mirror is None:
             finding, own = share(progress, 0, FOUND_AT), share(progress, FOUND_AT, 1)
             options = part(Search, search)
             found = detect(
                 given.points, faces=given.faces, threads=threads, progress=finding, **options
             )
-            mirror, warning = found_mirror(found, require_found)
+            used, warning = found_mirror(found, require_found)
             warn_of([warning] if warning else [])
-        elif require_found and isinstance(result, Result):
-            mirror = found_mirror(result, require_found)[0]
+        elif require_found and isinstance(mirror, Result):
+            used = found_mirror(mirror, require_found)[0]
         else:
-            mirror = mirror_of(result, "result")
+            used = mirror_of(mirror)
         # The way back from a straightened shape is laid out over it.
-        if mirror.footprint is None and not _core.operations()[name].takes_any_mirror:
-            mirror = _core.make_mirror(mirror.kind, mirror.numbers, given.points)
+        if used.footprint is None and not _core.operations()[name].takes_any_mirror:
+            used = _core.make_mirror(used.kind, used.numbers, given.points)
+    started = time.perf_counter()
     made = _core.operate(
-        name, given.points, given.faces, mirror, _mask_of(mask), threads, own, parameters
+        name, given.points, given.faces, used, _mask_of(mask), threads, own, parameters
     )
     return RESULTS[name].from_fields(
         made
         | {
+            "seconds": time.perf_counter() - started,
             "given": given.as_shape(made["given"]),
-            "mirror": mirror,
+            "mirror": used,
             "found": found,
         }
     )
@@ -89,7 +92,7 @@ def operate(
 
 def with_values(made: Transferred, values: Any) -> Transferred:
     """The result with the values that its points then have of those of the input's points, an array
-    or a dictionary of arrays. Raises InvalidInput where one is not a value a point."""
+    or a dictionary of arrays. Raises InvalidInput where one is not one value per point."""
     if values is None:
         return made
     if isinstance(values, Mapping):
@@ -118,7 +121,7 @@ def _named_symmetry(
                 "Mirror or an Axis"
             )
         if result is not None:
-            raise InvalidParameter("result and symmetry are both given; allowed is one of them")
+            raise InvalidParameter("mirror and symmetry are both given; allowed is one of them")
         result, parameters = given, parameters | {"symmetry": "mirror"}
     if not isinstance(result, Axis):
         return result, parameters

@@ -78,7 +78,7 @@ class Cohort(Summarised):
 
     @property
     def summary(self) -> dict[str, str]:
-        """The table in words, a line a row."""
+        """The table in words, one line per row."""
         n, k, _ = self.symmetric.shape
         words = {"individuals": str(n), "landmarks": str(k), "replicates": str(self.size.shape[1])}
         return words | {name.replace("_", " x "): _text(row) for name, row in self.table.items()}

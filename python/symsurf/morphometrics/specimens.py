@@ -43,7 +43,7 @@ def read_specimens(files: Sequence[Path]) -> Specimens:
     """Those of files of landmarks, in the order of the first's names, or of meshes of one topology.
 
     Raises InvalidInput, naming the file: whatever ``read_landmarks`` and ``read`` raise; landmarks
-    that one lacks or that others lack; other faces; two that are the same to the last digit.
+    that one or the others do not have; other faces; two that are the same to the last digit.
     """
     given = [each for file in files for each in _read(file)]
     first = given[0]
@@ -133,7 +133,7 @@ def _order_of(where: str, own: Landmarks, first: str, like: Landmarks) -> list[i
     lacking = listed(sorted(set(like.names) - index_of.keys())) or "none"
     more = listed(sorted(index_of.keys() - set(like.names))) or "none"
     raise InvalidInput(
-        f"{where}: its landmarks are not those of {first}: it lacks {lacking} and has {more} besides; "
+        f"{where}: its landmarks are not those of {first}: it misses {lacking} and has {more} besides; "
         "allowed are the same names"
     )
 

@@ -216,11 +216,23 @@ def _draw_parts(
     plotter: pyvista.Plotter, object_: pyvista.PolyData, parts: dict[str, NDArray[np.bool_]]
 ) -> None:
     """Each part, chosen among the cells, in a colour of its own."""
-    for colour, (name, chosen) in zip(ORIGINS.values(), parts.items(), strict=False):
-        if chosen.any():
-            part = object_.extract_cells(np.flatnonzero(chosen)).extract_surface(algorithm=None)
-            plotter.add_mesh(part, color=colour, label=name, **style_of(part))
-    plotter.add_legend(bcolor=None, face="rectangle", size=(0.16, 0.12), loc="lower center")
+    colours = dict(zip(parts, ORIGINS.values(), strict=False))
+    shown = {name: chosen for name, chosen in parts.items() if chosen.any()}
+    for k, (name, chosen) in enumerate(shown.items()):
+        part = object_.extract_cells(np.flatnonzero(chosen)).extract_surface(algorithm=None)
+        part[name] = np.zeros(part.n_points)
+        # A bar of one colour: the entries of a legend have its colour, which is too light to read.
+        bar = {"title": name, "color": INK, "n_labels": 0, "title_font_size": 20}
+        place = {"width": 0.18, "height": 0.06, "position_y": 0.02}
+        left = {"position_x": 0.51 + 0.2 * (k - len(shown) / 2)}
+        plotter.add_mesh(
+            part,
+            scalars=name,
+            cmap=[colours[name]],
+            clim=(0, 1),
+            scalar_bar_args=bar | place | left,
+            **style_of(part),
+        )
 
 
 def _draw_axes(plotter: pyvista.Plotter, length: float) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput
+from ..mirror_operations.operate import operate
 from ..results import Result, outputs
 from ..results.mirror_mesh import mirror_mesh
 from ..shapes import Shape
@@ -76,16 +78,19 @@ def draw(
         plotter: with its own size and layout.
         shape, points: the object; without them, the points and faces of the detection.
         residual_range: what the colours end at, in % of the diagonal; without it, what 98 % of the
-            residuals stay below.
+            values stay below.
         camera: as for ``Result.plot``.
         title: a line above the picture.
     """
-    object_, residuals = _object(result, shape, points)
+    object_, values, title_of_bar = _object(result, shape, points)
     seen = _without_outliers(result, object_)
     prepare(plotter)
     # The normals of a few large faces are no surface to shade smoothly.
     smooth = "surface_samples" not in result.statistics
-    _draw_object(plotter, object_, 100 * residuals / seen.length, residual_range, smooth)
+    percent = 100 * values / seen.length
+    ends = 0, range_of(percent) if residual_range is None else residual_range
+    bar = f"{title_of_bar}, % of the diagonal"
+    draw_scalars(plotter, object_, percent, bar, ends, colour_map(COLOURS), smooth)
     vertices, triangles = mirror_mesh(result, seen.points)
     draw_mirror(plotter, vertices, triangles)
     add_title(plotter, title)
@@ -94,7 +99,7 @@ def draw(
 
 
 def _title(result: Result) -> str:
-    """Verdict, kind and score; nothing where nobody judged."""
+    """Verdict, kind and score; nothing if no verdict was computed."""
     if "verdict" not in result.statistics:
         return ""
     kind = result.mirror.kind if result.mirror is not None else "no mirror"
@@ -103,17 +108,25 @@ def _title(result: Result) -> str:
 
 def _object(
     result: Result, shape: Shape | None, points: ArrayLike | None
-) -> tuple[pyvista.PolyData, NDArray[np.float64]]:
-    """What is drawn, and each of its points' residual; points that are not finite cannot be."""
+) -> tuple[pyvista.PolyData, NDArray[np.float64], str]:
+    """What is drawn, a value of each of its points, and what that is; points that are not finite
+    cannot be drawn. Residuals depend on where the points lie on the surface, so they are drawn only
+    if the asymmetry cannot be measured."""
     if shape is None:
         chosen = result.points if points is None else points
         if chosen is None:
             raise InvalidInput("the result does not know its points: give shape or points")
         faces = result.faces if points is None else None
         shape = Shape(np.asarray(chosen, dtype=float), faces)
-    residuals = _residuals(result, len(shape.points))
+    values, name = _residuals(result, len(shape.points)), "residual"
     object_, rows = finite_object(shape)
-    return object_, residuals[rows]
+    if result.mirror is not None and len(result.pairs):
+        with suppress(InvalidInput):
+            values, name = (
+                operate("asymmetry", shape, result.mirror).arrays["distance"],
+                "asymmetry",
+            )
+    return object_, values[rows], name
 
 
 def _without_outliers(result: Result, object_: pyvista.PolyData) -> pyvista.PolyData:
@@ -133,16 +146,3 @@ def _residuals(result: Result, count: int) -> NDArray[np.float64]:
     residuals = np.full(count, np.nan)
     residuals[result.pairs[:, 0]] = result.residuals
     return residuals
-
-
-def _draw_object(
-    plotter: pyvista.Plotter,
-    object_: pyvista.PolyData,
-    percent: NDArray[np.float64],
-    residual_range: float | None,
-    smooth: bool,
-) -> None:
-    if residual_range is None:
-        residual_range = range_of(percent)
-    title = "residual, % of the diagonal"
-    draw_scalars(plotter, object_, percent, title, (0, residual_range), colour_map(COLOURS), smooth)

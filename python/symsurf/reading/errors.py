@@ -56,7 +56,7 @@ def reason_of(error: Exception) -> str:
 
 
 def _is_fault(error: Exception) -> bool:
-    """Whether code names what is not there, such as a function that the system lacks."""
+    """Whether code names what is not there, such as a function that the system does not have."""
     if isinstance(error, AttributeError):
         return isinstance(error.obj, ModuleType)
     return isinstance(error, ImportError) or type(error) is NameError

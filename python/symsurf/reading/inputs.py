@@ -77,9 +77,9 @@ def as_input(
     parts = objects.parts_of(given)
     if parts is not None:
         return Input(parts.points, _faces(parts.faces), colours=parts.colours)
-    if hasattr(given, "__array__") or isinstance(given, (list, tuple)):
-        return Input(given, None)
     known = {"shape": given} if isinstance(given, Shape) else {}
+    if not known and (hasattr(given, "__array__") or isinstance(given, (list, tuple))):
+        return Input(given, None)
     points, own = _points(given), _faces(_first_of(given, "faces", "triangles"))
     return Input(points, own, _colours(given), **known)
 

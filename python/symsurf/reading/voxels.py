@@ -23,12 +23,12 @@ def world_points(
     Args:
         values: (i, j, k).
         affine: (4, 4), from the indices of a voxel to the world.
-        reading: without scalars, as there is one value a voxel.
+        reading: without scalars, as there is one value per voxel.
         space: of the world.
     """
     if reading.scalars is not None:
         raise InvalidParameter(
-            f"scalars is {reading.scalars!r}; allowed is None: the image has one value a voxel"
+            f"scalars is {reading.scalars!r}; allowed is None: the image has one value per voxel"
         )
     if values.ndim != 3 or values.dtype.kind not in "biuf":
         raise InvalidInput(

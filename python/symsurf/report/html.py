@@ -20,16 +20,22 @@ h2 { font-size: 1.1rem; margin: 1.6rem 0 .4rem; }
 p { margin: .3rem 0; }
 .none, .error, .outlier { color: #a83244; }
 img.thumbnail { width: 128px; height: 96px; object-fit: cover; border-radius: 4px; }
-iframe { width: 100%; height: 620px; border: 1px solid #ddd; border-radius: 4px; }
+iframe { width: 100%; height: min(620px, 80vh); border: 1px solid #ddd; border-radius: 4px; }
 table { border-collapse: collapse; }
 th, td { text-align: left; padding: .2rem .9rem .2rem 0; border-bottom: 1px solid #eee;
   font-weight: normal; vertical-align: middle; }
 thead th { border-bottom: 2px solid #ccc; color: #555; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 3rem; }
+.columns > div { max-width: 100%; }
 .wide { overflow-x: auto; }
 svg { max-width: 100%; height: auto; }
 footer { color: #777; margin-top: 2rem; font-size: .85rem; }
+@media (max-width: 600px) { body { padding: .6rem; } th, td { padding-right: .5rem; } }
+@media (prefers-color-scheme: dark) { body { color: #ddd; background: #1b1d20; }
+  th, td { border-color: #333; } thead th { color: #aaa; border-color: #555; }
+  .none, .error, .outlier { color: #f08a92; } a { color: #8fb4dc; } iframe { border-color: #444; }
+  svg { filter: invert(1) hue-rotate(180deg); } }
 """
 
 

@@ -24,8 +24,8 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
     """The page of a file.
 
     Args:
-        record: what was told of it.
-        asymmetry: of what the file holds.
+        record: what was reported of it.
+        asymmetry: that of the shape in the file.
     """
     plotter = new_plotter(off_screen=True)
     draw(plotter, asymmetry, score=False)

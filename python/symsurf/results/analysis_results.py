@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter, Plane
-from ..base.plain import plain
 from ..reading.inputs import warn_of
 from ..shapes import Shape
-from ..shapes.objects import Remade, remade_like
+from .base_result import BaseResult
 from .elements import Axis, Transformation
-from .outputs import plot, save
+from .outputs import plot
 from .poses import isaac_axes, nearest_poses, rigid, stepped
-from .summary import Summarised, value_text
+from .summary import value_text
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AnalysisResult(Summarised):
+class AnalysisResult(BaseResult):
     """What an analysis finds."""
 
     analysis: ClassVar[str]
@@ -47,7 +46,7 @@ class AnalysisResult(Summarised):
     statistics: dict[str, Any]
     """Whatever else the analysis reports."""
     seconds: float
-    """That it took."""
+    """Run time in seconds."""
 
     @classmethod
     def from_fields(cls, shape: Shape, made: dict[str, Any]) -> Self:
@@ -59,22 +58,9 @@ class AnalysisResult(Summarised):
             axes=[Axis(*axis) for axis in made["axes"]],
             transformations=[Transformation(*each) for each in made["transformations"]],
             parameters=made["parameters"],
-            statistics=made["statistics"],
+            statistics=cls.in_order(made["statistics"]),
             seconds=made["seconds"],
         )
-
-    def like(self, given: Any) -> Any:
-        """A copy, with ``arrays``, of the object that the analysis was given: a mesh or a cloud of
-        PyVista, trimesh, Open3D, ITK or meshio, or a table of pandas or polars. Open3D's older classes
-        and ITK's have no room for arrays.
-
-        Raises InvalidInput for another type, or another number of points.
-        """
-        shape = self.shape
-        made = Remade(
-            shape.points, shape.faces, moved=False, arrays=self.arrays, figures=self.statistics
-        )
-        return remade_like(given, len(shape.points), made)
 
     @property
     def summary(self) -> dict[str, str]:
@@ -121,17 +107,8 @@ class AnalysisResult(Summarised):
                 }
                 for each in self.transformations
             ],
-            "parameters": plain(self.parameters),
-            "statistics": plain(self.statistics),
-            "seconds": self.seconds,
+            **super().to_json(),
         }
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the shape or what was found, in the format of the suffix, whole or not at all.
-
-        ``.json``: what ``to_json`` gives, with ``arrays``. Others as of ``OperationResult.save``.
-        """
-        warn_of(save(self, path))
 
     def plot(
         self,
@@ -202,7 +179,7 @@ class Symmetries(AnalysisResult):
 
     @property
     def order(self) -> int | None:
-        """How many elements the group has; None: no end of them."""
+        """How many elements the group has; None for a continuous (infinite) group."""
         is_continuous = any(axis.continuous for axis in self.axes)
         return None if is_continuous else len(self.transformations)
 
@@ -372,7 +349,7 @@ class SymmetryEmbedding(AnalysisResult):
 
     @property
     def orbit(self) -> NDArray[np.int64]:
-        """(n,): of each point the number of its orbit, from 0 on."""
+        """(n,) the number of each point's orbit, from 0 on."""
         return self.arrays["orbit"]
 
     @property
@@ -400,7 +377,7 @@ class IntrinsicSymmetry(AnalysisResult):
 
     @property
     def image(self) -> NDArray[np.int64]:
-        """(n,): of each point the one on the other side, -1 for none."""
+        """(n,) the point on the other side, -1 for none."""
         return self.arrays["image"]
 
     @property

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, Plane, operations
-from ..reading.inputs import warn_of
 from ..shapes import Shape
 from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
+from .base_result import BaseResult, mirror_record
 from .elements import Axis
-from .outputs import plot, save
+from .outputs import plot
 from .result import Result
-from .summary import Summarised, figures, value_text
+from .summary import figures, value_text
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OperationResult(Summarised):
+class OperationResult(BaseResult):
     """What an operation gives."""
 
     operation: ClassVar[str]
@@ -44,6 +44,8 @@ class OperationResult(Summarised):
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]
     """Whatever else the operation reports."""
+    seconds: float
+    """Run time in seconds, without that of finding the mirror."""
     sources: NDArray[np.int64]
     """(n,) of each point of ``shape``, the one of the input that its attributes come from."""
     face_sources: NDArray[np.int64]
@@ -83,7 +85,8 @@ class OperationResult(Summarised):
             mirror=made["mirror"],
             found=made["found"],
             parameters=made["parameters"],
-            statistics=made["statistics"],
+            statistics=cls.in_order(made["statistics"]),
+            seconds=made["seconds"],
             sources=point_sources,
             face_sources=face_sources,
             parents=made["point_parents"] if has_parents else None,
@@ -127,19 +130,6 @@ class OperationResult(Summarised):
         return {array.name: getattr(self, array.name) for array in described}
 
     def like(self, given: Any) -> Any:
-        """The shape as an object of the type of the one that the operation was given.
-
-        Args:
-            given: that object: a mesh or a cloud of PyVista, trimesh, Open3D, ITK or meshio, or a
-                table of pandas or polars.
-
-        Returns:
-            A new one with the points and faces of ``shape``, the attributes of the points and faces
-            that they come from, and, where the type has room, ``arrays``. Without normals where
-            points are moved or added.
-
-        Raises InvalidInput for another type, or another number of points.
-        """
         described = operations()[self.operation]
         is_other = self.is_other or described.adds_points
         made = Remade(
@@ -172,24 +162,6 @@ class OperationResult(Summarised):
     def _kind(self) -> str:
         return "none" if self.mirror is None else self.mirror.kind
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the shape or its table, in the format of the suffix, whole or not at all.
-
-        A shape that was read from a file of the same format keeps whatever else that file holds: of
-        OBJ materials, groups, texture coordinates and polygons, of PLY all properties, of text all
-        columns. Otherwise the file holds points, faces and, where it can, ``arrays``:
-
-        ``.ply``: binary, ``arrays`` as properties of the points. ``.vtp``: for VTK, ParaView and
-        PyVista, which read no such properties. ``.glb``: ``arrays`` as attributes "_NAME", all in
-        single precision. ``.stl``, ``.obj`` and ``.off``: the shape alone.
-        ``.csv`` and ``.npy``: ``arrays`` alone, one row per point, in the latter a structured array.
-        ``.json``: mirror, parameters, statistics and ``arrays``.
-
-        An InputWarning names what the file does not hold. Raises InvalidParameter for another suffix,
-        InvalidInput for the STL of a cloud, OSError if nothing can be written.
-        """
-        warn_of(save(self, path))
-
     def plot(
         self,
         path: str | os.PathLike[str] | None = None,
@@ -209,6 +181,13 @@ class OperationResult(Summarised):
             score: False: without the sentence above.
         """
         return plot(self, path, clim=clim, camera=camera, score=score)
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "operation": self.operation,
+            "mirror": mirror_record(self.mirror),
+            **super().to_json(),
+        }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -231,6 +210,7 @@ class Asymmetry(_OverMirror):
     """
 
     operation = "asymmetry"
+    FIRST = ("rms", "mean", "maximum", "matched_share")
 
     vector: NDArray[np.float64]
     """(n, 3) from the point to its place, input units; NaN without a counterpart."""
@@ -380,8 +360,8 @@ class Straightened(_OverMirror):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Completed(OperationResult):
-    """The shape with what one side lacks filled in from the other, or what a turn lacks from the rest
-    of it.
+    """The shape with what is missing on one side filled in from the other, or what is missing of a turn
+    from the rest of it.
 
     ``statistics``: "added_points", "added_faces" and "seam_faces"; over a mirror why points are
     unmatched, as those of an asymmetry; about an axis how many "turns" were made and "axis_point",
@@ -440,7 +420,7 @@ def require_one_a_point(values: NDArray[Any], given: Shape, name: object) -> Non
     points = len(given.points)
     if values.ndim == 0 or len(values) != points:
         raise InvalidInput(
-            f"{name} has shape {values.shape}; allowed is one value a point: ({points}, ...)"
+            f"{name} has shape {values.shape}; allowed is one value per point: ({points}, ...)"
         )
 
 

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, Generic
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import Mirror
+from .._core import InvalidInput, Mirror
+from ..base.plain import plain
 from ..reading.json_records import result_fields
 from ..shapes import Shape
-from .outputs import plot, save
-from .summary import Summarised, percent
+from .base_result import BaseResult, mirror_record
+from .outputs import plot
+from .summary import percent
 
 if TYPE_CHECKING:
     from pyvista import Plotter
@@ -28,7 +30,7 @@ else:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Summarised, Generic[Kind_co]):
+class Result(BaseResult, Generic[Kind_co]):
     """What a detection found. No symmetry is a result too: one with a low score.
 
     ``detect_plane`` gives a ``Result[Plane]``, and so on.
@@ -37,7 +39,9 @@ class Result(Summarised, Generic[Kind_co]):
     method: str
     """The method that found it."""
     mirror: Kind_co | Any
-    """A ``Mirror``; None where none is found, and for methods that find surface points only."""
+    """A ``Mirror``; None where none is found, and for methods that find surface points only. Of a
+    ``Plane`` the points x with ``normal @ x + offset == 0``: ``offset`` is minus the distance from the
+    origin along the unit normal. ``signed_distance`` is positive on the side that the normal points to."""
     surface_points: NDArray[np.float64]
     """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
     ``quadric`` and ``fixed_direction`` project them onto it. Input units."""
@@ -59,21 +63,39 @@ class Result(Summarised, Generic[Kind_co]):
     """Whatever else the method reports, such as "mapped_share", "missing_share" and
     "contradicted_share" of the points that the mirror moves (0 to 1, their sum is 1), "exact_share",
     those whose image is a point of the shape, "deviation", the median distance of mapped images from
-    the shape's surface (input units), "evidence", how sure it is that the mirror is none of chance's
-    (0 to 1), and, where there are some, how many
+    the shape's surface (input units), "evidence", whether the mirror maps the
+    shape better than the same mirror turned and shifted (0 to 1), and, where there are some, how many
     "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
     have no partners.
     "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
     cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
     the method is not for, which was an ``InputWarning``."""
     seconds: float
+    """Run time in seconds."""
     points: NDArray[np.float64] | Any = None
-    """(n, 3) the input: the caller's own array where it could be read in place. Of a grid the points
+    """(n, 3) the input: the caller's own array where it could be read in place. For a grid the points
     that were chosen, which ``pairs`` are indices into. None of a candidate and of what ``load`` has read."""
     faces: NDArray[np.int64] | None = None
     """(m, 3) the triangles between them; None for a bare cloud."""
     space: str | None = None
     """"RAS" or "LPS", the axes of the input where they are known; see ``Shape``."""
+
+    @property
+    def shape(self) -> Shape:
+        """The shape as it was given. Raises InvalidInput of a candidate and of what ``load`` has read."""
+        if self.points is None:
+            raise InvalidInput("the result has no points; those of the detection are needed")
+        return Shape(self.points, self.faces, space=self.space)
+
+    @property
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Of each point (n,) its "partner", the point that its image falls on, -1 for none, and the
+        "residual", the distance between them in input units, NaN for none."""
+        partner = np.full(len(self.shape.points), -1)
+        residual = np.full(len(partner), np.nan)
+        partner[self.pairs[:, 0]] = self.pairs[:, 1]
+        residual[self.pairs[:, 0]] = self.residuals
+        return {"partner": partner, "residual": residual}
 
     @property
     def point_count(self) -> int:
@@ -84,12 +106,12 @@ class Result(Summarised, Generic[Kind_co]):
 
     @property
     def verdict(self) -> str:
-        """Either "found" where there is a mirror, "none" where there is none, or where nobody judged."""
+        """ "found", or "none" if no mirror was found or no verdict was computed."""
         return self.statistics.get("verdict", "none")
 
     @property
     def reason(self) -> str:
-        """Why, in a sentence; "" where nobody judged."""
+        """Why, in a sentence; "" if no verdict was computed."""
         return self.statistics.get("reason", "")
 
     @property
@@ -110,6 +132,29 @@ class Result(Summarised, Generic[Kind_co]):
     def __repr__(self) -> str:
         words = [f"{name}: {text}" for name, text in self.summary.items() if name != "reason"]
         return f"Result({', '.join(words)})"
+
+    def to_json(self) -> dict[str, Any]:
+        """What the result says without its points: a few lines, however large the input."""
+        return self._outline() | {
+            **super().to_json(),
+            "candidates": [candidate._outline() for candidate in self.candidates],
+        }
+
+    def json_arrays(self) -> dict[str, Any]:
+        return {
+            "pairs": plain(self.pairs),
+            "residuals": plain(self.residuals),
+            "surface_points": plain(self.surface_points),
+            "space": self.space,
+            "footprint": None if self.mirror is None else plain(self.mirror.footprint),
+        }
+
+    def _outline(self) -> dict[str, Any]:
+        return {
+            "method": self.method,
+            "mirror": mirror_record(self.mirror),
+            "score": plain(self.score),
+        }
 
     @classmethod
     def from_fields(cls, fields: dict[str, Any]) -> Result:
@@ -132,7 +177,7 @@ class Result(Summarised, Generic[Kind_co]):
         Raises InvalidParameter for another suffix, InvalidInput for the triangles of no mirror,
         OSError where nothing can be written. A file is written whole or not at all.
         """
-        save(self, path)
+        super().save(path)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Result[Mirror]:
@@ -153,15 +198,15 @@ class Result(Summarised, Generic[Kind_co]):
         camera: Sequence[float] | Any = None,
         score: bool = True,
     ) -> Plotter:
-        """Draws the object coloured by residual, its mirror translucent, and the verdict above;
-        needs PyVista.
+        """Draws the object coloured by its asymmetry, how far each point lies from the other side's
+        surface, its mirror translucent, and the verdict above; needs PyVista.
 
         Args:
             path: a PNG to write off-screen, whole or not at all; without it a window opens.
             shape: another object with as many points, with its faces.
             points: its points (n, 3) alone; without both, the points and faces of the detection.
-            clim: the residual, above 0 and in % of the diagonal, that the colours end at; without
-                it what 98 % of the residuals stay below, at least 0.1.
+            clim: the asymmetry, above 0 and in % of the diagonal, that the colours end at; without
+                it what 98 % of the points stay below, at least 0.1.
             camera: a direction (3,) to look from, so that all is seen, or what PyVista takes for
                 ``Plotter.camera_position``, such as "xy"; without it across the mirror, from above.
             score: False: without verdict and score above.

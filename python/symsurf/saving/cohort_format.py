@@ -1,4 +1,4 @@
-"""Cohorts as tables: a row a term of the ANOVA, and a row an individual."""
+"""Cohorts as tables: one row per term of the ANOVA, and one per individual."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def save_matches(
     external_files: bool = False,
     threads: int = 0,
 ) -> None:
-    """Writes what ``match_chunks`` gives to a file of NumPy, a row a point: "partner" and "residual".
+    """Writes what ``match_chunks`` gives to a file of NumPy, one row per point: "partner" and "residual".
 
     ``numpy.load(path, mmap_mode="r")`` reads it in place. Little is in memory at any time, and the
     file is written whole or not at all.

@@ -24,7 +24,7 @@ from ..results import AnalysisResult, Correspondences, OperationResult, Transfer
 from ..shapes import Shape
 from ..shapes.shape import SourceFile
 from .glb_format import shape_glb_bytes
-from .json_format import analysis_bytes, operation_bytes
+from .json_format import json_bytes
 from .ply_format import shape_ply_bytes
 from .same_format import (
     OTHER_REWRITERS,
@@ -150,8 +150,7 @@ def _lacks_values(result: OperationResult | AnalysisResult) -> bool:
 
 def _table_bytes(result: Any, suffix: str) -> bytes:
     if suffix == ".json":
-        is_operation = isinstance(result, OperationResult)
-        return operation_bytes(result) if is_operation else analysis_bytes(result)
+        return json_bytes(result)
     if suffix == ".mirror":
         return mirror_bytes(result)
     if isinstance(result, AnalysisResult) and not result.arrays:

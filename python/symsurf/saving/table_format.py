@@ -14,7 +14,7 @@ from ..shapes.columns import columns_of
 
 
 def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """A structured array, a row a point and a field an array."""
+    """A structured array, one row per point and one field per array."""
     kinds = [(name, values.dtype, values.shape[1:]) for name, values in arrays.items()]
     count = len(next(iter(arrays.values()))) if arrays else 0
     rows = np.empty(count, kinds)
@@ -26,7 +26,7 @@ def npy_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 
 
 def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """A line of names, then a line a point, every digit a double holds; booleans as 0 and 1, rows of
+    """A line of names, then one line per point, every digit a double holds; booleans as 0 and 1, rows of
     three as columns that end in _x, _y and _z, others numbered from 0."""
     columns = columns_of(arrays)
     file = StringIO()
@@ -40,7 +40,7 @@ def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 
 
 def mirror_bytes(result: Correspondences) -> bytes:
-    """MakeHuman's table: a line a point that has one, its number, that of its mirror point, and l, r
+    """MakeHuman's table: one line for each point that has one: its number, that of its mirror point, and l, r
     or m: on the side where signed distances are positive, on the other, or its own mirror point."""
     points = np.flatnonzero(result.index >= 0)
     distances = result.mirror.signed_distance(result.shape.points[points])

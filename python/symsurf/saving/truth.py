@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .._core import InvalidInput, Mirror, make_mirror
 from ..reading.json_records import content_of, mirror_from, pairs_from
-from .json_format import mirror_record
+from ..results.base_result import mirror_record
 from .points_format import write_points
 from .whole_files import write_whole
 

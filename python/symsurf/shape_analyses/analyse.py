@@ -60,5 +60,7 @@ def _colours(given: object, count: object) -> NDArray[np.float64] | None:
     if colours.ndim == 1:
         colours = colours[:, None]
     if colours.ndim != 2 or not colours.size:
-        raise InvalidInput(f"colours have shape {colours.shape}; allowed is (n, k), a row a point")
+        raise InvalidInput(
+            f"colours have shape {colours.shape}; allowed is (n, k), one row per point"
+        )
     return colours

@@ -16,7 +16,7 @@ from .analyse import analyse
 _ARGUMENTS = inspect.signature(analyse).parameters
 
 _COLOURS = (
-    "(n, k) of the points, a channel a column, for ``texture``; without them those that ``shape`` "
+    "(n, k) of the points, one channel per column, for ``texture``; without them those that ``shape`` "
     "brings: a Shape, a file (PLY, OBJ, OFF, columns, VTK's), a mesh of PyVista, trimesh or Open3D."
 )
 _DOCUMENTED = {

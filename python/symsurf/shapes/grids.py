@@ -222,7 +222,7 @@ def _scalars(grid: pyvista.DataSet, name: str | None, kind: str) -> tuple[NDArra
             if values.ndim != 1 or values.dtype.kind not in "biuf":
                 raise InvalidInput(
                     f"scalars={name!r} have shape {values.shape} and type {values.dtype}; allowed is "
-                    "one real number a point or cell"
+                    "one real number per point or cell"
                 )
             return values, of_cells
     raise InvalidInput(

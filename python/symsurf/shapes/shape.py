@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,13 +39,17 @@ class Shape:
     space: str | None = None
     """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
     colours: NDArray[np.float64] | None = None
-    """(n, k), a channel a column, as the file gives them; None where it gives none."""
+    """(n, k), one channel per column, as the file gives them; None where it gives none."""
 
     polygons: NDArray[np.int64] | None = None
     """(m,) the number of the polygon that each triangle is a part of; None where all polygons of the
     file are triangles, or none are known."""
     source: SourceFile | None = None
     """The file, of which ``save`` of a result keeps what it can; None where the shape is of none."""
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """The points: ``np.asarray(shape)``."""
+        return np.array(self.points, dtype) if copy else np.asarray(self.points, dtype)
 
     def __repr__(self) -> str:
         faces = "no faces" if self.faces is None else f"{len(self.faces)} faces"

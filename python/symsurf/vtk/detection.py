@@ -127,7 +127,7 @@ def _set_mirror_fields(output: vtkPolyData, result: Result) -> None:
 
 
 def _candidate_values(candidates: list[Result]) -> dict[str, Any]:
-    """By name, a row a candidate."""
+    """By name, one row per candidate."""
     if not candidates:
         return {}
     values = {"candidate_scores": np.array([[candidate.score] for candidate in candidates])}

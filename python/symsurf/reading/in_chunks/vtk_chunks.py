@@ -29,7 +29,7 @@ def chunks_of(path: Path, reading: Reading) -> FileChunks:
         return FileChunks(
             None, lambda: (_points(vtkXMLPolyDataReader, file, 0, 1) for file in files)
         )
-    _partition(path, 0, reading)  # so that what is no such file is told at once
+    _partition(path, 0, reading)  # so that what is no such file is reported at once
     return FileChunks(None, lambda: _partitions(path, reading))
 
 

@@ -43,9 +43,9 @@ class NewShape:
     space: bytes | None = None
     """RAS or LPS, what the axes now mean; None: what they meant before."""
     arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
-    """One row a point."""
+    """One row per point."""
     face_arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
-    """One row a face, where these are none of the file's."""
+    """One row per face, where these are none of the file's."""
     is_other: bool = False
     """Whether points and faces are none of the file's: ``old_faces`` is 0 then."""
     given_faces: NDArray[np.int64] | None = None

@@ -11,6 +11,7 @@ from types import ModuleType
 from typing import Any
 
 from ..._core import InvalidInput
+from ..shape import Shape
 from .parts import Parts, Remade
 
 __all__ = [
@@ -26,8 +27,8 @@ __all__ = [
 
 
 def is_known(given: Any) -> bool:
-    """Whether it is a mesh, a cloud or a table of a package that has its module here."""
-    return _name_of(given) is not None
+    """Whether it is a Shape, or a mesh, a cloud or a table of a package that has its module here."""
+    return isinstance(given, Shape) or _name_of(given) is not None
 
 
 def parts_of(given: Any) -> Parts | None:
@@ -47,7 +48,7 @@ def points_of(given: Any) -> Any:
     parts = parts_of(given)
     if parts is not None:
         return parts.points
-    if not hasattr(given, "__array__"):
+    if isinstance(given, Shape) or not hasattr(given, "__array__"):
         for name in ("points", "vertices"):
             if hasattr(given, name):
                 return getattr(given, name)
@@ -80,7 +81,7 @@ def remade_like(given: Any, count: int, made: Remade) -> Any:
             f"the {type(given).__name__} is a regular grid, whose points do not move; allowed is a "
             "surface or a cloud"
         )
-    points = len(points_of(given)) if is_known(given) else count
+    points = len(points_of(given)) if _name_of(given) else count
     if points != count:
         raise InvalidInput(
             f"the {type(given).__name__} has {points} points; allowed is the one that was given, which "

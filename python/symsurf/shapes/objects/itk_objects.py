@@ -23,7 +23,7 @@ def parts_of(given: Any) -> Parts:
 
 
 def remade(given: Any, made: Remade) -> Any:
-    """With its point data, where these are one number a point: ITK has no room for more."""
+    """With its point data, where these are one number per point: ITK has no room for more."""
     copy = type(given).New()
     points = made.points.astype(_array(given.GetPoints()).dtype)
     copy.SetPoints(itk.vector_container_from_array(points.ravel()))

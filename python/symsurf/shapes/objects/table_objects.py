@@ -1,4 +1,4 @@
-"""Tables of points, a row a point: pandas' and polars'."""
+"""Tables of points, one row per point: pandas' and polars'."""
 
 from __future__ import annotations
 
