@@ -149,17 +149,26 @@ void MirrorScore::with_image_of(const Mirror& mirror, const Take& take) const {
     take(MirrorImage{mirror, cloud_.frame});
 }
 
-MirrorFit MirrorScore::fit(const Mirror& mirror, Index stride) const {
-  const std::optional<double> prior = prior_of(mirror.kind());
-  MirrorSides sides(held_out);
-  MirrorFit found;
+// Calls take(what it does as a whole, what with each sample, the image of points).
+template <typename Take>
+void MirrorScore::with_fit_of(const Mirror& mirror, Index stride, const Take& take) const {
   with_image_of(mirror, [&](const auto& image) {
-    found = whole_of(point_fits(image, stride, prior ? &sides : nullptr), stride);
+    const std::optional<double> prior = prior_of(mirror.kind());
+    MirrorSides sides(held_out);
+    const std::vector<PointFit> fits = point_fits(image, stride, prior ? &sides : nullptr);
+    MirrorFit found = whole_of(fits, stride);
+    if (prior) found.log_odds = *prior + sides.evidence() - contradiction * contradicted_of(found);
+    if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
+      found = {1, 0, 1, found.deviation, found.log_odds};
+    take(found, fits, image);
   });
-  if (prior) found.log_odds = *prior + sides.evidence() - contradiction * contradicted_of(found);
-  if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
-    found = {1, 0, 1, found.deviation, found.log_odds};
-  return found;
+}
+
+MirrorFit MirrorScore::fit(const Mirror& mirror, Index stride) const {
+  MirrorFit fit;
+  with_fit_of(mirror, stride,
+              [&](const MirrorFit& found, const auto&, const auto&) { fit = found; });
+  return fit;
 }
 
 std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map, Index stride) const {
@@ -227,53 +236,49 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, Index strid
           median(std::move(deviations)) * cloud_.frame.size};
 }
 
-double MirrorScore::evidence(const Mirror& mirror) const {
+template <typename Image>
+double MirrorScore::evidence(const Image& image, const std::vector<PointFit>& fits) const {
   constexpr Index stride = 3;        // three hundred samples say what chance maps
   constexpr double doubted = 0.9;    // chance that maps more is a symmetry as well: vases, balls
   constexpr double least = 0.01;     // of its weight, that a sample has whatever chance maps of it
   constexpr Index around_image = 8;  // samples
-  double sure = 0;
-  with_image_of(mirror, [&](const auto& image) {
-    const std::vector<PointFit> fits = point_fits(image, 1);
-    std::vector<double> unmapped(surface_.size(), 0), chance(surface_.size(), 0);
-    for (const PointFit& fit : fits) unmapped[fit.point] = 1 - fit.mapped();
-    double greatest = 0;
-    for (const auto& group : chance_motions(fits, surface_, cloud_)) {
-      std::vector<double> mapped(surface_.size(), 0);
-      for (const Eigen::Isometry3d& by : group) {
-        std::vector<double> share(surface_.size(), 0);
-        for (const PointFit& fit : point_fits(image.moved(by), stride))
-          share[fit.point] = fit.mapped();
-        double sum = 0, weights = 0;
-        for (const PointFit& fit : fits)
-          if (fit.point % stride == 0) {
-            sum += fit.weight * share[fit.point];
-            weights += fit.weight;
-            mapped[fit.point] += share[fit.point] / static_cast<double>(group.size());
-          }
-        if (weights > 0) greatest = std::max(greatest, sum / weights);
-      }
-      for (Index k = 0; k < surface_.size(); ++k) chance[k] = std::max(chance[k], mapped[k]);
+  std::vector<double> unmapped(surface_.size(), 0), chance(surface_.size(), 0);
+  for (const PointFit& fit : fits) unmapped[fit.point] = 1 - fit.mapped();
+  double greatest = 0;
+  for (const auto& group : chance_motions(fits, surface_, cloud_)) {
+    std::vector<double> mapped(surface_.size(), 0);
+    for (const Eigen::Isometry3d& by : group) {
+      std::vector<double> share(surface_.size(), 0);
+      for (const PointFit& fit : point_fits(image.moved(by), stride))
+        share[fit.point] = fit.mapped();
+      double sum = 0, weights = 0;
+      for (const PointFit& fit : fits)
+        if (fit.point % stride == 0) {
+          sum += fit.weight * share[fit.point];
+          weights += fit.weight;
+          mapped[fit.point] += share[fit.point] / static_cast<double>(group.size());
+        }
+      if (weights > 0) greatest = std::max(greatest, sum / weights);
     }
-    double mapped = 0, contradicted = 0, support = 0, weights = 0;
-    for (const PointFit& fit : fits) {
-      weights += fit.weight;
-      support += fit.weight * (1 - unmapped[fit.point]);
-      if (fit.point % stride != 0) continue;
-      const double tells = fit.weight * (least + 1 - chance[fit.point]);
-      mapped += tells * (1 - unmapped[fit.point]);
-      if (!fit.image.allFinite()) continue;
-      // Where the shape goes on around the image, or is itself unmapped there; else it is missing.
-      const std::vector<Index> near = surface_.nearest(fit.image, around_image);
-      double there = fit.weight > fit.support ? 1 - fit.missing / (fit.weight - fit.support) : 1;
-      for (const Index j : near) there += unmapped[j] / static_cast<double>(near.size());
-      contradicted += tells * unmapped[fit.point] * std::min(1.0, there);
-    }
-    if (!(mapped > 0)) return;
-    const double top = std::min(doubted, greatest), share = std::min(1.0, support / weights);
-    sure = (mapped / (mapped + contradicted) + std::max(0.0, (share - top) / (1 - top))) / 2;
-  });
-  return sure;
+    for (Index k = 0; k < surface_.size(); ++k) chance[k] = std::max(chance[k], mapped[k]);
+  }
+  double mapped = 0, contradicted = 0, support = 0, weights = 0;
+  for (const PointFit& fit : fits) {
+    weights += fit.weight;
+    support += fit.weight * (1 - unmapped[fit.point]);
+    if (fit.point % stride != 0) continue;
+    const double tells = fit.weight * (least + 1 - chance[fit.point]);
+    mapped += tells * (1 - unmapped[fit.point]);
+    if (!fit.image.allFinite()) continue;
+    // Where the shape goes on around the image, or is itself unmapped there; else it is missing.
+    const std::vector<Index> near = surface_.nearest(fit.image, around_image);
+    double there = fit.weight > fit.support ? 1 - fit.missing / (fit.weight - fit.support) : 1;
+    for (const Index j : near) there += unmapped[j] / static_cast<double>(near.size());
+    contradicted += tells * unmapped[fit.point] * std::min(1.0, there);
+  }
+  if (!(mapped > 0)) return 0;
+  const double top = std::min(doubted, greatest), share = std::min(1.0, support / weights);
+  return (mapped / (mapped + contradicted) + std::max(0.0, (share - top) / (1 - top))) / 2;
 }
 
 namespace {
@@ -343,43 +348,95 @@ struct Residuals {
   }
 };
 
+Residuals residuals_of(const std::vector<PointFit>& fits, const SampledSurface& surface) {
+  constexpr double least_noise = 2e-4;
+  Residuals all;
+  Matrix3 chords = Matrix3::Zero();
+  for (const PointFit& fit : fits) {
+    const Vector3 chord = fit.image - surface[fit.point].position;
+    if (fit.weight > 0 && chord.allFinite()) chords += chord * chord.transpose();
+  }
+  const Matrix3 axes = eigen_of(chords).vectors;
+  all.residual.assign(surface.size(), farthest_residual);
+  all.weight.assign(surface.size(), 0);
+  all.has_partner.assign(surface.size(), 0);
+  all.foot.assign(surface.size(), Eigen::Vector2d::Zero());
+  for (const PointFit& fit : fits) {
+    const Index k = fit.point;
+    all.weight[k] = fit.weight;
+    if (!fit.image.allFinite()) continue;
+    all.foot[k] = axes.leftCols<2>().transpose() * (fit.image + surface[k].position) / 2;
+    if (!fit.has_partner) continue;
+    all.has_partner[k] = 1;
+    all.residual[k] = fit.normal.dot(axes.col(2)) < 0 ? -fit.residual : fit.residual;
+  }
+  for (Index k = 0; k < surface.size(); ++k)
+    all.noise.push_back(std::max(least_noise, surface[k].noise));
+  return all;
+}
+
+// Standard deviations of a mirror's orientation about its middle, radians, and of how far it lies
+// along its normal, diagonals, by the normal equations of rigid motions. Those that leave it in
+// itself are free, and left out.
+struct Uncertainty {
+  double angle = 0, offset = 0;
+
+  Uncertainty(const std::vector<PointFit>& fits, const SampledSurface& surface) {
+    using Motion = Eigen::Vector<double, 6>;
+    constexpr double free = 1e-6;  // of the greatest eigenvalue
+    Vector3 middle = Vector3::Zero(), normal = Vector3::Zero();
+    double weights = 0, squares = 0;
+    const auto for_each = [&](const auto& take) {
+      for (const PointFit& fit : fits) {
+        const Vector3& x = surface[fit.point].position;
+        if (fit.has_partner && fit.weight > 0)
+          take(fit, Vector3((x + fit.image) / 2), Vector3((fit.image - x).stableNormalized()));
+      }
+    };
+    for_each([&](const PointFit& fit, const Vector3& foot, const Vector3& chord) {
+      middle += fit.weight * foot;
+      weights += fit.weight;
+      squares += fit.weight * fit.residual * fit.residual;
+      normal += fit.weight * (chord.dot(normal) < 0 ? -chord : chord);
+    });
+    if (!(weights > 0)) return;
+    middle /= weights;
+    Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(6, 6);
+    for_each([&](const PointFit& fit, const Vector3& foot, const Vector3& chord) {
+      Motion moved;
+      moved << chord, (foot - middle).cross(chord);
+      moved *= 2 * fit.normal.dot(chord);
+      equations += fit.weight * moved * moved.transpose();
+    });
+    const double square = squares / weights;
+    const double alike = residuals_of(fits, surface).correlation(std::sqrt(square));
+    const auto [values, vectors] = eigen_of(equations);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
+    for (int i = 0; i < 6; ++i)
+      if (values[i] > free * values[5])
+        covariance += square * alike / values[i] * vectors.col(i) * vectors.col(i).transpose();
+    const Matrix3 shifts = covariance.topLeftCorner<3, 3>();
+    const Matrix3 turns = covariance.bottomRightCorner<3, 3>();
+    angle = std::sqrt(std::max(0.0, eigen_of(turns).values[2]));
+    offset = std::sqrt(std::max(0.0, normal.normalized().dot(shifts * normal.normalized())));
+  }
+};
+
 }  // namespace
 
 double MirrorScore::nats(const Mirror& freer, const Mirror& simpler, double freedom) const {
-  constexpr double least_noise = 2e-4;
-  std::vector<double> weights(surface_.size(), 0);
-  const auto residuals_of = [&](const Mirror& mirror) {
+  const auto over = [&](const Mirror& mirror) {
     Residuals all;
-    with_image_of(mirror, [&](const auto& image) {
-      const std::vector<PointFit> fits = point_fits(image, 1);
-      Matrix3 chords = Matrix3::Zero();
-      for (const PointFit& fit : fits) {
-        const Vector3 chord = fit.image - surface_[fit.point].position;
-        if (fit.weight > 0 && chord.allFinite()) chords += chord * chord.transpose();
-      }
-      const Matrix3 axes = eigen_of(chords).vectors;
-      all.residual.assign(surface_.size(), farthest_residual);
-      all.has_partner.assign(surface_.size(), 0);
-      all.foot.assign(surface_.size(), Eigen::Vector2d::Zero());
-      for (const PointFit& fit : fits) {
-        const Index k = fit.point;
-        weights[k] += fit.weight / 2;
-        if (!fit.image.allFinite()) continue;
-        const Vector3 foot = (fit.image + surface_[k].position) / 2;
-        all.foot[k] = axes.leftCols<2>().transpose() * foot;
-        if (!fit.has_partner) continue;
-        all.has_partner[k] = 1;
-        all.residual[k] = fit.normal.dot(axes.col(2)) < 0 ? -fit.residual : fit.residual;
-      }
-      for (Index k = 0; k < surface_.size(); ++k)
-        all.noise.push_back(std::max(least_noise, surface_[k].noise));
-    });
+    with_image_of(mirror,
+                  [&](const auto& image) { all = residuals_of(point_fits(image, 1), surface_); });
     return all;
   };
-  Residuals less = residuals_of(simpler), more = residuals_of(freer);
-  less.weight = more.weight = weights;
+  Residuals less = over(simpler), more = over(freer);
   double samples = 0;
-  for (const double weight : weights) samples += weight;
+  for (Index k = 0; k < surface_.size(); ++k) {
+    less.weight[k] = more.weight[k] = (less.weight[k] + more.weight[k]) / 2;
+    samples += more.weight[k];
+  }
   const Residuals::Likeliest at = more.likeliest();
   const double alike = more.correlation(at.asymmetry);
   return (at.log - less.likeliest().log) / alike -
@@ -409,11 +466,15 @@ std::pair<double, double> order_of(const MirrorFit& fit) {
 void MirrorScore::fill(const Mirror& mirror, Result& result) const {
   // Shares that say by themselves whether a mirror is found.
   constexpr double certain = 0.97, hopeless = 0.3;
-  const MirrorFit its = fit(mirror);
-  tell(mirror.kind(), its, result);
-  result.statistics["evidence"] = its.share > certain    ? 1.0
-                                  : its.share < hopeless ? 0.0
-                                                         : evidence(mirror);
+  with_fit_of(mirror, 1, [&](const MirrorFit& its, const auto& fits, const auto& image) {
+    tell(mirror.kind(), its, result);
+    result.statistics["evidence"] = its.share > certain    ? 1.0
+                                    : its.share < hopeless ? 0.0
+                                                           : evidence(image, fits);
+    const Uncertainty uncertainty(fits, surface_);
+    result.statistics["angle_sd"] = uncertainty.angle * 180 / std::numbers::pi;
+    result.statistics["offset_sd"] = uncertainty.offset * cloud_.frame.size;
+  });
 }
 
 Result MirrorScore::ranked(const std::string& method,

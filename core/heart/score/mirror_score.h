@@ -28,7 +28,7 @@ struct MirrorFit {
   double missing = 0;    ///< whose images fall where the cloud has nothing
   double exact = 0;      ///< whose images are points of the cloud, to rounding
   double deviation = 0;  ///< median distance of mapped images from the surface, input units
-  double log_odds = 0;   ///< of a mirror of any shape, that it is none of chance's, in nats
+  double log_odds = 0;   ///< of a mirror of any shape, that chance did not make it, in nats
 };
 
 /// What a map does with one of the samples.
@@ -68,11 +68,6 @@ class MirrorScore {
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, Index stride = 1) const;
 
-  /// How sure it is that the mirror is none of chance's, 0..1: the mean of two. What it maps of the
-  /// samples that tell it from the same mirror turned and shifted, over that and what contradicts
-  /// it; and how far its share lies between the greatest of theirs and 1.
-  double evidence(const Mirror& mirror) const;
-
   /// The nats that speak for one mirror against another, by the residuals of the samples: those of
   /// a mirror are Student's of 3 degrees, as wide as the noise and the body's own asymmetry, but
   /// for a share without a partner, both at their likeliest; samples count as independent as the
@@ -80,7 +75,7 @@ class MirrorScore {
   double nats(const Mirror& freer, const Mirror& simpler, double freedom) const;
 
   /// Sets the result's score, and among its statistics "mapped_share", "missing_share",
-  /// "contradicted_share", "exact_share", "deviation" and "evidence".
+  /// "contradicted_share", "exact_share", "deviation", "evidence", "angle_sd" and "offset_sd".
   void fill(Result& result) const { fill(*result.mirror, result); }
   /// The same of a mirror that is not the result's own.
   void fill(const Mirror& mirror, Result& result) const;
@@ -90,7 +85,6 @@ class MirrorScore {
                 const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
 
  private:
-  // What a map does with a sample.
   template <typename Image>
   std::vector<PointFit> point_fits(const Image& image_of, Index stride,
                                    MirrorSides* sides = nullptr) const;
@@ -98,6 +92,13 @@ class MirrorScore {
   MirrorFit whole_of(const std::vector<PointFit>& points, Index stride) const;
   template <typename Take>
   void with_image_of(const Mirror& mirror, const Take& take) const;
+  template <typename Take>
+  void with_fit_of(const Mirror& mirror, Index stride, const Take& take) const;
+  // Whether a mirror maps the shape better than the same one turned and shifted, 0..1: the mean of
+  // two. What it maps of the samples that tell it from those, over that and what contradicts it;
+  // and how far its share lies between the greatest of theirs and 1.
+  template <typename Image>
+  double evidence(const Image& image, const std::vector<PointFit>& fits) const;
   void add_sides(const PointFit& fit, Index partner, MirrorSides& sides) const;
 
   const Cloud& cloud_;

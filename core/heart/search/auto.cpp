@@ -124,16 +124,32 @@ struct Contest {
   Result best;
   const MethodImplementation* winner;
   Run of_all = {};  // finds the winner again, on all points; none where it saw them
-  Values scores = {};
-  std::string tried = {};
+  std::vector<std::pair<std::string, double>> shares = {};  // the greatest of each kind tried
 
   void take(const MethodImplementation& kind, Result result, bool wins, Run again) {
-    scores["score_" + kind.name] = result.score;
-    tried += ", " + kind.name + " " + text(explained(result));
+    tell(kind.name, explained(result));
     if (!wins) return;
     best = std::move(result);
     winner = &kind;
     of_all = std::move(again);
+  }
+
+  void tell(const std::string& kind, double share) {
+    const auto known = std::find_if(shares.begin(), shares.end(),
+                                    [&](const auto& one) { return one.first == kind; });
+    if (known == shares.end())
+      shares.push_back({kind, share});
+    else
+      known->second = std::max(known->second, share);
+  }
+
+  std::string tried() const {
+    std::string all;
+    for (const auto& [kind, share] : shares) {
+      if (!all.empty()) all += ", ";
+      all += kind + " " + text(share);
+    }
+    return all;
   }
 };
 
@@ -210,8 +226,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   const MethodImplementation& plane = heart_method("plane");
   const bool pairs = values.boolean("pairs");
   Contest contest{pairs, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), &plane};
-  contest.scores["score_plane"] = contest.best.score;
-  contest.tried = "plane " + text(explained(contest.best));
+  contest.tell(plane.name, explained(contest.best));
   std::string reason = "the plane maps " + text(explained(contest.best)) +
                        " of the shape onto it, and " + text(1 - covered(contest.best)) +
                        " has no counterpart: nothing is left for freer mirrors to explain";
@@ -227,10 +242,9 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
     if (!content || contest.winner != &plane)
       reason = contest.winner->name +
-               " is the simplest of those that explain most of the shape: " + contest.tried;
+               " is the simplest of those that explain most of the shape: " + contest.tried();
   }
-  contest.scores["reason"] = reason;
-  contest.best.statistics.merge(contest.scores);
+  contest.best.statistics.try_emplace("reason", reason);
   contest.best.parameters["minimum_score"] = values.real("minimum_score");
   contest.best.parameters["tolerance"] = values.real("tolerance");
   return contest.best;

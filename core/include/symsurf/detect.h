@@ -56,15 +56,17 @@ struct Result {
   /// "verdict", "found" or "none"; "reason", a sentence that says why; "mapped_share",
   /// "missing_share" and "contradicted_share" of the points that the mirror moves, 0 to 1, which
   /// sum to 1; "exact_share": those whose image is a point of the shape; "deviation": the median
-  /// distance of mapped images from the shape's surface, input units; "evidence", 0 to 1: how sure
-  /// it is that the mirror is none of chance's, by the same mirror turned and shifted; of any shape
-  /// "log_odds", the same in nats, by the smoothness of its middle; "explained_share" and
-  /// "covered_share", older names of the mapped share and of what is not missing; whatever else the
-  /// method reports; and, where there are some, how many "nonfinite_points" were left out as not
-  /// finite and how many "outliers" as lying far off: they have no partners. "surface_samples": how
-  /// many points were sampled on the faces. "boundary_points" of a volumetric cloud, where the
-  /// mirror and the score are those of its boundary: how many it has. "warning": a sentence for the
-  /// caller, where the method is not for such a cloud.
+  /// distance of mapped images from the shape's surface, input units; "evidence", 0 to 1: whether
+  /// the mirror maps the shape better than the same mirror turned and shifted; of any shape
+  /// "log_odds" that chance did not make it, in nats, by the smoothness of its middle; "angle_sd"
+  /// and "offset_sd": standard deviations of the mirror's orientation about its middle, degrees,
+  /// and along its normal, input units; "explained_share" and "covered_share", older names of the
+  /// mapped share and of what is not missing; whatever else the method reports; and, where there
+  /// are some, how many "nonfinite_points" were left out as not finite and how many "outliers" as
+  /// lying far off: they have no partners. "surface_samples": how many points were sampled on the
+  /// faces. "boundary_points" of a volumetric cloud, where the mirror and the score are those of
+  /// its boundary: how many it has. "warning": a sentence for the caller, where the method is not
+  /// for such a cloud.
   Values statistics;
   double seconds = 0;
 
