@@ -38,8 +38,9 @@ class Cut {
                          (positive ? "positive" : "negative") + " side of the mirror");
   }
 
-  // Triangles of what is left of a face.
+  // Triangles of what is left of a face; none of one that names a corner twice.
   void add(const Index* corners, Index source) {
+    if (is_degenerate(corners)) return;
     std::vector<Index> polygon;
     bool any_inside = false;
     for (int k = 0; k < 3; ++k) {
@@ -150,27 +151,28 @@ Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool 
   return half;
 }
 
-std::vector<std::pair<Index, Index>> cut_edges(const Half& half) {
-  std::map<std::pair<Index, Index>, std::pair<int, std::pair<Index, Index>>> edges;
-  for (const auto& face : half.faces.rowwise())
+std::vector<std::pair<Index, Index>> cut_edges(const Triangles& faces,
+                                               const std::vector<bool>& on_mirror) {
+  // How many faces each has, and how many more of them run up from its lower vertex than down.
+  std::map<std::pair<Index, Index>, std::pair<int, int>> edges;
+  for (const auto& face : faces.rowwise()) {
+    if (is_degenerate(face.data())) continue;
     for (int k = 0; k < 3; ++k) {
       const Index a = face[k], b = face[(k + 1) % 3];
-      if (!half.on_mirror[a] || !half.on_mirror[b]) continue;
-      auto& [count, edge] = edges[std::minmax(a, b)];
-      edge = {a, b};
-      if (++count < 2) continue;
-      const Vector3 middle = (half.points.row(a) + half.points.row(b)).transpose() / 2;
-      throw InvalidInput("two faces of this side meet in an edge on the mirror at " +
-                         to_string(Value(middle)) +
-                         ", which would have four with their images; one may");
+      if (!on_mirror[a] || !on_mirror[b]) continue;
+      auto& [count, up] = edges[std::minmax(a, b)];
+      ++count;
+      up += a < b ? 1 : -1;
     }
+  }
   std::vector<std::pair<Index, Index>> found;
-  for (const auto& [key, value] : edges) found.push_back(value.second);
+  for (const auto& [edge, own] : edges)
+    if (own.first % 2 == 1)
+      found.push_back(own.second > 0 ? edge : std::pair(edge.second, edge.first));
   return found;
 }
 
 MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context) {
-  cut_edges(half);  // throws where an edge on the mirror has two faces
   MirroredHalf whole{std::move(half), {}};
   const Index own = whole.points.rows(), faces = whole.faces.rows();
   std::vector<Index> partners(own);
@@ -205,12 +207,6 @@ MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context)
   return whole;
 }
 
-Eigen::VectorXd partner_array(const MirroredHalf& whole) {
-  Eigen::VectorXd partners(static_cast<Index>(whole.partners.size()));
-  for (Index i = 0; i < partners.size(); ++i) partners[i] = static_cast<double>(whole.partners[i]);
-  return partners;
-}
-
 Parameter kept_side() {
   return Parameter::choice("side", "positive", {"positive", "negative"},
                            "Which to keep: the side where signed distances from the mirror are "
@@ -226,6 +222,13 @@ void set_shape(Half half, OperationResult& result) {
   result.face_sources = std::move(half.face_sources);
   result.point_parents = half.parents;
   result.point_shares = half.shares;
+}
+
+void set_shape(MirroredHalf whole, OperationResult& result) {
+  result.arrays["partner"] =
+      Eigen::Map<const Eigen::VectorX<Index>>(whole.partners.data(), whole.points.rows())
+          .cast<double>();
+  set_shape(static_cast<Half&&>(whole), result);
 }
 
 }  // namespace symsurf
