@@ -239,7 +239,7 @@ def test_long_triangles_keep_their_surface(make, plane):
     shape = make()
     made = symsurf.remesh(shape, plane)
     assert of(made).is_manifold
-    assert of(made).volume == pytest.approx(shape.to_pyvista().volume, rel=0.02)
+    assert of(made).volume == pytest.approx(shape.to_pyvista().volume, rel=0.05)
     assert made.statistics["surface_distance_of_diagonal"] < 0.005
 
 

@@ -140,6 +140,7 @@ class Completion {
         missing_(missing),
         turned_(turned),
         parts_(input.points.size()),
+        islands_(input.points.size()),
         number_(input.points.size(), -1) {
     const Index count = input.points.size();
     if (input.faces.empty()) {
@@ -264,6 +265,8 @@ class Completion {
       const Counterpart& c = counterparts_[i];
       return c.face >= 0 && !c.past_rim && (!c.on_rim || c.nearest == i);
     };
+    for (const Index f : faces_)
+      for (int c = 0; c < 2; ++c) islands_.join(input_.faces[f][c], input_.faces[f][c + 1]);
     std::vector<Index> alone;  // of each loop of what was added that nothing is joined to
     for (const std::vector<Index>& loop : whole.boundary_loops()) {
       if (loop.size() > largest_hole || !std::all_of(loop.begin(), loop.end(), goes_on)) continue;
@@ -283,7 +286,7 @@ class Completion {
             (rim < 0 || (result.points.row(i) - result.points.row(k)).norm() <
                             (result.points.row(rim) - result.points.row(k)).norm()))
           rim = i;
-      if (rim >= 0 && !is_boundary[rim]) apart_.push_back(parts_.root(sources_[k - count]));
+      if (rim >= 0 && !is_boundary[rim]) apart_.push_back(islands_.root(sources_[k - count]));
     }
     return joined;
   }
@@ -292,7 +295,7 @@ class Completion {
   // does.
   bool drop_what_lies_apart(std::vector<bool>& missing) {
     for (Index i = 0; i < input_.points.size(); ++i)
-      if (std::find(apart_.begin(), apart_.end(), parts_.root(i)) != apart_.end())
+      if (std::find(apart_.begin(), apart_.end(), islands_.root(i)) != apart_.end())
         missing[i] = false;
     return !apart_.empty();
   }
@@ -356,13 +359,14 @@ class Completion {
   const std::vector<bool>& missing_;
   bool turned_;
   DisjointSets parts_;            // of missing points
+  DisjointSets islands_;          // of the points of added faces
   std::vector<bool> is_beside_;   // of the root of each part: whether a seam is to join it
   std::vector<Index> number_;     // in the result, of the image of each point; -1: none yet
   std::vector<Index> faces_;      // of the input, whose images are added: those welded first
   std::vector<Index> sources_;    // of the added points
   std::vector<bool> meets_mesh_;  // one a point, missing or not: beside what is the other
   Index first_beside_ = 0, faces_beside_ = 0;  // behind what is welded
-  std::vector<Index> apart_;  // roots of parts in holes that were closed without them
+  std::vector<Index> apart_;  // roots of islands in holes that were closed without them
 };
 
 }  // namespace

@@ -38,6 +38,15 @@ class Cut {
                          (positive ? "positive" : "negative") + " side of the mirror");
   }
 
+  // Of all faces before any is added, so that the order of the points is not theirs.
+  void add_crossings(TrianglesView faces) {
+    for (Index f = 0; f < faces.size(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (const Index a = faces[f][k], b = faces[f][(k + 1) % 3]; is_crossed(a, b))
+          crossings_[std::minmax(a, b)] = -1;
+    for (auto& [edge, row] : crossings_) row = crossing(edge.first, edge.second);
+  }
+
   // Triangles of what is left of a face; none of one that names a corner twice.
   void add(const Index* corners, Index source) {
     if (is_degenerate(corners)) return;
@@ -47,9 +56,7 @@ class Cut {
       const Index a = corners[k], b = corners[(k + 1) % 3];
       if (is_kept(a)) polygon.push_back(kept_[a]);
       any_inside = any_inside || distances_[a] > near_;
-      if ((distances_[a] > near_ && distances_[b] < -near_) ||
-          (distances_[a] < -near_ && distances_[b] > near_))
-        polygon.push_back(crossing(std::min(a, b), std::max(a, b)));
+      if (is_crossed(a, b)) polygon.push_back(crossings_.at(std::minmax(a, b)));
     }
     if (!any_inside) return;
     if (polygon.size() == 4) {
@@ -72,6 +79,10 @@ class Cut {
   using Corners = std::array<Index, 3>;
 
   bool is_kept(Index i) const { return distances_[i] >= -near_; }
+  bool is_crossed(Index a, Index b) const {
+    return std::max(distances_[a], distances_[b]) > near_ &&
+           std::min(distances_[a], distances_[b]) < -near_;
+  }
   const Vector3& at(Index row) const { return rows_[row]; }
 
   // Points that are not inside come to lie on the mirror.
@@ -86,8 +97,6 @@ class Cut {
   // Where the mirror crosses an edge: by secants that keep the zero between them (Dowell and
   // Jarratt 1971, the Illinois method). Of a plane the first is exact.
   Index crossing(Index a, Index b) {
-    const auto [found, is_new] = crossings_.try_emplace({a, b}, 0);
-    if (!is_new) return found->second;
     constexpr int most_steps = 100;
     constexpr double precision = 1e-15;  // of the edge, and of the diagonal
     // From the same end of copies of an edge, so that they cross at the same bits.
@@ -115,9 +124,8 @@ class Cut {
       }
     }
     const bool near_a = share <= 0.5;
-    found->second = add(from + share * along, near_a ? Corners{a, b, b} : Corners{b, a, a},
-                        Vector3(near_a ? 1 - share : share, near_a ? share : 1 - share, 0), false);
-    return found->second;
+    return add(from + share * along, near_a ? Corners{a, b, b} : Corners{b, a, a},
+               Vector3(near_a ? 1 - share : share, near_a ? share : 1 - share, 0), false);
   }
 
   PointsView points_;
@@ -140,6 +148,7 @@ class Cut {
 Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool positive,
              const Context& context) {
   Cut cut(points, mirror, positive, context);
+  cut.add_crossings(faces);
   for (Index f = 0; f < faces.size(); ++f) {
     if (f % 4096 == 0) context.check();
     cut.add(faces[f], f);

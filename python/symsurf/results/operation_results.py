@@ -60,7 +60,8 @@ class OperationResult(BaseResult):
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
-        faces = made["faces"] if len(made["faces"]) else None
+        has_faces = len(made["faces"]) or made["given"].faces is not None
+        faces = made["faces"] if has_faces else None
         own = [np.arange(len(made[rows])) for rows in ("points", "faces")]
         sources = [made[rows] for rows in ("point_sources", "face_sources")]
         has_parents = len(made["point_parents"]) > 0

@@ -72,13 +72,12 @@ def _sheet(surface: str, extent: float = 2.0, count: int = 30) -> Points:
     return Surface(surface).sample(extent, count)
 
 
-def _torus(count: int, large: float, small: float) -> Points:
-    """A quarter of a step round the tube, so that no point stands above another."""
-    step = 2 * np.pi / count
-    angle = np.arange(count) * step
-    u, v = (grid.ravel() for grid in np.meshgrid(angle, angle + step / 4, indexing="ij"))
-    radius = large + small * np.cos(v)
-    return np.column_stack([radius * np.cos(u), radius * np.sin(u), small * np.sin(v)])
+def _torus(around: int, across: int) -> Points:
+    """Of radii 1 and 0.4, a quarter of a step round the tube, so that no point stands above another."""
+    angles = np.arange(around) / around, (np.arange(across) + 0.25) / across
+    u, v = (2 * np.pi * grid.ravel() for grid in np.meshgrid(*angles, indexing="ij"))
+    radius = 1 + 0.4 * np.cos(v)
+    return np.column_stack([radius * np.cos(u), radius * np.sin(u), 0.4 * np.sin(v)])
 
 
 def _directions(count: int) -> Points:
@@ -172,7 +171,7 @@ _FIXED = {
     "experiment 3": _fixed(lambda: _sheet("f1"), "f3", 6),
     "experiment 4": _fixed(lambda: _sheet("f1"), "f4", 5),
     "experiment 5": _fixed(lambda: _sheet("f1", 3), "f3", 1),
-    "experiment 6": _fixed(lambda: _torus(30, 1, 0.4), "f1", 2),
+    "experiment 6": _fixed(lambda: _torus(30, 30), "f1", 2),
     "experiment 7": _fixed(lambda: _sheet("f1"), "f4", 0.5),
 }
 _PERPENDICULAR = {
@@ -187,17 +186,17 @@ _SPHERICAL = {
     "experiment 1": lambda: mirror_spherical(0.7 * _hemisphere(700, 0.95), (0, 0, 0), 1),
     "experiment 2": _spherical(_ellipsoid),
     "experiment 3": _spherical(_capsule),
-    "experiment 4": _spherical(lambda: _torus(26, 1, 0.4)),
+    "experiment 4": _spherical(lambda: _torus(35, 20)),
     "experiment 5": _spherical(_blob),
 }
 _OBJECTS: dict[str, dict[str, Callable[[], Sample] | Callable[[], Points]]] = {
     "5.26": {
         "a": lambda: _directions(1500),
         "b": _bent,
-        "c": lambda: _torus(30, 1, 0.4),
+        "c": lambda: _torus(30, 30),
         "d": _blob,
     },
-    "5.27": {"a": _spherical(_blob), "b": _spherical(lambda: _torus(30, 1, 0.4))},
+    "5.27": {"a": _spherical(_blob), "b": _spherical(lambda: _torus(30, 30))},
 }
 FIGURES = {("5.8", "separation"): ["experiment 3"]} | {
     (figure, method): list(objects)
