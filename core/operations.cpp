@@ -4,6 +4,7 @@
 #include "homologous/homologous_points.h"
 #include "light/reflection_search.h"
 #include "operations/operation.h"
+#include "remeshing/remeshing.h"
 #include "symmetries/analysis.h"
 
 namespace symsurf {
@@ -16,7 +17,7 @@ const std::vector<OperationImplementation>& operation_implementations() {
       correspondences_operation(homologous_points),
       align_operation(),
       also_about_axis(complete_operation()),
-      symmetrize_operation(),
+      symmetrize_operation({homologous_points, vertex_pairs}),
       straighten_operation(),
       remesh_operation(),
       cut_operation(),

@@ -37,10 +37,8 @@ Triangles usable(const Triangles& triangles, const Points& images) {
   return triangles(kept, Eigen::indexing::all);
 }
 
-}  // namespace
-
-HomologousPoints homologous_points(PointsView points, TrianglesView faces, PointsView images,
-                                   const Context& context) {
+HomologousPoints pairs_of(PointsView points, TrianglesView faces, PointsView images,
+                          bool is_registered, const Context& context) {
   const DistinctPoints distinct = distinct_points(points, context.stage(0, 0.05));
   const Eigen::RowVector3d origin = points.matrix().colwise().mean();
   const double unit = box_of_radii * std::sqrt((points.matrix().rowwise() - origin).squaredNorm() /
@@ -54,12 +52,14 @@ HomologousPoints homologous_points(PointsView points, TrianglesView faces, Point
   Triangles triangles(faces.size(), 3);
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) triangles(f, c) = distinct.number[faces[f][c]];
-  if (faces.empty()) triangles = cloud_laplacian(positions, context.stage(0.05, 0.2)).triangles;
+  if (faces.empty() && is_registered)
+    triangles = cloud_laplacian(positions, context.stage(0.05, 0.2)).triangles;
   triangles = usable(triangles, mirrored);
   if (triangles.rows() == 0) return found;
   const SurfaceGraph graph(positions, triangles);
-  const Points moved =
-      registered_displacements(positions, mirrored, triangles, graph, context.stage(0.2, 0.9));
+  const Points moved = is_registered ? registered_displacements(positions, mirrored, triangles,
+                                                                graph, context.stage(0.2, 0.9))
+                                     : Points::Zero(positions.rows(), 3);
   std::vector<Index> table;
   if (!faces.empty())
     table = vertex_table(positions, mirrored, graph, moved, context.stage(0.9, 1));
@@ -68,6 +68,18 @@ HomologousPoints homologous_points(PointsView points, TrianglesView faces, Point
     if (const Index partner = table[distinct.number[i]]; partner >= 0)
       found.partners[i] = distinct.first[partner];
   return found;
+}
+
+}  // namespace
+
+HomologousPoints homologous_points(PointsView points, TrianglesView faces, PointsView images,
+                                   const Context& context) {
+  return pairs_of(points, faces, images, true, context);
+}
+
+HomologousPoints vertex_pairs(PointsView points, TrianglesView faces, PointsView images,
+                              const Context& context) {
+  return pairs_of(points, faces, images, false, context);
 }
 
 }  // namespace symsurf

@@ -86,4 +86,8 @@ Points registered_displacements(PointsView points, PointsView images, TrianglesV
 HomologousPoints homologous_points(PointsView points, TrianglesView faces, PointsView images,
                                    const Context& context);
 
+/// The same by the triangles alone: the partners of vertices, without a registration.
+HomologousPoints vertex_pairs(PointsView points, TrianglesView faces, PointsView images,
+                              const Context& context);
+
 }  // namespace symsurf

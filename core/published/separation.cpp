@@ -83,9 +83,10 @@ std::vector<Parameter> normal_parameters() {
       Parameter::integer("neighbours", 10, 3, 1000, "points",
                          "Nearest points, the point itself among them, that a normal is estimated "
                          "from."),
-      Parameter::choice("normal_estimation", "pca", {"pca", "regression"},
-                        "How normals are estimated: by least variance, or by regression of z on x "
-                        "and y, which breaks on vertical patches."),
+      Parameter::choice(
+          "normal_estimation", "regression", {"regression", "pca"},
+          "How normals are estimated: by regression of z on x and y, as in the thesis, "
+          "which breaks on vertical patches, or by least variance."),
   };
 }
 

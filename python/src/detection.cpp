@@ -34,13 +34,14 @@ py::dict detect_fields(const PointsArgument& points, const FacesArgument& faces,
   return with_points(without_gil([&] { return detect(points, options, context); }), points);
 }
 
-py::dict match_fields(const PointsArgument& points, const Mirror& mirror, double pair_distance,
-                      double tolerance, bool refuse_nonfinite, const py::object& threads,
+py::dict match_fields(const PointsArgument& points, const FacesArgument& faces,
+                      const Mirror& mirror, double pair_distance, double tolerance,
+                      bool refuse_nonfinite, const py::object& threads,
                       const py::object& progress) {
   const Context context = context_from(progress, threads);
   return with_points(without_gil([&] {
                        return match(points, mirror, pair_distance, context, refuse_nonfinite,
-                                    tolerance);
+                                    tolerance, view_of(faces));
                      }),
                      points);
 }
@@ -59,9 +60,9 @@ void bind_detection(py::module_& module) {
   module.def("detect", &detect_fields, py::arg("points"), py::arg("faces"), py::arg("method"),
              py::arg("normals"), py::arg("refuse_nonfinite"), py::arg("seed"), py::arg("threads"),
              py::arg("progress"), py::arg("parameters"), "The fields of symsurf.Result.");
-  module.def("match", &match_fields, py::arg("points"), py::arg("mirror"), py::arg("pair_distance"),
-             py::arg("tolerance"), py::arg("refuse_nonfinite"), py::arg("threads"),
-             py::arg("progress"), "The fields of symsurf.Result.");
+  module.def("match", &match_fields, py::arg("points"), py::arg("faces"), py::arg("mirror"),
+             py::arg("pair_distance"), py::arg("tolerance"), py::arg("refuse_nonfinite"),
+             py::arg("threads"), py::arg("progress"), "The fields of symsurf.Result.");
   module.def("diagonal", &diagonal_of, py::arg("points"), py::arg("method"),
              py::arg("refuse_nonfinite"),
              "What detect takes parameters of the unit 'diagonal' as fractions of.");

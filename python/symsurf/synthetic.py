@@ -129,7 +129,10 @@ def remove_points(
 
 
 def rotate(points: ArrayLike, roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
-    """Turns about the origin by degrees, about x, then y, then z."""
+    """Turns about the origin by degrees, about x, then y, then z.
+
+    The thesis's manual calls the turn about y yaw and that about z pitch.
+    """
     return _core.rotate(points, roll, pitch, yaw)
 
 

@@ -123,6 +123,16 @@ TEST(Asymmetry, HasNoneWhereTheOtherSideIsMissing) {
   EXPECT_EQ(result.statistics.count("positive_volume"), 0u);
 }
 
+TEST(Asymmetry, IsThatOfTheSurface) {
+  const Ball b = ball(2);
+  Points points(b.points.rows() + 1, 3);
+  points << b.points, 0.97 * b.points.row(0);  // a vertex that no face uses
+  const OperationResult result = operate("asymmetry", {points, b.faces}, middle);
+  EXPECT_EQ(result.arrays.at("matched")(b.points.rows(), 0), 1);
+  EXPECT_EQ(figure(result, "rms"), 0);
+  EXPECT_EQ(figure(result, "maximum"), 0);
+}
+
 // The part of a ball of radius r beyond a plane at a distance d: pi h^2 (3 r - h) / 3 and 2 pi r h,
 // h = r - d.
 TEST(Asymmetry, MeasuresBothSides) {

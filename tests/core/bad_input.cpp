@@ -145,7 +145,7 @@ TEST(BadInput, ParametersOutOfRange) {
           detect(points, {.method = method.name, .parameters = {{parameter.name, value}}});
         });
     }
-  expect_error<InvalidParameter>("pair_distance is -1; allowed is [0, inf)", [&] {
+  expect_error<InvalidParameter>("pair_distance is -1; allowed is real [0, inf)", [&] {
     match(points, Plane({1, 0, 0}, 0), -1);
   });
   expect_error<InvalidParameter>("pair_distance is nan", [&] {

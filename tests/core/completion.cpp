@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
@@ -125,6 +128,89 @@ TEST(Complete, IsWhatWasCutAway) {
         << seed;
     EXPECT_EQ(TriangleMesh(result.points, result.faces).refused().total(), 0) << seed;
   }
+}
+
+int open_edges(const Triangles& faces) {
+  std::map<std::pair<Index, Index>, int> edges;
+  for (const auto& f : faces.rowwise())
+    for (int k = 0; k < 3; ++k) ++edges[std::minmax(f[k], f[(k + 1) % 3])];
+  return static_cast<int>(
+      std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second == 1; }));
+}
+
+// No side is its own counterpart, however near to the mirror it is.
+TEST(Complete, GivesAHalfItsExactImage) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const double width : {1.0, 0.05, 1e-3}) {
+      Ball b = ball(seed);
+      b.points.col(0) *= width;
+      const OperationResult half = operate("cut", {b.points, b.faces}, middle, {{"capped", false}});
+      const OperationResult asymmetry = operate("asymmetry", {half.points, half.faces}, middle);
+      EXPECT_EQ(asymmetry.arrays.at("matched"), half.arrays.at("on_mirror"));
+      const OperationResult whole = operate("complete", {half.points, half.faces}, middle);
+      expect_input_untouched(whole, half.points, half.faces);
+      EXPECT_EQ(whole.faces.rows(), 2 * half.faces.rows());
+      EXPECT_EQ(open_edges(whole.faces), 0);
+      for (Index i = half.points.rows(); i < whole.points.rows(); ++i)
+        EXPECT_EQ(Vector3(whole.points.row(i)),
+                  middle.reflect(Vector3(half.points.row(whole.point_sources[i]))));
+    }
+}
+
+TEST(Complete, FindsNoCounterpartsWithinHalfACloud) {
+  const Ball b = ball(1);
+  for (const double width : {1.0, 0.5}) {
+    std::vector<Index> positive;
+    for (Index i = 0; i < b.points.rows(); ++i)
+      if (b.points(i, 0) > 0) positive.push_back(i);
+    Points half = b.points(positive, Eigen::indexing::all);
+    half.col(0) *= width;
+    const OperationResult whole = operate("complete", {half, {}}, middle);
+    const std::set<Index> added(whole.point_sources.begin() + half.rows(),
+                                whole.point_sources.end());
+    const double spacing = 2 * std::numbers::pi / 48;
+    for (Index i = 0; i < half.rows(); ++i)
+      if (half(i, 0) > 2 * spacing) EXPECT_TRUE(added.contains(i)) << half.row(i);
+  }
+}
+
+// Of a prism, whose faces are as long as it and need not mirror, an upper part of one side is lost.
+TEST(Complete, ClosesWhatHasLongFaces) {
+  for (const bool mirrors : {true, false})
+    for (const int sides : {24, 48, 96})
+      for (const int rings : {2, 3, 20}) {
+        const int count = sides * rings;
+        Points points(count + 2, 3);
+        points.bottomRows(2) << 0, 0, 0, 0, 0, 1.5;
+        std::vector<std::array<Index, 3>> faces;
+        const auto add = [&](Index a, Index b, Index c) {
+          for (const Index i : {a, b, c}) {
+            const double turn = (static_cast<double>(i % sides) + 0.5) / sides;
+            if (i < count && std::min(turn, 1 - turn) < 0.05 && i / sides >= rings / 2) return;
+          }
+          faces.push_back({a, b, c});
+        };
+        for (int k = 0; k < sides; ++k) {
+          const int next = (k + 1) % sides, quarter = mirrors ? k % (sides / 2) / (sides / 4) : 0;
+          const double angle = 2 * std::numbers::pi * (k + 0.5) / sides;
+          const double radius = 1 + 0.25 * ((k + quarter) % 2);
+          add(count, next, k);
+          add(count + 1, count - sides + k, count - sides + next);
+          for (int ring = 0; ring < rings; ++ring) {
+            points.row(ring * sides + k) << radius * std::cos(angle),
+                0.8 * radius * std::sin(angle), 1.5 * ring / (rings - 1);
+            if (ring == 0) continue;
+            const Index below = (ring - 1) * sides, above = ring * sides;
+            add(below + k, below + next, above + next);
+            add(below + k, above + next, above + k);
+          }
+        }
+        const Triangles kept = rows_of(faces);
+        EXPECT_GT(open_edges(kept), 0);
+        const OperationResult whole = operate("complete", {points, kept}, middle);
+        EXPECT_EQ(open_edges(whole.faces), 0)
+            << sides << " sides, " << rings << " rings" << (mirrors ? ", mirrored" : "");
+      }
 }
 
 TEST(Complete, AddsNothingWhereBothSidesExist) {

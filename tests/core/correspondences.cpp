@@ -46,6 +46,23 @@ TEST(Correspondences, NeedNoWindingWhereVerticesMirror) {
   }
 }
 
+// A place lies on a face by weights that sum to 1, also on one that names a corner twice.
+TEST(Correspondences, HaveWeightsOfOneFace) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const Ball b = ball(seed);
+    Triangles faces = b.faces;
+    for (Index f = 0; f < faces.rows(); f += 5) faces(f, 1) = faces(f, 0);
+    for (const char* pairing : {"closest", "homologous"}) {
+      const OperationResult result =
+          operate("correspondences", {b.points, faces}, middle, {{"pairing", pairing}});
+      const Eigen::VectorXd face = result.arrays.at("face"),
+                            sums = result.arrays.at("weights").rowwise().sum();
+      for (Index i = 0; i < face.size(); ++i)
+        if (face[i] >= 0) EXPECT_NEAR(sums[i], 1, 1e-12);
+    }
+  }
+}
+
 // Each face with corners of its own, in an order of their own; or corners split where the fields
 // of a checkerboard meet, as the seams of textures split them.
 TEST(Correspondences, AreOneToOneOfSplitVertices) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bumpy_ball.h"
+#include "cloud/triangle_mesh.h"
 #include "expect_error.h"
 #include "random_cloud.h"
 
@@ -151,6 +152,21 @@ TEST(MirroredTriangles, AreThoseOfTheShape) {
   }
 }
 
+// Corners that are named twice are on the mirror and off it.
+TEST(MirroredTriangles, HaveThreeCornersEach) {
+  Ball b = ball(4);
+  const Index count = b.faces.rows();
+  b.faces.conservativeResize(2 * count, 3);
+  for (Index f = 0; f < count; ++f)
+    b.faces.row(count + f) << b.faces(f, 0), b.faces(f, f % 2), b.faces(f, 1);
+  const OperationInput input{b.points, b.faces};
+  for (const OperationResult& made :
+       {operate("symmetrize", input, middle, mirrored), operate("cut", input, middle),
+        operate("remesh", input, middle)})
+    for (Index f = 0; f < made.faces.rows(); ++f)
+      EXPECT_FALSE(is_degenerate(made.faces.data() + 3 * f)) << made.operation;
+}
+
 TEST(MirroredTriangles, AverageFirst) {
   const Ball b = ball(3);
   Eigen::VectorXd raised;
@@ -181,12 +197,33 @@ TEST(MirroredTriangles, RefuseWhatCannotBeMirrored) {
   expect_error<InvalidParameter>("kept then, not mirrored", [&] {
     symmetrized(b.points, b.faces, middle, {{"triangles", "mirrored"}, {"strength", 0.5}});
   });
+}
+
+// The faces of a side that meet in an edge on the mirror close it, whatever the other side does.
+TEST(MirroredTriangles, MayMeetInAnEdgeOnTheMirror) {
   Points roof(4, 3);
   roof << 0, 0, 0, 0, 1, 0, 1, 0, 1, 1, 0, -1;
   Triangles two(2, 3);
   two << 0, 1, 2, 1, 0, 3;
-  expect_error<InvalidInput>("meet in an edge on the mirror",
-                             [&] { symmetrized(roof, two, middle); });
+  const OperationResult made = symmetrized(roof, two, middle);
+  EXPECT_EQ(made.faces.rows(), 4);
+  EXPECT_EQ(edges(made.faces).at({0, 1}), 4);
+  const OperationResult half = operate("cut", {roof, two}, middle);
+  EXPECT_EQ(half.faces, two);
+  EXPECT_EQ(std::get<Index>(half.statistics.at("open_curves")), 0);
+}
+
+// A sheet with a face on each side, as CAD has them: where it is cut there is nothing to close.
+TEST(MirroredTriangles, MayBeTwoSided) {
+  Ball b = ball(2);
+  const Index count = b.faces.rows();
+  b.faces.conservativeResize(2 * count, 3);
+  b.faces.bottomRows(count) = b.faces.topRows(count).rowwise().reverse().eval();
+  const OperationResult half = operate("cut", {b.points, b.faces}, middle);
+  EXPECT_EQ(std::get<Index>(half.statistics.at("cap_faces")), 0);
+  EXPECT_EQ(std::get<Index>(half.statistics.at("open_curves")), 0);
+  const OperationResult made = symmetrized(b.points, b.faces, middle);
+  EXPECT_NEAR(area_of(made.points, made.faces), 2 * area_of(half.points, half.faces), 1e-9);
 }
 
 }  // namespace

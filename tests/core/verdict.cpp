@@ -4,13 +4,16 @@
 #include <symsurf/mirrors.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/math.h"
 #include "expect_error.h"
 #include "random_cloud.h"
+#include "test_mesh.h"
 
 namespace symsurf::verdict_tests {
 namespace {
@@ -125,6 +128,36 @@ TEST(Verdict, OfASheetThatSlides) {
         << seed << ' ' << result.reason();
     EXPECT_EQ(match(posed, *result.mirror).verdict(), "none") << seed;
   }
+}
+
+// A surface whose sides have different triangles, the vertices of one crowded at an end.
+TEST(Verdict, OfAMeshIsThatOfItsSurface) {
+  TestMesh mesh;
+  const auto add_side = [&](int rows, double power, double side) {
+    constexpr int columns = 9;
+    Points points(rows * columns, 3);
+    std::vector<std::array<Index, 3>> faces;
+    for (Index i = 0; i < points.rows(); ++i) {
+      const double u = std::pow(static_cast<double>(i / columns) / (rows - 1), power);
+      const double z = 2 * u - 1, r = std::sqrt(std::max(0.0, 1 - z * z)) * (1 + 0.3 * z);
+      const double angle =
+          std::numbers::pi * (static_cast<double>(i % columns) / (columns - 1) - 0.5);
+      points.row(i) << side * r * std::cos(angle), 0.6 * r * std::sin(angle) + 0.15 * z * z, 3 * z;
+      if (i < columns || i % columns == 0) continue;
+      faces.push_back({i - columns - 1, i - 1, i});
+      faces.push_back({i - columns - 1, i, i - columns});
+    }
+    mesh.add(points, rows_of(faces));
+  };
+  add_side(9, 1, 1);
+  add_side(40, 3, -1);
+  const Result found = detected(mesh, "plane");
+  const Result matched =
+      match(mesh.vertices, *found.mirror, 0.05, {}, false, usual_tolerance, mesh.faces);
+  EXPECT_EQ(found.verdict(), "found");
+  EXPECT_EQ(matched.verdict(), "found");
+  EXPECT_NEAR(matched.score, found.score, 1e-12);
+  EXPECT_EQ(matched.pairs, found.pairs);
 }
 
 // Two sheets that face each other, one of which is thicker by half a hundredth of the diagonal.

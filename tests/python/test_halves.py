@@ -179,16 +179,96 @@ def test_a_mirror_beside_the_shape_is_an_error(name):
         getattr(symsurf, name)(ball(2), symsurf.Plane((1, 0, 0), -2))
 
 
-def test_what_cannot_be_remeshed_is_an_error():
-    shape = ball(2)
+def test_a_cloud_cannot_be_remeshed():
     with pytest.raises(symsurf.InvalidInput, match="remesh needs a mesh"):
-        symsurf.remesh(shape.points, PLANE)
-    fin = symsurf.Shape(
+        symsurf.remesh(ball(2).points, PLANE)
+
+
+def with_a_fin(shape):
+    return symsurf.Shape(
         np.vstack([shape.points, [(2, 2, 2)]]),
         np.vstack([shape.faces, [(*shape.faces[0][:2], len(shape.points))]]),
     )
-    with pytest.raises(symsurf.InvalidInput, match="third at an edge"):
-        symsurf.remesh(fin, symsurf.Plane((0, 0, 1), 3))
+
+
+def with_faces_turned(shape):
+    faces = shape.faces.copy()
+    faces[::3] = faces[::3, ::-1]
+    return symsurf.Shape(shape.points, faces)
+
+
+def with_faces_twice(shape):
+    degenerate = shape.faces[::5].copy()
+    degenerate[:, 1] = degenerate[:, 0]
+    return symsurf.Shape(shape.points, np.vstack([shape.faces, shape.faces[:50, ::-1], degenerate]))
+
+
+@pytest.mark.parametrize("spoil", [with_a_fin, with_faces_turned, with_faces_twice])
+def test_unclean_meshes_are_repaired(spoil):
+    shape = ball(3)
+    made = symsurf.remesh(spoil(shape), PLANE, edge_length=0.03)
+    whole = shape.to_pyvista()
+    if spoil is not with_a_fin:
+        assert of(made).is_manifold
+        assert abs(of(made).volume) == pytest.approx(whole.volume, rel=0.1)
+    assert made.statistics["surface_distance_of_diagonal"] < 0.005
+    half = symsurf.cut(spoil(shape), PLANE)
+    assert (np.diff(np.sort(half.shape.faces, axis=1), axis=1) > 0).all()
+
+
+def long_torus():
+    """Sixteen steps along, 48 across."""
+    u, w = np.meshgrid(np.arange(16) / 16, np.arange(48) / 48, indexing="ij")
+    u, w = 2 * np.pi * u.ravel(), 2 * np.pi * w.ravel()
+    r = 1 + 0.1 * np.cos(w)
+    i = np.arange(16 * 48).reshape(16, 48)
+    a, b, c, d = i, np.roll(i, -1, 0), np.roll(np.roll(i, -1, 0), -1, 1), np.roll(i, -1, 1)
+    faces = np.vstack(
+        [np.c_[a.ravel(), b.ravel(), c.ravel()], np.c_[a.ravel(), c.ravel(), d.ravel()]]
+    )
+    return symsurf.Shape(np.c_[r * np.cos(u), r * np.sin(u), 0.1 * np.sin(w)], faces)
+
+
+def slender_cylinder():
+    return shape_of(pyvista.Cylinder(radius=0.1, height=1, resolution=32).clean())
+
+
+@pytest.mark.parametrize("make", [long_torus, slender_cylinder])
+@pytest.mark.parametrize("plane", [symsurf.Plane((1, 0, 0), 0), symsurf.Plane((0, 1, 0), 0)])
+def test_long_triangles_keep_their_surface(make, plane):
+    shape = make()
+    made = symsurf.remesh(shape, plane)
+    assert of(made).is_manifold
+    assert of(made).volume == pytest.approx(shape.to_pyvista().volume, rel=0.05)
+    assert made.statistics["surface_distance_of_diagonal"] < 0.005
+
+
+def test_triangles_far_from_the_surface_are_warned_of():
+    with pytest.warns(symsurf.InputWarning, match="% of the diagonal, from the surface"):
+        made = symsurf.remesh(ball(), PLANE, edge_length=0.3)
+    own = PLANE.signed_distance(ball().points) >= 0
+    distance = np.abs(points_distance(ball().points[own], made.shape)).max()
+    assert made.statistics["surface_distance"] >= distance * (1 - 1e-5)
+    assert made.statistics["surface_distance_of_diagonal"] > 0.005
+
+
+@pytest.mark.parametrize("name", ["cut", "remesh"])
+def test_the_order_of_the_faces_does_not_matter(name, rng):
+    shape = torus()
+    given = [shape, symsurf.Shape(shape.points, rng.permutation(shape.faces))]
+    one, other = (getattr(symsurf, name)(each, PLANE) for each in given)
+    np.testing.assert_array_equal(one.shape.points, other.shape.points)
+    ordered = [np.unique(np.sort(made.shape.faces, axis=1), axis=0) for made in (one, other)]
+    np.testing.assert_array_equal(*ordered)
+
+
+def test_an_even_cap_has_triangles_like_the_others():
+    plain, even = (symsurf.cut(ball(), PLANE, even_cap=each) for each in (False, True))
+    areas = [of(made).compute_cell_sizes()["Area"][made.cap] for made in (plain, even)]
+    assert areas[0].sum() == pytest.approx(areas[1].sum(), rel=1e-9)
+    assert of(plain).is_manifold and of(even).is_manifold
+    others = of(even).compute_cell_sizes()["Area"][~even.cap].mean()
+    assert others / 3 < areas[1].mean() < 3 * others
 
 
 def test_a_surface_with_split_vertices_is_closed_too():
@@ -225,7 +305,8 @@ def test_half_a_cloud_as_an_object_of_pyvista(capped):
     half = symsurf.cut(cloud, symsurf.Plane((1, 0, 0), 0), capped=capped).like(cloud)
     assert (half.points[:, 0] > 0).all() and set(half["number"]) == set(range(500))
     assert "on_mirror" in half.point_data and "cap" not in half.cell_data
-    grid = pyvista.ImageData(dimensions=(4, 4, 4)).cast_to_unstructured_grid()
+    lattice = pyvista.ImageData(dimensions=(4, 4, 4)).cast_to_unstructured_grid()
+    grid = pyvista.PolyData(np.asarray(lattice.points)).cast_to_unstructured_grid()
     assert symsurf.cut(grid, symsurf.Plane((1, 0, 0), -1.5)).like(grid).n_points == 32
 
 

@@ -188,6 +188,16 @@ def test_faces_find_the_mirror_of_a_chair(seed):
         np.testing.assert_array_equal(result.pairs, first.pairs)
 
 
+def test_faces_count_for_a_known_mirror():
+    points, faces, *_ = chair(0)
+    shape = symsurf.Shape(points, faces)
+    found = symsurf.detect(shape, "plane")
+    matched = symsurf.match(shape, found)
+    assert matched.verdict == found.verdict
+    assert matched.score == pytest.approx(found.score, abs=1e-12)
+    np.testing.assert_array_equal(matched.pairs, found.pairs)
+
+
 def test_faces_can_be_left_aside():
     points, faces, *_ = chair(0)
     plain = symsurf.detect(points, "plane")
@@ -203,8 +213,21 @@ def test_polygons_are_divided():
     result = symsurf.detect(mesh, "plane")
     assert result.faces.shape == (12, 3) and result.statistics["surface_samples"] > 10000
     assert np.abs(result.mirror.normal).max() > 0.9999
-    cells = pyvista.UnstructuredGrid({pyvista.CellType.HEXAHEDRON: np.arange(8)[None]}, mesh.points)
-    assert symsurf.detect(cells, "plane").faces is None  # a body, not its surface
+
+
+def test_solid_cells_have_an_outer_surface(tmp_path):
+    """Whatever their kind; points inside belong to no face."""
+    pyvista = pytest.importorskip("pyvista")
+    bricks = pyvista.ImageData(dimensions=(4, 5, 6)).cast_to_unstructured_grid()
+    tetrahedra = pyvista.ImageData(dimensions=(4, 5, 6)).to_tetrahedra()
+    for grid in bricks, tetrahedra:
+        grid.save(tmp_path / "body.vtu")
+        shape = symsurf.read(tmp_path / "body.vtu")
+        corners = shape.points[shape.faces]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert len(shape.points) == grid.n_points
+        assert np.linalg.norm(normals, axis=1).sum() / 2 == pytest.approx(2 * (12 + 15 + 20))
+        assert abs(np.einsum("ij,ij->", corners[:, 0], normals) / 6) == pytest.approx(60)
 
 
 def test_cells_that_name_no_point():

@@ -374,3 +374,39 @@ def test_completion_is_the_shape_that_was_lost(ball):
     whole = symsurf.complete(symsurf.Shape(points, ball[0].faces), PLANE)
     assert len(whole.shape.points) == len(points) and not whole.origin.any()
     assert len(whole.patch.points) == 0
+
+
+def icosphere(scale=(1, 0.7, 0.5)):
+    mesh = pyvista.Icosphere(radius=1, nsub=4)
+    return np.asarray(mesh.points, dtype=float) * scale, mesh.regular_faces
+
+
+def test_a_sculpted_side_is_carried_vertex_to_vertex():
+    """However the other side lies now, the triangles tell its vertices."""
+    rest, faces = icosphere()
+    mirrored = rest * (-1, 1, 1)
+    partner = np.array([np.linalg.norm(rest - x, axis=1).argmin() for x in mirrored])
+    bump = 0.1 * np.exp(-((((rest - [0.6, 0.4, 0.1]) / 0.25) ** 2).sum(axis=1)))
+    sculpted = np.where(rest[:, :1] > 1e-9, rest * (1 + bump[:, None]), rest)
+    plane = symsurf.Plane((1, 0, 0), 0)
+    for pairing in ("closest", "homologous"):
+        made = symsurf.symmetrize(
+            symsurf.Shape(sculpted, faces), plane, side="positive", pairing=pairing
+        )
+        points = made.shape.points
+        np.testing.assert_allclose(points[partner] * (-1, 1, 1), points, atol=1e-6)
+        np.testing.assert_allclose(points[rest[:, 0] > 0], sculpted[rest[:, 0] > 0])
+
+
+def test_completed_shapes_have_three_corners_a_face():
+    points, faces = icosphere()
+    faces = np.vstack([faces, [(3, 3, 5), (7, 9, 9)]])
+    half = symsurf.cut(symsurf.Shape(points, faces), symsurf.Plane((1, 0, 0), 0.01), capped=False)
+    spoilt = symsurf.Shape(half.shape.points, np.vstack([[(2, 2, 4)], half.shape.faces]))
+    whole = symsurf.complete(spoilt, symsurf.Plane((1, 0, 0), 0.01))
+    made = whole.shape.faces
+    assert (np.diff(np.sort(made, axis=1), axis=1) > 0).all()
+    assert len(made) == 2 * len(half.shape.faces) == len(whole.face_sources)
+    assert whole.shape.to_pyvista().is_manifold
+    assert len(whole.patch.faces) == len(half.shape.faces)
+    assert (spoilt.faces[whole.face_sources[: len(half.shape.faces)]] == half.shape.faces).all()

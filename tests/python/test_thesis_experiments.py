@@ -334,9 +334,29 @@ def test_undefined_places_are_skipped_and_counted(tmp_path):
     assert errors.skipped > 0 and errors.counted + errors.skipped == len(result.surface_points)
 
 
+def test_rows_say_what_the_text_says():
+    """Which surfaces are incorrect, and what the uniform grid repairs; Figure 5.8: without normals
+    what a plane does not separate is not found."""
+    rmse = {
+        (row.table, row.method, row.name): tables.measure(row).figures["rmse"]
+        for row in tables.rows()
+        if (row.table, row.name)
+        in {("5.8", "experiment 3"), ("5.5", "uneven 1"), ("5.5", "uneven 2")}
+        or (row.table in ("5.2", "5.3") and row.name in ("experiment 3", "experiment 5"))
+        if not row.method.startswith("sphere")
+    }
+    assert rmse["5.2", "separation_normals", "experiment 5"] > 0.3
+    assert rmse["5.3", "normals_only", "experiment 5"] > 0.1
+    for method, share in ("separation", 0.05), ("separation_normals", 0.5):
+        assert rmse["5.5", method, "uneven 2"] < share * rmse["5.5", method, "uneven 1"]
+    with_normals = rmse["5.2", "separation_normals", "experiment 3"]
+    assert rmse["5.8", "separation", "experiment 3"] > 3 * with_normals
+
+
 @full_run
 def test_the_demonstration_prints_every_row_of_the_tables_asked_for(tmp_path):
-    assert len(list(tables.rows())) == (7 + 6 + 6 + 5 + 23) + (5 + 6)
+    shown = 1 + 4 * (4 + 2)  # in figures
+    assert len(list(tables.rows())) == (7 + 6 + 6 + 5 + 23) + (5 + 6) + shown
     printed = shell("demo thesis --tables 5.3 5.1 --no-pictures --output pictures", tmp_path)
     lines = [line for line in printed.splitlines() if line and not line.startswith("table")]
     assert len(lines) == 7 + 6

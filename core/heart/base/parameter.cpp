@@ -141,7 +141,7 @@ Value Parameter::checked(const Value& value) const {
       const double* real = std::get_if<double>(&value);
       if (!whole && !real) return fail();
       const double v = real ? *real : static_cast<double>(*whole);
-      return within(v) ? Value(v) : fail();
+      return std::isfinite(v) && within(v) ? Value(v) : fail();
     }
     case ParameterType::Choice: {
       const std::string* v = std::get_if<std::string>(&value);

@@ -59,13 +59,14 @@ double squared_distance(const Eigen::AlignedBox3d& box, const Vector3& query) {
 }  // namespace
 
 ClosestPointOnMesh::ClosestPointOnMesh(PointsView points, TrianglesView faces,
-                                       const Context& context) {
+                                       const Context& context,
+                                       const std::function<bool(Index)>& uses) {
   Eigen::AlignedBox3d box;
   std::vector<Centroid> centroids;
   centroids.reserve(faces.size());
   interruptible_for(context, faces.size(), [&](Index f) {
     const Vector3 a = points[faces[f][0]], b = points[faces[f][1]], c = points[faces[f][2]];
-    if (!a.allFinite() || !b.allFinite() || !c.allFinite()) return;
+    if (!a.allFinite() || !b.allFinite() || !c.allFinite() || (uses && !uses(f))) return;
     box.extend(a).extend(b).extend(c);
     centroids.push_back({(a + b + c) / 3, f});
   });

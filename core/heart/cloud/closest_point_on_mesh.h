@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct ClosestPoint {
 /// finite are never found.
 class ClosestPointOnMesh {
  public:
-  /// The corners must be among the points. Copies what it is given.
-  ClosestPointOnMesh(PointsView points, TrianglesView faces, const Context& context = {});
+  /// The corners must be among the points. Copies what it is given. `uses`: of which faces; all
+  /// without it.
+  ClosestPointOnMesh(PointsView points, TrianglesView faces, const Context& context = {},
+                     const std::function<bool(Index face)>& uses = {});
 
   /// The closest point whose squared distance is no more than `limit`; none to a query that is not
   /// finite.

@@ -121,7 +121,7 @@ TriangleMesh::TriangleMesh(PointsView points, TrianglesView faces, const Context
   interruptible_for(context, faces.size(), [&](Index f) {
     context.check();  // at a vertex with many faces one takes long
     const Corners face{faces[f][0], faces[f][1], faces[f][2]};
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+    if (is_degenerate(faces[f])) {
       ++refused_.degenerate;
       mesh_->keep_aside(f, face, false);
       return;

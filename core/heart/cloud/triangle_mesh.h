@@ -11,6 +11,11 @@ namespace symsurf {
 /// Throws InvalidInput naming the first face with a corner that is none of so many points.
 void require_corners(TrianglesView faces, Index points);
 
+/// Whether a face names a corner twice.
+inline bool is_degenerate(const Index* face) {
+  return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+}
+
 /// The area of the faces, in square input units.
 double surface_area(PointsView points, TrianglesView faces);
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "base/math.h"
 #include "detection/pipeline.h"
 #include "pairing/matching.h"
 #include "preprocess/boundary.h"
@@ -72,17 +72,19 @@ Result scored_over(const Cloud& cloud, const Mirror& mirror, const Context& cont
 }
 
 // A known mirror in place of a method that finds one.
-MethodImplementation matching(const Mirror& mirror, double pair_distance) {
+MethodImplementation matching(const std::shared_ptr<Mirror>& known, double pair_distance) {
   MethodImplementation method;
   method.name = "match";
   method.minimum_points = 1;
   method.preprocessing = Preprocessing::none();
-  method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates = true;
-  method.run = [&mirror, pair_distance](const Cloud& cloud, const ParameterValues&,
-                                        const Context& context) {
-    Result result = scored_over(cloud, mirror, context.stage(0, 0.2));
+  method.preprocessing.remove_outliers = method.preprocessing.merge_duplicates =
+      method.preprocessing.sample_faces = true;
+  method.run = [known, pair_distance](const Cloud& cloud, const ParameterValues&,
+                                      const Context& context) {
+    Result result = scored_over(cloud, *known, context.stage(0, 0.2));
     result.method = "match";
-    add_pairs(result, cloud, mirror, pair_distance * cloud.diagonal, context.stage(0.2, 1));
+    result.mirror = known;
+    add_pairs(result, cloud, *known, pair_distance * cloud.diagonal, context.stage(0.2, 1));
     return result;
   };
   return method;
@@ -91,17 +93,20 @@ MethodImplementation matching(const Mirror& mirror, double pair_distance) {
 }  // namespace
 
 Result match(PointsView points, const Mirror& mirror, double pair_distance, const Context& context,
-             bool refuse_nonfinite, double tolerance) {
-  const ParameterValues values("match", {symsurf::tolerance()}, {{"tolerance", tolerance}});
-  if (!(pair_distance >= 0 && std::isfinite(pair_distance)))
-    throw InvalidParameter("pair_distance is " + to_string(Value(pair_distance)) +
-                           "; allowed is [0, inf)");
+             bool refuse_nonfinite, double tolerance, TrianglesView faces) {
+  const ParameterValues values(
+      "match", {symsurf::tolerance(), Parameter::real("pair_distance", 0, 0, infinity, "", "")},
+      {{"tolerance", tolerance}, {"pair_distance", pair_distance}});
   const auto start = std::chrono::steady_clock::now();
   Cloud cloud(points);
   cloud.tolerance = values.real("tolerance");
+  cloud.faces = faces;
+  // Its owner keeps it.
+  const std::shared_ptr<Mirror> known(std::shared_ptr<Mirror>(), const_cast<Mirror*>(&mirror));
   Result result =
-      run_pipeline(matching(mirror, pair_distance), {}, cloud, refuse_nonfinite, context);
-  result.parameters = {{"pair_distance", pair_distance}, {"tolerance", tolerance}};
+      run_pipeline(matching(known, pair_distance), values, cloud, refuse_nonfinite, context);
+  result.mirror = nullptr;
+  result.parameters = values.all();
   judge(result, &mirror, usual_minimum_score);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

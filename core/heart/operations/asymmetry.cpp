@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -168,7 +169,13 @@ void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, co
       static_cast<double>(counterparts.matched()) / static_cast<double>(count);
   counterparts.report_unmatched(statistics);
   statistics["diagonal"] = diagonal;
-  report_distances(statistics, distance, outward, diagonal, context);
+  Eigen::VectorXd of_surface = distance;  // not of vertices that no face uses
+  if (!input.faces.empty()) {
+    of_surface.setConstant(std::numeric_limits<double>::quiet_NaN());
+    for (Index f = 0; f < input.faces.size(); ++f)
+      for (int k = 0; k < 3; ++k) of_surface[input.faces[f][k]] = distance[input.faces[f][k]];
+  }
+  report_distances(statistics, of_surface, outward, diagonal, context);
   if (!input.faces.empty())
     report_sides(statistics, input, mirror, counterparts.is_watertight(), context.stage(0.8, 1));
   result.arrays = {{"vector", vector},         {"distance", distance}, {"signed", outward},

@@ -3,12 +3,15 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/linear_algebra.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/point_tree.h"
+#include "cloud/triangulation.h"
 #include "operations/counterparts.h"
 #include "operations/meshes.h"
 #include "operations/operation.h"
@@ -20,11 +23,12 @@ namespace {
 constexpr Index shift_neighbours = 16;  // that the shift of a point is the mean of
 constexpr double touching = 4;          // spacings: less than two rows of faces of each rim
 
-constexpr double usual_gaps = 4;    // medians: of a normal distribution one in 150 is more
-constexpr double widths = 2;        // spacings
-constexpr double cloud_gap = 3;     // spacings: gaps of random samples are narrower
-constexpr double cloud_reach = 2;   // spacings between neighbours
-constexpr Index within_reach = 16;  // points: about thirteen are
+constexpr double usual_gaps = 4;           // medians: of a normal distribution one in 150 is more
+constexpr double widths = 2;               // spacings
+constexpr double cloud_gap = 3;            // spacings: gaps of random samples are narrower
+constexpr double cloud_reach = 2;          // spacings between neighbours
+constexpr Index within_reach = 16;         // points: about thirteen are
+constexpr std::size_t largest_hole = 512;  // edges: to fill one takes time by their cube
 
 // Adds vertices that are doubtful beside those that are missing; of doubtful ones as many at a
 // place at the most as are missing for sure.
@@ -53,8 +57,8 @@ void spread_over_mesh(std::vector<bool>& missing, const TriangleMesh& mesh,
 bool is_beyond(const OperationInput& input, const Counterparts& counterparts, Index i,
                double max_distance) {
   const Counterpart& c = counterparts[i];
-  if (c.face < 0) return false;
   if (c.past_rim) return true;
+  if (c.face < 0) return false;
   if (c.gap <= max_distance) return false;
   if (!counterparts.is_watertight()) return true;
   // Within a closed surface nothing is missing: there lies the image of where it was broken.
@@ -124,105 +128,188 @@ std::vector<bool> missing_points(const OperationInput& input, const Counterparts
 
 enum Origin { original, mirrored, at_seam };
 
-// The images of what is missing, their points behind those of the input.
+// The images of what is missing, their points behind those of the input. They are welded to the
+// shape where each point around them has an exact partner; elsewhere a seam is to join them.
 class Completion {
  public:
   // `turned`: whether the images of faces are wound the other way.
   Completion(const OperationInput& input, const Counterparts& counterparts,
              const std::vector<bool>& missing, bool turned)
-      : input_(input), counterparts_(counterparts), missing_(missing), turned_(turned) {
+      : input_(input),
+        counterparts_(counterparts),
+        missing_(missing),
+        turned_(turned),
+        parts_(input.points.size()),
+        islands_(input.points.size()),
+        number_(input.points.size(), -1) {
+    const Index count = input.points.size();
     if (input.faces.empty()) {
-      for (Index i = 0; i < input.points.size(); ++i)
+      for (Index i = 0; i < count; ++i)
         if (missing[i]) sources_.push_back(i);
       return;
     }
-    added_.meets_mesh.assign(input.points.size(), false);
+    const double exact = mirror_tolerance * diagonal_of(input.points);
+    for (Index i = 0; i < count; ++i)
+      if (const Index j = counterparts[i].nearest;
+          j >= 0 && !missing[i] && (counterparts.preimage(i) - input.points[j]).norm() <= exact)
+        number_[i] = j;
+    meets_mesh_.assign(count, false);
+    std::vector<Index> beside;  // of the parts that are beside something else, a point each
+    std::set<std::pair<Index, Index>> rims;
+    for (const std::vector<Index>& loop : counterparts.mesh().boundary_loops())
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        rims.insert(std::minmax(loop[k], loop[(k + 1) % loop.size()]));
+    const auto has_room = [&](Index a, Index b) {  // beside an edge of the shape, or for a new one
+      if (a < 0 || b < 0 || rims.contains(std::minmax(a, b))) return true;
+      const std::vector<Index> around = counterparts.mesh().neighbours(a);
+      return !std::binary_search(around.begin(), around.end(), b);
+    };
     for (Index f = 0; f < input.faces.size(); ++f) {
       const Index* corner = input.faces[f];
       const int lost = missing[corner[0]] + missing[corner[1]] + missing[corner[2]];
-      if (lost == 3) faces_.push_back(f);
-      if (lost == 1 || lost == 2)
-        for (int c = 0; c < 3; ++c) added_.meets_mesh[corner[c]] = true;
+      if (lost == 0 || is_degenerate(corner)) continue;
+      faces_.push_back(f);
+      const Index part = missing_corner(f);
+      for (int c = 0; c < 3; ++c) {
+        const Index own = corner[c];
+        if (missing[own])
+          parts_.join(own, part);
+        else if (number_[own] < 0 || !has_room(number_[own], number_[corner[(c + 1) % 3]]))
+          beside.push_back(part);
+        if (lost < 3) meets_mesh_[corner[c]] = true;
+      }
     }
+    is_beside_.assign(count, false);
+    for (const Index i : beside) is_beside_[parts_.root(i)] = true;
+    std::erase_if(faces_, [&](Index f) {
+      const Index* corner = input.faces[f];
+      return is_beside_[part_of(f)] &&
+             !(missing[corner[0]] && missing[corner[1]] && missing[corner[2]]);
+    });
+    std::stable_partition(faces_.begin(), faces_.end(),
+                          [&](Index f) { return !is_beside_[part_of(f)]; });
   }
 
   // Leaves out the parts whose rim the shape does not surround.
   void keep_holes() {
-    DisjointSets parts(input_.points.size());
     Triangles kept(static_cast<Index>(faces_.size()), 3);
-    for (Index k = 0; k < kept.rows(); ++k) {
-      const Index* corner = input_.faces[faces_[k]];
-      kept.row(k) << corner[0], corner[1], corner[2];
-      for (int c = 0; c < 2; ++c) parts.join(corner[c + 1], corner[c]);
-    }
+    for (Index k = 0; k < kept.rows(); ++k)
+      kept.row(k) = Eigen::Map<const Triangles>(input_.faces[faces_[k]], 1, 3);
     std::vector<bool> is_open(input_.points.size(), false);
     const std::vector<bool> is_rim = TriangleMesh(input_.points, kept).is_boundary();
-    for (const Index f : faces_)
-      for (int c = 0; c < 3; ++c) {
-        const Index i = input_.faces[f][c];
-        if (is_rim[i] && !added_.meets_mesh[i]) is_open[parts.root(i)] = true;
-      }
-    std::erase_if(faces_, [&](Index f) { return is_open[parts.root(input_.faces[f][0])]; });
+    for (Index i = 0; i < input_.points.size(); ++i)
+      if (missing_[i] && is_rim[i] && !meets_mesh_[i]) is_open[parts_.root(i)] = true;
+    std::erase_if(faces_, [&](Index f) { return is_open[part_of(f)]; });
   }
 
   // Appends the points, bent to meet the shape over `reach`, and the faces.
   void append_to(OperationResult& result, double reach, const Context& context) {
     const Index first = input_.points.size();
-    if (!faces_.empty()) {
-      std::vector<Index> number(first, -1);
-      for (const Index f : faces_)
-        for (int c = 0; c < 3; ++c) number[input_.faces[f][c]] = 0;
+    const auto welded = std::partition_point(faces_.begin(), faces_.end(),
+                                             [&](Index f) { return !is_beside_[part_of(f)]; });
+    const auto number_points = [&](auto begin, auto end) {
+      std::vector<bool> used(first, false);
+      for (; begin != end; ++begin)
+        for (int c = 0; c < 3; ++c) used[input_.faces[*begin][c]] = true;
       for (Index i = 0; i < first; ++i)
-        if (number[i] == 0) {
-          number[i] = first + static_cast<Index>(sources_.size());
+        if (used[i] && number_[i] < 0) {
+          number_[i] = first + static_cast<Index>(sources_.size());
           sources_.push_back(i);
         }
-      added_.faces.resize(static_cast<Index>(faces_.size()), 3);
-      for (Index k = 0; k < added_.faces.rows(); ++k) {
-        const Index* corner = input_.faces[faces_[k]];
-        added_.faces.row(k) << number[corner[0]], number[corner[1]], number[corner[2]];
-        if (turned_) std::swap(added_.faces(k, 0), added_.faces(k, 2));
-      }
-    }
-    added_.first = first;
+    };
+    number_points(faces_.begin(), welded);
+    first_beside_ = first + static_cast<Index>(sources_.size());
+    faces_beside_ = faces_.end() - welded;
+    number_points(welded, faces_.end());
+    Triangles faces(static_cast<Index>(faces_.size()), 3);
+    for (Index k = 0; k < faces.rows(); ++k)
+      for (int c = 0; c < 3; ++c)
+        faces(k, turned_ ? 2 - c : c) = number_[input_.faces[faces_[k]][c]];
     result.points.conservativeResize(first + static_cast<Index>(sources_.size()), 3);
     for (std::size_t k = 0; k < sources_.size(); ++k)
       result.points.row(first + static_cast<Index>(k)) =
           counterparts_.preimage(sources_[k]).transpose();
     if (reach > 0 && !sources_.empty()) bend(result.points, reach, context);
-    append_faces(result, added_.faces, faces_);
+    append_faces(result, faces, faces_);
   }
 
-  // Joins the added faces to the rims of the shape; the corners there.
+  // Joins the added faces to the rims of the shape and fills the holes that are left; the corners
+  // there.
   std::vector<bool> close_seam(OperationResult& result, const Context& context) {
-    std::vector<bool> joined(result.points.rows(), false);
-    std::vector<bool> meets(sources_.size());
-    for (std::size_t k = 0; k < sources_.size(); ++k) meets[k] = added_.meets_mesh[sources_[k]];
-    added_.meets_mesh = meets;
-    std::vector<bool> fillable(input_.points.size());
-    for (std::size_t i = 0; i < fillable.size(); ++i) {
-      const Counterpart& c = counterparts_[static_cast<Index>(i)];
-      fillable[i] = c.matched && !c.on_rim;
-    }
-    const Triangles seam = seam_between(result.points, counterparts_.mesh(), added_, fillable,
-                                        touching * counterparts_.spacing(), context);
-    std::vector<Index> face_at(input_.points.size(), 0);
+    const Index count = input_.points.size();
+    AddedPart added{first_beside_, result.faces.bottomRows(faces_beside_), {}};
+    for (Index k = first_beside_ - count; k < static_cast<Index>(sources_.size()); ++k)
+      added.meets_mesh.push_back(meets_mesh_[sources_[k]]);
+    const TriangleMesh before(
+        PointsView(result.points.data(), first_beside_),
+        TrianglesView(result.faces.data(), result.faces.rows() - faces_beside_), context);
+    std::vector<Index> face_at(count, 0);
     for (Index f = 0; f < input_.faces.size(); ++f)
       for (int c = 0; c < 3; ++c) face_at[input_.faces[f][c]] = f;
-    std::vector<Index> sources;
-    for (const auto& corner : seam.rowwise()) {
-      const Index i = corner[0];
-      sources.push_back(face_at[i < added_.first ? i : sources_[i - added_.first]]);
-      for (const Index j : corner) joined[j] = true;
+    std::vector<bool> joined(result.points.rows(), false);
+    const auto append = [&](const Triangles& seam) {
+      std::vector<Index> sources;
+      for (const auto& corner : seam.rowwise()) {
+        const Index i = corner[0];
+        sources.push_back(face_at[i < count ? i : sources_[i - count]]);
+        for (const Index j : corner) joined[j] = true;
+      }
+      append_faces(result, seam, sources);
+    };
+    append(seam_between(result.points, before, added, touching * counterparts_.spacing(), context));
+    const TriangleMesh whole(result.points, result.faces, context);
+    std::vector<bool> is_boundary = whole.is_boundary();
+    const auto goes_on = [&](Index i) {  // the surface, beyond the rim
+      if (!is_boundary[i]) return false;
+      if (i >= count) return bool(meets_mesh_[sources_[i - count]]);
+      const Counterpart& c = counterparts_[i];
+      return c.face >= 0 && !c.past_rim && (!c.on_rim || c.nearest == i);
+    };
+    for (const Index f : faces_)
+      for (int c = 0; c < 2; ++c) islands_.join(input_.faces[f][c], input_.faces[f][c + 1]);
+    std::vector<Index> alone;  // of each loop of what was added that nothing is joined to
+    for (const std::vector<Index>& loop : whole.boundary_loops()) {
+      if (loop.size() > largest_hole || !std::all_of(loop.begin(), loop.end(), goes_on)) continue;
+      context.check();
+      if (std::all_of(loop.begin(), loop.end(), [&](Index i) { return i >= count; })) {
+        alone.push_back(loop[0]);
+        continue;
+      }
+      append(loop_triangulation(result.points, loop));
+      for (const Index i : loop) is_boundary[i] = false;
     }
-    append_faces(result, seam, sources);
+    const std::vector<bool> was_boundary = counterparts_.mesh().is_boundary();
+    for (const Index k : alone) {
+      Index rim = -1;
+      for (Index i = 0; i < count; ++i)
+        if (was_boundary[i] &&
+            (rim < 0 || (result.points.row(i) - result.points.row(k)).norm() <
+                            (result.points.row(rim) - result.points.row(k)).norm()))
+          rim = i;
+      if (rim >= 0 && !is_boundary[rim]) apart_.push_back(islands_.root(sources_[k - count]));
+    }
     return joined;
+  }
+
+  // No longer counts as missing what lies in a hole that was filled without it; false: nothing
+  // does.
+  bool drop_what_lies_apart(std::vector<bool>& missing) {
+    for (Index i = 0; i < input_.points.size(); ++i)
+      if (std::find(apart_.begin(), apart_.end(), islands_.root(i)) != apart_.end())
+        missing[i] = false;
+    return !apart_.empty();
   }
 
   const std::vector<Index>& sources() const { return sources_; }
 
  private:
   static constexpr Index grain = 512;  // points; some ten microseconds each
+
+  Index missing_corner(Index f) const {
+    const Index* corner = input_.faces[f];
+    return *std::find_if(corner, corner + 2, [&](Index i) { return missing_[i]; });
+  }
+  Index part_of(Index f) { return parts_.root(missing_corner(f)); }
 
   static void append_faces(OperationResult& result, const Triangles& faces,
                            const std::vector<Index>& sources) {
@@ -248,7 +335,7 @@ class Completion {
     parallel_for(context, static_cast<Index>(sources_.size()), grain, [&](Index begin, Index end) {
       std::vector<Neighbour> near;
       for (Index k = begin; k < end; ++k) {
-        auto x = points.row(added_.first + k);
+        auto x = points.row(input_.points.size() + k);
         tree.nearest(x.transpose(), shift_neighbours, near);
         const double distance = std::sqrt(near.front().squared_distance);
         const double fade = biweight(distance / reach);
@@ -271,9 +358,15 @@ class Completion {
   const Counterparts& counterparts_;
   const std::vector<bool>& missing_;
   bool turned_;
-  std::vector<Index> faces_;    // of the input, whose images are added
-  std::vector<Index> sources_;  // of the added points
-  AddedPart added_;
+  DisjointSets parts_;            // of missing points
+  DisjointSets islands_;          // of the points of added faces
+  std::vector<bool> is_beside_;   // of the root of each part: whether a seam is to join it
+  std::vector<Index> number_;     // in the result, of the image of each point; -1: none yet
+  std::vector<Index> faces_;      // of the input, whose images are added: those welded first
+  std::vector<Index> sources_;    // of the added points
+  std::vector<bool> meets_mesh_;  // one a point, missing or not: beside what is the other
+  Index first_beside_ = 0, faces_beside_ = 0;  // behind what is welded
+  std::vector<Index> apart_;  // roots of islands in holes that were closed without them
 };
 
 }  // namespace
@@ -286,27 +379,34 @@ void complete_by(const SymmetryMap& map, const ParameterValues& values, const Co
   const OperationInput input{given, given_faces};
   const Counterparts counterparts(input, map, limits_of(values, input.points),
                                   context.stage(0, 0.6));
-  const std::vector<bool> missing = missing_points(
+  std::vector<bool> missing = missing_points(
       input, counterparts, limits_of(values, input.points).distance, context.stage(0.6, 0.7));
   const Index points = given.rows(), faces = given_faces.rows();
 
-  Completion completion(input, counterparts, missing, map.is_reflection());
-  if (values.choice("fill") == "holes") completion.keep_holes();
   // What is nearest to a turned point of a cloud may be the other side of a wall; sides that differ
   // as those of a mirror do there are none.
-  const bool is_bent = map.is_reflection() || !input.faces.empty();
-  completion.append_to(result, is_bent ? values.real("blend") * diagonal_of(input.points) : 0,
-                       context.stage(0.7, 0.9));
-  const Index patch = result.faces.rows() - faces;
+  const bool is_bent = map.is_reflection() || faces > 0;
+  const double reach = is_bent ? values.real("blend") * diagonal_of(input.points) : 0;
+  std::optional<Completion> completion;
+  std::vector<bool> joined;
+  Index patch = 0;
+  do {
+    result.points = given;
+    result.faces = given_faces;
+    result.face_sources = face_sources;
+    completion.emplace(input, counterparts, missing, map.is_reflection());
+    if (values.choice("fill") == "holes") completion->keep_holes();
+    completion->append_to(result, reach, context.stage(0.7, 0.9));
+    patch = result.faces.rows() - faces;
+    joined.assign(result.points.rows(), false);
+    if (values.boolean("close_seam") && faces > 0)
+      joined = completion->close_seam(result, context.stage(0.9, 1));
+  } while (completion->drop_what_lies_apart(missing));
   Eigen::MatrixXd& origin = result.arrays["origin"];
   origin.conservativeResize(result.points.rows(), 1);
-  origin.bottomRows(result.points.rows() - points).setConstant(mirrored);
-  if (values.boolean("close_seam") && faces > 0) {
-    const std::vector<bool> joined = completion.close_seam(result, context.stage(0.9, 1));
-    for (Index i = points; i < result.points.rows(); ++i)
-      if (joined[i]) origin(i, 0) = at_seam;
-  }
-  for (const Index i : completion.sources()) result.point_sources.push_back(point_sources[i]);
+  for (Index i = points; i < result.points.rows(); ++i)
+    origin(i, 0) = joined[i] ? at_seam : mirrored;
+  for (const Index i : completion->sources()) result.point_sources.push_back(point_sources[i]);
   for (std::size_t f = face_sources.size(); f < result.face_sources.size(); ++f)
     result.face_sources[f] = face_sources[result.face_sources[f]];
   if (map.is_reflection()) counterparts.report_unmatched(result.statistics);

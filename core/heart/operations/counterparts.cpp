@@ -24,7 +24,8 @@ namespace {
 
 constexpr Index grain = 512;          // points; some ten microseconds each over a free-form mirror
 constexpr double corner = 1e-9;       // a barycentric weight below this is rounding
-constexpr double rim_of_mesh = 0.1;   // of the face's longest edge: how far past it is on it still
+constexpr double rim_of_mesh = 0.1;   // of the spacing and of the face's longest edge: how far past
+                                      // it is on it still
 constexpr double rim_of_cloud = 1.5;  // spacings: inside a surface the nearest point is nearer
 constexpr Index neighbours = 10;      // that a cloud's normals are estimated from
 constexpr double exact = 1e-6;        // diagonals between a point and an image: single precision
@@ -91,6 +92,7 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
       all_(input.points.size()),
       images_(map.images(input.points, context.stage(0, 0.3))) {
   require_images(images_, map.kind());
+  distances_ = map.signed_distance(input.points, context.stage(0.3, 0.3));
   if (!map.is_reflection()) preimages_ = map.inverse().images(input.points, context);
   const double registered = homologous ? 0.8 : 0.3;
   if (homologous)
@@ -151,7 +153,7 @@ void Counterparts::report_unmatched(Values& statistics) const {
                                      [&](const Counterpart& c) { return !c.matched && is_so(c); });
     return static_cast<double>(count) / static_cast<double>(all_.size());
   };
-  const auto has_none = [](const Counterpart& c) { return c.nearest < 0; };
+  const auto has_none = [](const Counterpart& c) { return c.nearest < 0 && !c.past_rim; };
   const auto is_far = [&](const Counterpart& c) {
     return c.nearest >= 0 && !c.past_rim && c.gap > limits_.distance;
   };
@@ -170,6 +172,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const TriangleMesh& mesh = mesh_.emplace(points, input.faces, context.stage(0, 0));
   const std::vector<bool> is_boundary = mesh.is_boundary();
   normals_ = mesh.vertex_normals();
+  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
   // A mirror turns the winding round.
   const double winding = map_.is_reflection() ? -1 : 1;
   const Points image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
@@ -181,7 +184,31 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     for (int c = 0; c < 3; ++c) face_at[input.faces[f][c]] = f;
 
   const double exact_reach = exact * diagonal_of(points);
-  const ClosestPointOnMesh mirrored(images_, input.faces, context.stage(0, 0.2));
+  // Those on the mirror have none, nor have those without a foot on it.
+  const double on_mirror = mirror_tolerance * diagonal_of(points);
+  const auto side = [&](Index i) {
+    return distances_[i] > on_mirror ? 1 : distances_[i] < -on_mirror ? -1 : 0;
+  };
+  // The images of the faces that reach beyond the mirror, as the points of a side look for them.
+  const auto surface_for = [&](int own, const Context& part) {
+    return ClosestPointOnMesh(images_, input.faces, part, [&, own](Index f) {
+      const Index* corners = input.faces[f];
+      return map_.is_reflection()
+                 ? std::any_of(corners, corners + 3, [&](Index i) { return side(i) == -own; })
+                 : own > 0;
+    });
+  };
+  const std::array mirrored{surface_for(1, context.stage(0, 0.1)),
+                            surface_for(-1, context.stage(0.1, 0.2))};
+  const auto closest_to = [&](Index i, const auto& search) {
+    ClosestPoint closest;
+    for (const int own : {1, -1})
+      if (side(i) != -own)
+        if (const ClosestPoint found = search(mirrored[own < 0]);
+            found.squared_distance < closest.squared_distance)
+          closest = found;
+    return closest;
+  };
   const auto settle_at = [&](Index i, const ClosestPoint& closest, bool by_lines) {
     Counterpart& c = all_[i];
     const Vector3 x = query(points, i);
@@ -193,13 +220,15 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     c.on_surface = Vector3::Zero();
     Vector3 normal = Vector3::Zero();
     c.on_rim = true;
-    double longest = 0, nearest = std::numeric_limits<double>::infinity();
+    double width = 0, nearest = std::numeric_limits<double>::infinity();
+    double beyond = 0;  // how far from the mirror it is the image of, on which side
     for (int k = 0; k < 3; ++k) {
       const Vector3 y = image(corners[k]);
+      beyond += closest.weights[k] * distances_[corners[k]];
       c.on_surface += closest.weights[k] * points[corners[k]];
       normal += closest.weights[k] * image_normals.row(corners[k]).transpose();
       c.on_rim = c.on_rim && (closest.weights[k] < corner || is_boundary[corners[k]]);
-      longest = std::max(longest, (image(corners[(k + 1) % 3]) - y).norm());
+      width = std::max(width, (image(corners[(k + 1) % 3]) - y).norm());
       const double squared = (y - x).squaredNorm();
       if (squared < nearest) {
         nearest = squared;
@@ -208,7 +237,9 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     }
     normal.stableNormalize();
     const Vector3 gap = x - closest.point;
-    c.past_rim = c.on_rim && (gap - gap.dot(normal) * normal).norm() > rim_of_mesh * longest;
+    c.past_rim = c.on_rim && ((gap - gap.dot(normal) * normal).norm() >
+                                  rim_of_mesh * std::min(width, spacing_) ||
+                              side(i) * beyond > on_mirror);
     const double cosine = cosine_between(normal, normals_.row(i).transpose());
     settle(i, by_lines ? std::abs(cosine) : cosine);
     return cosine;
@@ -218,7 +249,8 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     Counterpart& c = all_[i];
     c.nearest = partner;
     c.face = face_at[partner];
-    for (int k = 0; k < 3; ++k) c.weights[k] = input.faces[c.face][k] == partner ? 1 : 0;
+    const Index* corners = input.faces[c.face];  // may name the partner twice
+    c.weights = Vector3::Unit(std::find(corners, corners + 3, partner) - corners);
     c.place = image(partner);
     c.on_surface = points[partner];
     c.gap = (c.place - points[i]).norm();
@@ -246,14 +278,16 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
         continue;
       }
       const Vector3 x = query(points, i);
-      const ClosestPoint closest = mirrored(x);
+      const ClosestPoint closest = closest_to(i, [&](const auto& surface) { return surface(x); });
+      all_[i].past_rim = closest.face < 0 && image(i).allFinite();
       if (closest.face < 0) continue;
       const double cosine = settle_at(i, closest, false);
       if (all_[i].agreement < limits_.cosine) {
         // Where the sides of a thin part differ, the closest layer is the wrong one.
-        const ClosestPoint facing =
-            mirrored.facing(x, winding * normals_.row(i).transpose(), limits_.cosine,
-                            limits_.distance * limits_.distance);
+        const ClosestPoint facing = closest_to(i, [&](const auto& surface) {
+          return surface.facing(x, winding * normals_.row(i).transpose(), limits_.cosine,
+                                limits_.distance * limits_.distance);
+        });
         if (facing.face >= 0) settle_at(i, facing, false);
       }
       if (!all_[i].past_rim && all_[i].gap <= limits_.distance) look(all_[i].matched ? 1 : cosine);
@@ -262,10 +296,11 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const std::vector<bool> by_lines = wound_against_their_images(points, input.faces, faces_alike);
   parallel_for(context.stage(0.9, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
-      if (by_lines[i] && all_[i].gap > exact_reach) settle_at(i, mirrored(query(points, i)), true);
+      if (by_lines[i] && all_[i].face >= 0 && all_[i].gap > exact_reach)
+        settle_at(i, closest_to(i, [&](const auto& surface) { return surface(query(points, i)); }),
+                  true);
   });
   normals_ *= outwards;
-  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
 }
 
 void Counterparts::match_cloud(const OperationInput& input, const Context& context) {
@@ -297,7 +332,10 @@ void Counterparts::match_cloud(const OperationInput& input, const Context& conte
         continue;
       }
       c.gap = !is_homologous_ ? std::abs(gap.dot(normal)) : (c.place - points[i]).norm();
-      c.past_rim = along.norm() > rim_of_cloud * spacing_;
+      const double own = distances_[i], other = distances_[c.nearest];
+      const bool is_own_side =
+          own * other > 0 && std::min(std::abs(own), std::abs(other)) > spacing_ / 2;
+      c.past_rim = is_own_side || along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
       settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
       c.matched = c.matched || gap.norm() <= exact_reach;
@@ -319,7 +357,7 @@ Parameter max_angle() {
 Parameter pairing() {
   return Parameter::choice(
       "pairing", "closest", {"closest", "homologous"},
-      "What a point is compared with: the closest point of the mirrored surface, or the homologous "
+      "What a point is paired with: the closest point of the mirrored surface, or the homologous "
       "one, by non-rigid registration.");
 }
 

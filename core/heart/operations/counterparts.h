@@ -34,6 +34,12 @@ class SymmetryMap {
   /// What has the image x.
   Vector3 preimage(const Vector3& x) const { return mirror_ ? mirror_->reflect(x) : inverse_ * x; }
 
+  /// From a mirror; of a rotation, which no point has to pass, 0.
+  Eigen::VectorXd signed_distance(PointsView points, const Context& context) const {
+    if (mirror_) return mirror_->signed_distance(points, context);
+    return Eigen::VectorXd::Zero(points.size());
+  }
+
   Points images(PointsView points, const Context& context) const {
     if (mirror_) return mirror_->reflect(points, context);
     return (points.matrix() * rotation_.linear().transpose()).rowwise() +
@@ -58,9 +64,15 @@ struct HomologousPoints {
 using HomologousMatcher = HomologousPoints (*)(PointsView points, TrianglesView faces,
                                                PointsView images, const Context& context);
 
+/// Those of a satellite.
+struct Matchers {
+  HomologousMatcher homologous;
+  HomologousMatcher vertex_pairs;  ///< partners by the triangles alone, without displacements
+};
+
 /// Where the other side of a shape says that one of its points should be: a point of the mirrored
-/// surface, that is of the faces between the images of their corners. Of a rotation, the turned
-/// one.
+/// surface, that is of the faces between the images of their corners. Of these that which reaches
+/// beyond the mirror: no side is its own counterpart. Of a rotation, the turned surface.
 struct Counterpart {
   Vector3 place = nowhere;       ///< that point; NaN where there is none
   Vector3 on_surface = nowhere;  ///< what it is the image of
@@ -73,7 +85,8 @@ struct Counterpart {
                           ///< leads to, input units
   double agreement = 0;   ///< cosine between the normals there, 0 to 1
   bool on_rim = false;    ///< the place is on a boundary of the mirrored mesh
-  bool past_rim = false;  ///< the point lies beside the mirrored surface, not above it
+  bool past_rim = false;  ///< the point lies beside the mirrored surface, not above it, or there
+                          ///< is none of the other side
   /// Whose image is a point, or which is not past a rim, nor farther away or turned by more than
   /// allowed.
   bool matched = false;
@@ -145,6 +158,7 @@ class Counterparts {
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;
   Points images_, preimages_, normals_;  // preimages: of a rotation
+  Eigen::VectorXd distances_;            // of the points, from the mirror, signed
   double spacing_ = 0;
   Index matched_ = 0;
   bool is_watertight_ = false;

@@ -38,17 +38,25 @@ class Cut {
                          (positive ? "positive" : "negative") + " side of the mirror");
   }
 
-  // Triangles of what is left of a face.
+  // Of all faces before any is added, so that the order of the points is not theirs.
+  void add_crossings(TrianglesView faces) {
+    for (Index f = 0; f < faces.size(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (const Index a = faces[f][k], b = faces[f][(k + 1) % 3]; is_crossed(a, b))
+          crossings_[std::minmax(a, b)] = -1;
+    for (auto& [edge, row] : crossings_) row = crossing(edge.first, edge.second);
+  }
+
+  // Triangles of what is left of a face; none of one that names a corner twice.
   void add(const Index* corners, Index source) {
+    if (is_degenerate(corners)) return;
     std::vector<Index> polygon;
     bool any_inside = false;
     for (int k = 0; k < 3; ++k) {
       const Index a = corners[k], b = corners[(k + 1) % 3];
       if (is_kept(a)) polygon.push_back(kept_[a]);
       any_inside = any_inside || distances_[a] > near_;
-      if ((distances_[a] > near_ && distances_[b] < -near_) ||
-          (distances_[a] < -near_ && distances_[b] > near_))
-        polygon.push_back(crossing(std::min(a, b), std::max(a, b)));
+      if (is_crossed(a, b)) polygon.push_back(crossings_.at(std::minmax(a, b)));
     }
     if (!any_inside) return;
     if (polygon.size() == 4) {
@@ -71,6 +79,10 @@ class Cut {
   using Corners = std::array<Index, 3>;
 
   bool is_kept(Index i) const { return distances_[i] >= -near_; }
+  bool is_crossed(Index a, Index b) const {
+    return std::max(distances_[a], distances_[b]) > near_ &&
+           std::min(distances_[a], distances_[b]) < -near_;
+  }
   const Vector3& at(Index row) const { return rows_[row]; }
 
   // Points that are not inside come to lie on the mirror.
@@ -85,8 +97,6 @@ class Cut {
   // Where the mirror crosses an edge: by secants that keep the zero between them (Dowell and
   // Jarratt 1971, the Illinois method). Of a plane the first is exact.
   Index crossing(Index a, Index b) {
-    const auto [found, is_new] = crossings_.try_emplace({a, b}, 0);
-    if (!is_new) return found->second;
     constexpr int most_steps = 100;
     constexpr double precision = 1e-15;  // of the edge, and of the diagonal
     // From the same end of copies of an edge, so that they cross at the same bits.
@@ -114,9 +124,8 @@ class Cut {
       }
     }
     const bool near_a = share <= 0.5;
-    found->second = add(from + share * along, near_a ? Corners{a, b, b} : Corners{b, a, a},
-                        Vector3(near_a ? 1 - share : share, near_a ? share : 1 - share, 0), false);
-    return found->second;
+    return add(from + share * along, near_a ? Corners{a, b, b} : Corners{b, a, a},
+               Vector3(near_a ? 1 - share : share, near_a ? share : 1 - share, 0), false);
   }
 
   PointsView points_;
@@ -139,6 +148,7 @@ class Cut {
 Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool positive,
              const Context& context) {
   Cut cut(points, mirror, positive, context);
+  cut.add_crossings(faces);
   for (Index f = 0; f < faces.size(); ++f) {
     if (f % 4096 == 0) context.check();
     cut.add(faces[f], f);
@@ -150,27 +160,28 @@ Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool 
   return half;
 }
 
-std::vector<std::pair<Index, Index>> cut_edges(const Half& half) {
-  std::map<std::pair<Index, Index>, std::pair<int, std::pair<Index, Index>>> edges;
-  for (const auto& face : half.faces.rowwise())
+std::vector<std::pair<Index, Index>> cut_edges(const Triangles& faces,
+                                               const std::vector<bool>& on_mirror) {
+  // How many faces each has, and how many more of them run up from its lower vertex than down.
+  std::map<std::pair<Index, Index>, std::pair<int, int>> edges;
+  for (const auto& face : faces.rowwise()) {
+    if (is_degenerate(face.data())) continue;
     for (int k = 0; k < 3; ++k) {
       const Index a = face[k], b = face[(k + 1) % 3];
-      if (!half.on_mirror[a] || !half.on_mirror[b]) continue;
-      auto& [count, edge] = edges[std::minmax(a, b)];
-      edge = {a, b};
-      if (++count < 2) continue;
-      const Vector3 middle = (half.points.row(a) + half.points.row(b)).transpose() / 2;
-      throw InvalidInput("two faces of this side meet in an edge on the mirror at " +
-                         to_string(Value(middle)) +
-                         ", which would have four with their images; one may");
+      if (!on_mirror[a] || !on_mirror[b]) continue;
+      auto& [count, up] = edges[std::minmax(a, b)];
+      ++count;
+      up += a < b ? 1 : -1;
     }
+  }
   std::vector<std::pair<Index, Index>> found;
-  for (const auto& [key, value] : edges) found.push_back(value.second);
+  for (const auto& [edge, own] : edges)
+    if (own.first % 2 == 1)
+      found.push_back(own.second > 0 ? edge : std::pair(edge.second, edge.first));
   return found;
 }
 
 MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context) {
-  cut_edges(half);  // throws where an edge on the mirror has two faces
   MirroredHalf whole{std::move(half), {}};
   const Index own = whole.points.rows(), faces = whole.faces.rows();
   std::vector<Index> partners(own);
@@ -205,12 +216,6 @@ MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context)
   return whole;
 }
 
-Eigen::VectorXd partner_array(const MirroredHalf& whole) {
-  Eigen::VectorXd partners(static_cast<Index>(whole.partners.size()));
-  for (Index i = 0; i < partners.size(); ++i) partners[i] = static_cast<double>(whole.partners[i]);
-  return partners;
-}
-
 Parameter kept_side() {
   return Parameter::choice("side", "positive", {"positive", "negative"},
                            "Which to keep: the side where signed distances from the mirror are "
@@ -226,6 +231,13 @@ void set_shape(Half half, OperationResult& result) {
   result.face_sources = std::move(half.face_sources);
   result.point_parents = half.parents;
   result.point_shares = half.shares;
+}
+
+void set_shape(MirroredHalf whole, OperationResult& result) {
+  result.arrays["partner"] =
+      Eigen::Map<const Eigen::VectorX<Index>>(whole.partners.data(), whole.points.rows())
+          .cast<double>();
+  set_shape(static_cast<Half&&>(whole), result);
 }
 
 }  // namespace symsurf

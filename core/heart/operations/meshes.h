@@ -29,10 +29,10 @@ struct Half {
 Half half_of(PointsView points, TrianglesView faces, const Mirror& mirror, bool positive,
              const Context& context);
 
-/// The edges of a half's faces on the mirror, from vertex to vertex in the winding of the face.
-/// Throws InvalidInput where two faces of the half meet in one: it would have four with their
-/// images.
-std::vector<std::pair<Index, Index>> cut_edges(const Half& half);
+/// The edges on the mirror that end the faces of a half, from vertex to vertex in their winding:
+/// an odd number of faces has them, those of an even number close there without their images.
+std::vector<std::pair<Index, Index>> cut_edges(const Triangles& faces,
+                                               const std::vector<bool>& on_mirror);
 
 /// A half and its image.
 struct MirroredHalf : Half {
@@ -40,28 +40,17 @@ struct MirroredHalf : Half {
 };
 
 /// Adds the image of a half: points on the mirror belong to both, so that a closed surface stays
-/// closed. Throws InvalidInput where points have no image, and what cut_edges() throws.
+/// closed. Throws InvalidInput where points have no image.
 MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context);
-
-/// The partners as an array of an operation.
-Eigen::VectorXd partner_array(const MirroredHalf& whole);
 
 /// The parameter that says which side is kept, and what it says.
 Parameter kept_side();
 bool keeps_positive(const ParameterValues& values);
 
-/// Puts points and faces, and where they come from, in place of those of the input.
+/// Puts points and faces, and where they come from, in place of those of the input; of the whole
+/// the array "partner", too.
 void set_shape(Half half, OperationResult& result);
-
-/// Faces within a mirror that close a half where it is cut.
-struct Cap {
-  Points points;    ///< within the cut, behind those of the half
-  Triangles faces;  ///< of points of the half and of these
-  Index open = 0;   ///< curves of the cut that do not close: the shape ends at them
-};
-
-/// Triangles about as large as the faces of the half. Closed curves within others bound holes.
-Cap cap_of(const Half& half, const Mirror& mirror, const Context& context);
+void set_shape(MirroredHalf whole, OperationResult& result);
 
 /// A part that is added to a mesh beside its rims.
 struct AddedPart {
@@ -72,10 +61,9 @@ struct AddedPart {
 };
 
 /// Triangles between the rims of a mesh and of what was added to it, where the two face each other
-/// or are closer than `touching` (input units); and in those holes that hold no added part because
-/// they are too small, if all their points are `fillable`.
+/// or are closer than `touching` (input units).
 Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
-                       const std::vector<bool>& fillable, double touching, const Context& context);
+                       double touching, const Context& context);
 
 /// Chooses among copies of points, which soups, flat shading and seams of textures have, so that
 /// partners pair one to one wherever there are as many copies on both sides: those that mirrored

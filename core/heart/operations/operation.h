@@ -26,10 +26,8 @@ OperationImplementation asymmetry_operation(HomologousMatcher homologous);
 OperationImplementation correspondences_operation(HomologousMatcher homologous);
 OperationImplementation align_operation();
 OperationImplementation complete_operation();
-OperationImplementation symmetrize_operation();
+OperationImplementation symmetrize_operation(const Matchers& matchers);
 OperationImplementation straighten_operation();
-OperationImplementation remesh_operation();
-OperationImplementation cut_operation();
 OperationImplementation transfer_operation(HomologousMatcher homologous);
 
 /// Makes the result the shape itself, the source of each point and face its own.

@@ -20,9 +20,6 @@ constexpr double longest_ratio = 3;
 // other have 0, those that face each other 1.
 constexpr double facing = 0.1;
 
-// Edges around a hole without an added part: larger ones hold an image of a face.
-constexpr std::size_t largest_hole = 32;
-
 using Loop = std::vector<Index>;
 
 // A stretch of the added part's rim, in its winding; closed: all of a loop.
@@ -194,7 +191,7 @@ std::pair<Loop, Loop> sides_of(PointsView points, const Chain& chain, RimFinder&
 }  // namespace
 
 Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedPart& added,
-                       const std::vector<bool>& fillable, double touching, const Context& context) {
+                       double touching, const Context& context) {
   std::vector<Loop> loops = mesh.boundary_loops();
   // Those around faces that are kept aside are no holes.
   const std::vector<bool> is_boundary = mesh.is_boundary();
@@ -222,23 +219,11 @@ Triangles seam_between(PointsView points, const TriangleMesh& mesh, const AddedP
   std::stable_sort(chains.begin(), chains.end(),
                    [](const Chain& a, const Chain& b) { return a.distance < b.distance; });
   std::vector<std::array<Index, 3>> triangles;
-  const auto append = [&](const Triangles& more) {
-    for (const auto& t : more.rowwise()) triangles.push_back({t[0], t[1], t[2]});
-  };
   for (const Chain& chain : chains) {
     const auto [left, right] = sides_of(points, chain, rims);
     if (left.size() < 2) continue;
-    append(strip_between(points, left, right, context));
-  }
-  for (Index r = 0; r < rims.size(); ++r) {
-    const Loop& rim = rims.rim(r);
-    const std::vector<bool>& used = rims.used(r);
-    const auto can_fill = [&](Index i) { return fillable[i] && is_boundary[i]; };
-    if (rim.size() > largest_hole || std::find(used.begin(), used.end(), true) != used.end() ||
-        !std::all_of(rim.begin(), rim.end(), can_fill))
-      continue;
-    context.check();
-    append(loop_triangulation(points, rim));
+    const Triangles strip = strip_between(points, left, right, context);
+    for (const auto& t : strip.rowwise()) triangles.push_back({t[0], t[1], t[2]});
   }
   return rows_of(triangles);
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "operations/counterparts.h"
@@ -15,11 +16,13 @@ constexpr double vertices_mirror = 0.9;
 
 class Symmetrization {
  public:
-  Symmetrization(const OperationInput& input, const Mirror& mirror,
-                 const Counterparts::Limits& limits)
+  Symmetrization(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
+                 const ParameterValues& values)
       : input_(input),
         mirror_(mirror),
-        limits_(limits),
+        limits_(limits_of(values, input.points)),
+        matcher_(pairing_of(values, matchers.homologous)),
+        vertex_pairs_(matcher_ ? nullptr : matchers.vertex_pairs),
         on_mirror_(mirror_tolerance * diagonal_of(input.points)) {}
 
   // Each point halfway to its place.
@@ -54,20 +57,22 @@ class Symmetrization {
   Points moved(PointsView from, const Context& context, const To& to) {
     OperationInput input = input_;
     input.points = from;
-    const Counterparts found(input, mirror_, limits_, context.stage(0, 0.8));
-    Eigen::VectorXd paired = Eigen::VectorXd::Zero(from.size());
-    Index mutual = 0;
-    for (Index i = 0; i < from.size(); ++i) {
-      if (!found[i].matched) continue;
-      paired[i] = 1;
-      mutual += is_mutual(found, i);
-    }
+    std::optional<Counterparts> all;
+    const auto are_pairs = [&](HomologousMatcher matcher, const Context& stage) {
+      all.emplace(input, mirror_, limits_, stage, matcher);
+      Index mutual = 0;
+      for (Index i = 0; i < from.size(); ++i) mutual += (*all)[i].matched && is_mutual(*all, i);
+      return static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(all->matched());
+    };
+    bool keep_pairs = are_pairs(matcher_, context.stage(0, 0.4));
+    // The triangles tell the others, however far one side was moved.
+    if (keep_pairs && vertex_pairs_) keep_pairs = are_pairs(vertex_pairs_, context.stage(0.4, 0.8));
+    const Counterparts& found = *all;
     if (paired_.size() == 0) {
-      paired_ = paired;
+      paired_ = Eigen::VectorXd::NullaryExpr(from.size(),
+                                             [&](Index i) { return found[i].matched ? 1 : 0; });
       found.report_unmatched(unmatched_);
     }
-    const bool keep_pairs =
-        static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(found.matched());
     Points points = from.matrix();
     parallel_for(context.stage(0.8, 1), from.size(), grain, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
@@ -89,15 +94,16 @@ class Symmetrization {
   const OperationInput& input_;
   const Mirror& mirror_;
   const Counterparts::Limits limits_;
+  const HomologousMatcher matcher_, vertex_pairs_;  // null: the closest points
   double on_mirror_;
   Eigen::VectorXd paired_;
   Values unmatched_;
 };
 
 // Of the same points and faces.
-void move_points(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
-                 const Context& context, OperationResult& result) {
-  Symmetrization symmetrization(input, mirror, limits_of(values, input.points));
+void move_points(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
+                 const ParameterValues& values, const Context& context, OperationResult& result) {
+  Symmetrization symmetrization(matchers, input, mirror, values);
   const std::string& side = values.choice("side");
   Points target;
   if (side == "average") {
@@ -121,7 +127,7 @@ void move_points(const OperationInput& input, const Mirror& mirror, const Parame
 }
 
 // Of one side and its image, whose vertices are exact partners.
-void mirror_triangles(const OperationInput& input, const Mirror& mirror,
+void mirror_triangles(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
                       const ParameterValues& values, const Context& context,
                       OperationResult& result) {
   if (values.real("strength") != 1 || input.mask.size() > 0)
@@ -131,28 +137,27 @@ void mirror_triangles(const OperationInput& input, const Mirror& mirror,
   const std::string& side = values.choice("side");
   Points points = input.points.matrix();
   if (side == "average") {
-    Symmetrization symmetrization(input, mirror, limits_of(values, input.points));
+    Symmetrization symmetrization(matchers, input, mirror, values);
     points = symmetrization.average(context.stage(0, 0.7));
     result.statistics = symmetrization.unmatched();
   }
   Half half = half_of(points, input.faces, mirror, side != "negative", context.stage(0.7, 0.8));
   MirroredHalf made = with_image(std::move(half), mirror, context.stage(0.8, 1));
-  result.arrays = {{"paired", Eigen::VectorXd::Ones(made.points.rows())},
-                   {"partner", partner_array(made)}};
+  result.arrays = {{"paired", Eigen::VectorXd::Ones(made.points.rows())}};
   set_shape(std::move(made), result);
   result.statistics["paired_share"] = 1.0;
 }
 
-void run_symmetrize(const OperationInput& input, const Mirror& mirror,
+void run_symmetrize(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
                     const ParameterValues& values, const Context& context,
                     OperationResult& result) {
   const bool mirrored = values.choice("triangles") == "mirrored";
-  (mirrored ? mirror_triangles : move_points)(input, mirror, values, context, result);
+  (mirrored ? mirror_triangles : move_points)(matchers, input, mirror, values, context, result);
 }
 
 }  // namespace
 
-OperationImplementation symmetrize_operation() {
+OperationImplementation symmetrize_operation(const Matchers& matchers) {
   OperationImplementation operation;
   operation.name = "symmetrize";
   operation.title = "Mirror symmetrization";
@@ -169,7 +174,9 @@ OperationImplementation symmetrize_operation() {
                         "symmetric; of the average that is the positive side."),
       Parameter::real("strength", 1, 0, 1, "",
                       "How far the points move: 0 not at all, 1 all the way."),
-      max_distance(), max_angle()};
+      pairing(),
+      max_distance(),
+      max_angle()};
   operation.arrays = {
       {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."},
       {"partner", ParameterType::Integer, 1,
@@ -179,7 +186,7 @@ OperationImplementation symmetrize_operation() {
   operation.makes_shape = true;
   operation.takes_mask = true;
   operation.shown = "paired";
-  operation.run = run_symmetrize;
+  operation.run = std::bind_front(run_symmetrize, matchers);
   return operation;
 }
 

@@ -113,6 +113,7 @@ constexpr double least_best = 0.3;  // a best that explains less has the margins
 constexpr Index refined_at_most = 4;
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
 constexpr double alike_planes = 0.05;  // planes closer than this are one
+constexpr double beside_exact = 0.3;   // of the best support, below which none is a candidate then
 
 struct Effort {
   Search search;
@@ -232,17 +233,11 @@ void fit_to_vertices(std::vector<UnitPlane>& planes, const Cloud& cloud, const C
                 .value_or(plane);
 }
 
-bool are_alike(const UnitPlane& a, const UnitPlane& b) {
-  const double sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
-  return (a.normal - sign * b.normal).norm() < alike_planes &&
-         std::abs(a.offset - sign * b.offset) < alike_planes;
-}
-
-// Those that are none of the others.
-void drop_known(std::vector<UnitPlane>& planes, const std::vector<UnitPlane>& known) {
-  std::erase_if(planes, [&](const UnitPlane& plane) {
-    return std::any_of(known.begin(), known.end(),
-                       [&](const UnitPlane& other) { return are_alike(plane, other); });
+bool is_one_of(const UnitPlane& a, const std::vector<UnitPlane>& planes) {
+  return std::any_of(planes.begin(), planes.end(), [&](const UnitPlane& b) {
+    const double sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
+    return (a.normal - sign * b.normal).norm() < alike_planes &&
+           std::abs(a.offset - sign * b.offset) < alike_planes;
   });
 }
 
@@ -275,11 +270,30 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   Result best;
   if (!planes.empty()) best = ranked(planes);
   // Of planes of the vertices alone faces are missing on one side.
-  if (planes.empty() || (is_mesh && best.score < 1)) {
-    std::vector<UnitPlane> more = searched_planes(cloud, coarse, map, refinement, whole, promising,
-                                                  context.stage(0.46, 0.55));
+  const bool is_exact = !planes.empty() && !(is_mesh && best.score < 1);
+  const bool is_flat = cloud.frame.variance.z() < std::pow(single_rounding * cloud.frame.size, 2);
+  const auto is_known = [&](const PlaneCandidate& c) { return is_one_of(c.shape, planes); };
+  std::vector<PlaneCandidate> others = promising;
+  if (is_exact) {
+    drop_far_below_best(others, beside_exact);
+    std::erase_if(others, is_known);
+  }
+  std::vector<UnitPlane> more;
+  if (!others.empty()) {
+    more =
+        searched_planes(cloud, coarse, map, refinement, whole, others, context.stage(0.46, 0.55));
     if (is_mesh) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
-    drop_known(more, planes);
+    std::erase_if(more, [&](const UnitPlane& plane) {
+      return is_one_of(plane, planes) || (is_exact && is_flat && std::abs(plane.normal.z()) > 0.5);
+    });
+  }
+  if (is_exact && !more.empty()) {
+    // They come behind it, however well they score at the sampling.
+    Result rest = ranked(more);
+    const std::vector<Result> worse = std::exchange(rest.candidates, {});
+    best.candidates.push_back(std::move(rest));
+    best.candidates.insert(best.candidates.end(), worse.begin(), worse.end());
+  } else if (!is_exact) {
     planes.insert(planes.end(), more.begin(), more.end());
     best = ranked(planes);
   }

@@ -136,7 +136,9 @@ def match(
     given = as_input(shape, reading=reading)
     if absolute:
         pair_distance /= _core.diagonal(given.points, "auto", refuse)
-    fields = _core.match(given.points, mirror, pair_distance, tolerance, refuse, threads, progress)
+    fields = _core.match(
+        given.points, given.faces, mirror, pair_distance, tolerance, refuse, threads, progress
+    )
     warn(fields["statistics"])
     return Result.from_fields(
         fields | {"mirror": mirror, "faces": given.faces, "space": given.space}

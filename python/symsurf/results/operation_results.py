@@ -60,7 +60,8 @@ class OperationResult(BaseResult):
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
         """From what the core gives."""
-        faces = made["faces"] if len(made["faces"]) else None
+        has_faces = len(made["faces"]) or made["given"].faces is not None
+        faces = made["faces"] if has_faces else None
         own = [np.arange(len(made[rows])) for rows in ("points", "faces")]
         sources = [made[rows] for rows in ("point_sources", "face_sources")]
         has_parents = len(made["point_parents"]) > 0
@@ -375,6 +376,13 @@ class Completed(OperationResult):
     patch: Shape
     """What was added, with the points of the rim that its faces touch; its own numbering."""
 
+    @classmethod
+    def from_fields(cls, made: dict[str, Any]) -> Self:
+        """Without those of the input's faces that name a corner twice."""
+        proper = (np.diff(np.sort(made["faces"], axis=1), axis=1) != 0).all(axis=1)
+        rows = {name: made[name][proper] for name in ("faces", "face_sources")}
+        return super().from_fields(made | rows)
+
     @property
     def axis(self) -> Axis | None:
         """The axis that it was turned about; None where a mirror was used."""
@@ -394,9 +402,13 @@ class Completed(OperationResult):
 
     @staticmethod
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
-        given = made["given"]
-        given_faces = 0 if given.faces is None else len(given.faces)
-        return {"patch": _patch(made["points"], len(given.points), made["faces"][given_faces:])}
+        first = len(made["faces"]) - added_faces(made["statistics"])
+        return {"patch": _patch(made["points"], len(made["given"].points), made["faces"][first:])}
+
+
+def added_faces(statistics: dict[str, Any]) -> int:
+    """How many faces an operation added behind those of its input."""
+    return sum(statistics.get(name, 0) for name in ("added_faces", "seam_faces"))
 
 
 RESULTS: dict[str, type[OperationResult]] = {

@@ -21,6 +21,7 @@ from ..reading import read
 from ..reading.formats import format_of
 from ..reading.location import leads_away
 from ..results import AnalysisResult, Correspondences, OperationResult, Transferred
+from ..results.operation_results import added_faces
 from ..shapes import Shape
 from ..shapes.shape import SourceFile
 from .glb_format import shape_glb_bytes
@@ -191,11 +192,12 @@ def _new_shape(
     frame = result.parameters.get("frame")
     carries = _core.operations()[result.operation].carries_values
     count = len(given.points)
+    faces = _faces(result.shape)
     is_moved = not np.array_equal(result.shape.points[:count], given.points, equal_nan=True)
     return NewShape(
         points=result.shape.points,
-        faces=_faces(result.shape),
-        old_faces=0 if result.is_other else len(_faces(given)),
+        faces=faces,
+        old_faces=0 if result.is_other else len(faces) - added_faces(result.statistics),
         sources=np.arange(count) if carries else result.sources,
         moved=result.is_other or is_moved,
         turn=None if matrix is None else np.asarray(matrix)[:3, :3],

@@ -8,7 +8,9 @@ import numpy as np
 import pyvista
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkGenericCell
 from vtkmodules.vtkFiltersCore import vtkReverseSense
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 from .._core import InvalidInput
 from ..base.options import Reading
@@ -32,14 +34,17 @@ _THIN_CELLS = {
 def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     """The triangles between a data set's points, polygons divided; None where it has no faces.
 
-    Of an unstructured or a curved structured grid those of its cells, where all are flat. Raises
-    InvalidInput for broken cells, whatever their kind.
+    Of an unstructured or a curved structured grid those of its cells, where all are flat, or the outer
+    surface of those that are solid. Raises InvalidInput for broken cells, whatever their kind.
     """
     require_sound_cells(mesh)
     if isinstance(mesh, pyvista.StructuredGrid):
         mesh = mesh.cast_to_unstructured_grid()
     if isinstance(mesh, pyvista.UnstructuredGrid):
-        if mesh.n_cells == 0 or not set(np.unique(mesh.celltypes).tolist()) <= _FLAT_CELLS:
+        kinds = np.unique(mesh.celltypes).tolist()
+        if solid := [kind for kind in kinds if _dimension(kind) == 3]:
+            return _outer_faces(mesh, np.flatnonzero(np.isin(mesh.celltypes, solid)))
+        if not kinds or not set(kinds) <= _FLAT_CELLS:
             return None
         mesh = pyvista.PolyData(np.asarray(mesh.points), faces=mesh.cells)
     if not isinstance(mesh, pyvista.PolyData):
@@ -47,6 +52,23 @@ def faces_of(mesh: pyvista.DataSet) -> NDArray[np.int64] | None:
     if mesh.GetNumberOfPolys() + mesh.GetNumberOfStrips() == 0:
         return None
     return np.asarray(mesh.triangulate().regular_faces).astype(np.int64)
+
+
+def _dimension(kind: int) -> int:
+    return vtkGenericCell.InstantiateCell(kind).GetCellDimension()
+
+
+def _outer_faces(grid: pyvista.UnstructuredGrid, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Between the grid's own points: the faces that one of the cells alone has, as triangles."""
+    numbered = pyvista.UnstructuredGrid(grid.cells, grid.celltypes, grid.points)
+    numbered.point_data["number"] = np.arange(grid.n_points)
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetNonlinearSubdivisionLevel(0)
+    surface.SetInputData(numbered.extract_cells(cells))
+    surface.Update()
+    made = pyvista.wrap(surface.GetOutput()).triangulate()
+    number = np.asarray(made.point_data["number"])
+    return number[np.asarray(made.regular_faces)].astype(np.int64)
 
 
 def require_sound_cells(data: pyvista.DataSet) -> None:

@@ -18,9 +18,10 @@ def draw(outcome: Outcome, folder: Path) -> Path:
     path = folder / f"{row.table} {row.method} {row.name}.png".replace(" ", "-")
     plotter = new_plotter(off_screen=True, window_size=(900, 700))
     plotter.add_points(outcome.points, color=YELLOW, point_size=5)
-    vertices, triangles = outcome.truth.mesh(outcome.points, 48)
-    truth = pyvista.PolyData.from_regular_faces(vertices, triangles)
-    plotter.add_mesh(truth, color=GREEN, opacity=0.45)
+    if outcome.truth is not None:
+        vertices, triangles = outcome.truth.mesh(outcome.points, 48)
+        truth = pyvista.PolyData.from_regular_faces(vertices, triangles)
+        plotter.add_mesh(truth, color=GREEN, opacity=0.45)
     if len(outcome.result.surface_points):
         plotter.add_points(outcome.result.surface_points, color=RED, point_size=6)
     plotter.view_vector((1, -1.6, 0.9))

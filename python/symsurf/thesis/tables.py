@@ -1,10 +1,9 @@
-"""The thesis's tables 5.1 to 5.5 on regenerated data, beside the numbers it prints."""
+"""The thesis's tables 5.1 to 5.5 on regenerated data, beside the numbers it prints, and figures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,8 @@ from .._core import Mirror, Sphere, SurfaceMirror
 from ..detection import detect
 from ..results import Result
 from ..saving.truth import Truth
-from ..synthetic import rotate, rotation_matrix
-from .experiments import experiment
+from ..synthetic import Sample, rotate, rotation_matrix
+from .experiments import FIGURES, experiment
 from .printed import PRINTED, Figures
 
 
@@ -32,10 +31,11 @@ class Row:
 class Outcome:
     row: Row
     points: NDArray[np.float64]
-    truth: Mirror
+    truth: Mirror | None
+    """None of an object whose mirror is not known."""
     result: Result
     figures: dict[str, float]
-    """The errors by name, the thesis's first."""
+    """The errors by name, the thesis's first; none of what it shows without numbers."""
 
 
 def rows() -> Iterator[Row]:
@@ -46,23 +46,31 @@ def rows() -> Iterator[Row]:
         if method == "sphere_thesis":
             for name, figures in experiments.items():
                 yield Row(table, "sphere", name, figures)
+    for (figure, method), names in FIGURES.items():
+        for name in names:
+            yield Row(figure, method, name, ())
 
 
 def measure(row: Row) -> Outcome:
     """Makes the data, finds the mirror and compares."""
     made = experiment(row.table, row.method, row.name)
     sample = made.make()
-    points = sample.points if made.damage is None else made.damage(sample.points)
-    truth = Truth(sample.truth, sample.pairs)
-    if any(made.rotation):
+    points, mirror = (sample.points, sample.truth) if isinstance(sample, Sample) else (sample, None)
+    if made.damage is not None:
+        points = made.damage(points)
+    if mirror is not None and any(made.rotation):
         points = rotate(points, *made.rotation)
-        truth = truth.moved(rotation_matrix(*made.rotation))
+        mirror = (
+            Truth(mirror, np.empty((0, 2), np.int64)).moved(rotation_matrix(*made.rotation)).mirror
+        )
     result = detect(points, row.method)
-    if isinstance(result.mirror, Sphere):
-        sphere = cast(Sphere, truth.mirror)  # spheres are looked for where they are the truth
-        figures = metrics.sphere_errors(result.mirror, sphere, points)._asdict()
-    else:
-        surface = cast(SurfaceMirror, truth.mirror)
-        figures = metrics.surface_errors(result.surface_points, surface)._asdict()
-        figures["coverage"] = metrics.coverage(result.surface_points, surface, points)
-    return Outcome(row, points, truth.mirror, result, figures)
+    return Outcome(row, points, mirror, result, _figures(points, mirror, result))
+
+
+def _figures(points: NDArray[np.float64], truth: Mirror | None, found: Result) -> dict[str, float]:
+    if isinstance(truth, Sphere) and isinstance(found.mirror, Sphere):
+        return metrics.sphere_errors(found.mirror, truth, points)._asdict()
+    if not isinstance(truth, SurfaceMirror):
+        return {}
+    errors = metrics.surface_errors(found.surface_points, truth)._asdict()
+    return errors | {"coverage": metrics.coverage(found.surface_points, truth, points)}

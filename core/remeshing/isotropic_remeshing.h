@@ -17,6 +17,7 @@ struct Remeshing {
   /// Leaves the boundary's vertices and edges as they are, and these vertices the first.
   bool keeps_boundary = false;
   /// Edges on the boundary that are a curve of their own, which others end at.
+  /// No other edge joins two of their points.
   std::vector<std::pair<Index, Index>> marked = {};
   /// Moves a vertex back onto the surface; without it that is the closest point of the faces.
   std::function<Vector3(const Vector3&)> onto = {};

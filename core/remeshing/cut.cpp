@@ -5,11 +5,11 @@
 
 #include "base/math.h"
 #include "cloud/cloud.h"
-#include "cloud/isotropic_remeshing.h"
 #include "cloud/triangle_mesh.h"
 #include "cloud/triangulation.h"
+#include "isotropic_remeshing.h"
 #include "operations/meshes.h"
-#include "operations/operation.h"
+#include "remeshing.h"
 
 namespace symsurf {
 
@@ -19,35 +19,32 @@ namespace {
 // Those that do not close are counted and left out.
 std::vector<Polygon> closed_curves(const Half& half, Index& open, const Context& context) {
   const DistinctPoints distinct = distinct_points(half.points, context);
-  const auto first = [&](Index i) -> Index { return distinct.first[distinct.number[i]]; };
+  const Triangles welded =
+      half.faces.unaryExpr([&](Index i) -> Index { return distinct.first[distinct.number[i]]; });
   std::multimap<Index, Index> next;
   std::map<Index, Index> ends;  // edges that arrive, less those that leave
-  for (const auto& [a, b] : cut_edges(half)) {
-    if (first(a) == first(b)) continue;
-    next.emplace(first(b), first(a));
-    ++ends[first(a)];
-    --ends[first(b)];
+  for (const auto& [a, b] : cut_edges(welded, half.on_mirror)) {
+    next.emplace(b, a);
+    ++ends[a];
+    --ends[b];
   }
+  std::vector<Polygon> curves;
   const auto follow = [&](Index start) {
-    Polygon curve{start};
-    for (auto edge = next.find(start); edge != next.end(); edge = next.find(curve.back())) {
-      curve.push_back(edge->second);
+    Polygon path{start};
+    for (auto edge = next.find(start); edge != next.end(); edge = next.find(path.back())) {
+      path.push_back(edge->second);
       next.erase(edge);
-      if (curve.back() == start) break;
+      const auto back = std::find(path.begin(), path.end() - 1, path.back());
+      if (path.end() - back > 3) curves.emplace_back(back, path.end() - 1);
+      path.erase(back + 1, path.end());
     }
-    return curve;
   };
   for (const auto& [point, arriving] : ends)
     for (Index k = arriving; k < 0; ++k) {
       follow(point);
       ++open;
     }
-  std::vector<Polygon> curves;
-  while (!next.empty()) {
-    Polygon curve = follow(next.begin()->first);
-    curve.pop_back();
-    if (curve.size() > 2) curves.push_back(std::move(curve));
-  }
+  while (!next.empty()) follow(next.begin()->first);
   return curves;
 }
 
@@ -57,9 +54,16 @@ Points2 laid_flat(const Points& points, const Mirror& mirror, const Context& con
   return flat * orthogonal_to(straight_mirror(mirror, points).normal());
 }
 
-}  // namespace
+// Faces within a mirror that close a half where it is cut.
+struct Cap {
+  Points points;    // within the cut, behind those of the half
+  Triangles faces;  // of points of the half and of these
+  Index open = 0;   // curves of the cut that do not close: the shape ends at them
+};
 
-Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
+// Of the points at the cut alone, or of triangles about as large as the faces of the half. Closed
+// curves within others bound holes.
+Cap cap_of(const Half& half, const Mirror& mirror, bool is_even, const Context& context) {
   Cap cap;
   cap.faces.resize(0, 3);
   std::vector<Polygon> curves = closed_curves(half, cap.open, context.stage(0, 0));
@@ -75,24 +79,27 @@ Cap cap_of(const Half& half, const Mirror& mirror, const Context& context) {
   double area = 0;
   for (const Polygon& curve : curves) area += signed_area(flat, curve);
   if (area < 0) flat.col(0) *= -1;  // outer curves run counterclockwise
-  const Triangles filled = polygon_triangulation(flat, curves);
-
-  Remeshing remeshing;
-  remeshing.edge_length =
-      edge_length_of(surface_area(half.points, half.faces), static_cast<double>(half.faces.rows()));
-  remeshing.keeps_boundary = true;
-  remeshing.onto = [&](const Vector3& x) { return mirror.foot(x); };
-  const Remeshed made = isotropic_remeshing(corners, filled, remeshing, context.stage(0.2, 1));
+  cap.faces = polygon_triangulation(flat, curves);
   // Points of the rim come first, in their order: none of them goes.
   const auto count = static_cast<Index>(rim.size());
-  cap.points = made.points.bottomRows(made.points.rows() - count);
-  cap.faces = made.faces;
+  if (is_even) {
+    Remeshing remeshing;
+    remeshing.edge_length = edge_length_of(surface_area(half.points, half.faces),
+                                           static_cast<double>(half.faces.rows()));
+    remeshing.keeps_boundary = true;
+    remeshing.onto = [&](const Vector3& x) { return mirror.foot(x); };
+    Remeshed made = isotropic_remeshing(corners, cap.faces, remeshing, context.stage(0.2, 1));
+    cap.points = made.points.bottomRows(made.points.rows() - count);
+    cap.faces = std::move(made.faces);
+  }
   for (Index& corner : cap.faces.reshaped())
     corner = corner < count ? rim[corner] : half.points.rows() + corner - count;
+  std::vector<Index> proper;  // not those between curves that touch each other
+  for (Index f = 0; f < cap.faces.rows(); ++f)
+    if (!is_degenerate(cap.faces.row(f).data())) proper.push_back(f);
+  cap.faces = cap.faces(proper, Eigen::indexing::all).eval();
   return cap;
 }
-
-namespace {
 
 // Points and faces of the cap, with what the points and faces beside them have.
 void add_cap(const Cap& cap, Half& half) {
@@ -133,7 +140,9 @@ void run_cut(const OperationInput& input, const Mirror& mirror, const ParameterV
       half_of(input.points, input.faces, mirror, keeps_positive(values), context.stage(0, 0.4));
   const Index faces = half.faces.rows();
   if (values.boolean("capped") && faces > 0) {
-    const Cap cap = cap_of(half, mirror, context.stage(0.4, 1));
+    // A plain one leaves a mirror that bends.
+    const bool is_even = values.boolean("even_cap") || mirror.kind() != "plane";
+    const Cap cap = cap_of(half, mirror, is_even, context.stage(0.4, 1));
     add_cap(cap, half);
     result.statistics["open_curves"] = cap.open;
   }
@@ -157,7 +166,11 @@ OperationImplementation cut_operation() {
   operation.parameters = {
       kept_side(),
       Parameter::boolean("capped", true,
-                         "Close a mesh by faces within the mirror; what is closed stays so.")};
+                         "Close a mesh by faces within the mirror; what is closed stays so."),
+      Parameter::boolean("even_cap", false,
+                         "Close it by triangles as large as those of the shape, as is always done "
+                         "over a mirror that bends; slower. Otherwise by some between the points "
+                         "at the cut.")};
   operation.arrays = {{"on_mirror", ParameterType::Boolean, 1,
                        "Whether the point lies on the mirror: at the cut or within it."}};
   operation.face_arrays = {

@@ -1,4 +1,4 @@
-#include "cloud/isotropic_remeshing.h"
+#include "isotropic_remeshing.h"
 
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -56,6 +56,7 @@ class Remesher {
       flip_edges(stage);
       relax(stage);
     }
+    split_chords();
   }
 
   Remeshed remeshed() {
@@ -65,8 +66,7 @@ class Remesher {
     for (const auto v : mesh_.vertices()) {
       number[v.idx()] = static_cast<Index>(points.size());
       points.push_back(at(v));
-      made.marked.push_back(std::any_of(v.edges().begin(), v.edges().end(),
-                                        [&](const auto& e) { return curve_[e.idx()] == marked; }));
+      made.marked.push_back(is_marked(v));
     }
     std::vector<std::array<Index, 3>> faces;
     for (const auto f : mesh_.faces()) {
@@ -147,6 +147,12 @@ class Remesher {
     }
   }
 
+  bool is_marked(Vertex v) const {
+    const auto edges = mesh_.ve_range(v);
+    return std::any_of(edges.begin(), edges.end(),
+                       [&](const auto& e) { return curve_[e.idx()] == marked; });
+  }
+
   bool is_kept(Edge e) const { return remeshing_.keeps_boundary && mesh_.is_boundary(e); }
 
   bool is_beside_longer(Edge e) const {
@@ -180,19 +186,33 @@ class Remesher {
       edges.pop();
       const Edge e(number);
       if (length(e) != own || is_beside_longer(e)) continue;
+      for (const auto made : mesh_.ve_range(split(e))) offer(made);
+    }
+  }
+
+  Vertex split(Edge e) {
+    const Halfedge h = mesh_.halfedge_handle(e, 0);
+    const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+    const Curve curve = curve_[e.idx()];
+    const Vector3 half_way = (at(a) + at(b)) / 2;
+    const Vector3 on = curve == none ? onto_surface(half_way) : (*curves_)(half_way).point;
+    const Vector3 middle = on.allFinite() ? on : half_way;
+    const Vertex v = mesh_.add_vertex({middle.x(), middle.y(), middle.z()});
+    mesh_.split(e, v);
+    freedom_.push_back(curve == none ? free : on_curve);
+    curve_.resize(mesh_.n_edges(), none);
+    curve_[e.idx()] = none;
+    for (const Vertex end : {a, b}) curve_[edge_between(v, end).idx()] = curve;
+    return v;
+  }
+
+  // Edges from one point of the marked curves to another that are none of them.
+  void split_chords() {
+    for (int i = 0, count = static_cast<int>(mesh_.n_edges()); i < count; ++i) {
+      const Edge e(i);
+      if (mesh_.status(e).deleted() || curve_[i] == marked) continue;
       const Halfedge h = mesh_.halfedge_handle(e, 0);
-      const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
-      const Curve curve = curve_[number];
-      const Vector3 half_way = (at(a) + at(b)) / 2;
-      const Vector3 on = curve == none ? onto_surface(half_way) : (*curves_)(half_way).point;
-      const Vector3 middle = on.allFinite() ? on : half_way;
-      const Vertex v = mesh_.add_vertex({middle.x(), middle.y(), middle.z()});
-      mesh_.split(e, v);
-      freedom_.push_back(curve == none ? free : on_curve);
-      curve_.resize(mesh_.n_edges(), none);
-      curve_[number] = none;
-      for (const Vertex end : {a, b}) curve_[edge_between(v, end).idx()] = curve;
-      for (const auto made : mesh_.ve_range(v)) offer(made);
+      if (is_marked(mesh_.from_vertex_handle(h)) && is_marked(mesh_.to_vertex_handle(h))) split(e);
     }
   }
 
