@@ -59,8 +59,7 @@ SHAPES: dict[str, Callable[[Shape, _Arrays, _Arrays], bytes]] = {
     **{suffix: partial(_bare_bytes, suffix) for suffix in (".obj", ".off", ".stl")},
 }
 _ARRAYS = {".csv": csv_bytes, ".npy": npy_bytes}
-# The arrays that each holds of points and of faces; the others of ``SHAPES`` hold none.
-_HELD = {".ply": (True, True), ".vtp": (True, True), ".glb": (True, False)}
+_HOLD_ARRAYS = (".ply", ".vtp", ".glb")  # of points; the first two those of faces, too
 
 
 def formats_of(kind: type[OperationResult | AnalysisResult]) -> list[str]:
@@ -123,11 +122,8 @@ def save_shape(result: OperationResult | AnalysisResult, path: str | os.PathLike
         )
     face_arrays = result.face_arrays if isinstance(result, OperationResult) else {}
     write_whole(path, SHAPES[suffix](result.shape, result.arrays, face_arrays))
-    held = [
-        () if is_held else arrays
-        for arrays, is_held in zip((result.arrays, face_arrays), _HELD.get(suffix, (False, False)))
-    ]
-    names = [name for arrays in held for name in arrays]
+    names = [] if suffix in _HOLD_ARRAYS else list(result.arrays)
+    names += [] if suffix in _HOLD_ARRAYS[:2] else face_arrays
     lost = [lost_arrays(suffix[1:].upper(), names)] if names else []
     return _lost_polygons(result) + _left_out(given, suffix) + lost
 
