@@ -200,7 +200,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index strid
     const SampledSurface::Sample& sample = surface_[k];
     const SampledSurface::Landing landing = surface_.landing(sample, image);
     PointFit fit{k, 1, 1, 0, 0, landing.exact, image.position};
-    fit.residual = landing.residual;
+    if (!landing.exact) fit.residual = landing.residual;
     fit.normal = landing.facet.normal;
     fit.has_partner = !landing.ends && std::abs(fit.residual) < farthest_residual;
     if (!landing.exact) {

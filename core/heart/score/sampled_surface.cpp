@@ -11,13 +11,15 @@ namespace symsurf {
 
 namespace {
 
-constexpr Index in_plane = 8;            // points that a plane is fitted to
-constexpr double near = 0.08;            // diagonals: what is around a sample
-constexpr Index like_it = 12;            // samples around one, which have its noise and spacing
-constexpr std::size_t quiet = 9;         // of these, but for edges
-constexpr double apart = 2.2;            // spacings: the surface ends there
-constexpr double least_flatness = 0.09;  // in the mean, of what has a surface
-constexpr double least_ceiling = 0.3;    // of points too few to say anything of each other
+constexpr Index in_plane = 8;     // points that a plane is fitted to
+constexpr double near = 0.08;     // diagonals: what is around a sample
+constexpr Index like_it = 12;     // samples around one, which have its noise and spacing
+constexpr std::size_t quiet = 9;  // of these, but for edges
+constexpr double apart = 2.2;     // spacings: the surface ends there
+// In the mean, of what has a surface: of its neighbours, which noise makes a volume where points
+// are dense, and of patches.
+constexpr double least_flatness = 0.09, least_patch_flatness = 0.25;
+constexpr double least_ceiling = 0.3;  // of points too few to say anything of each other
 
 Points points_of(const Surfels& patches) {
   Points positions(patches.size(), 3);
@@ -63,7 +65,7 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     double residual, third;
   };
   std::vector<Own> own;
-  double flatness = 0;
+  double flatness = 0, patch_flatness = 0;
   for (Index k = 0; k < positions_.rows(); ++k) {
     Sample sample{};
     sample.position = positions_.row(k).transpose();
@@ -76,7 +78,8 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     sample.above = sample.facet.above(sample.position);
     const Vector3 smoothed = sample.position - sample.above * sample.facet.normal;
     own.push_back({other, other.above(smoothed), third_of(others)});
-    flatness += sample.patch.flatness;
+    flatness += sample.facet.flatness;
+    patch_flatness += sample.patch.flatness;
     samples_.push_back(sample);
   }
   std::vector<double> noises{0}, spacings{0};
@@ -95,7 +98,8 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     noises.push_back(samples_[k].noise);
     spacings.push_back(samples_[k].spacing);
   }
-  fills_volume_ = flatness < least_flatness * static_cast<double>(size());
+  fills_volume_ = flatness < least_flatness * static_cast<double>(size()) &&
+                  patch_flatness < least_patch_flatness * static_cast<double>(size());
   for (Index k = 0; k < size(); ++k) {
     Sample& sample = samples_[k];
     const double support =
