@@ -289,7 +289,7 @@ REFUSED = [
     ("clash_0.csv clash_1.csv", "clash_0: 'l_a' and 'L_A' both say left of the same landmark"),
     (
         "skull_0.csv lacks.csv",
-        "lacks.csv: its landmarks are not those of skull_0.csv: it lacks l_a",
+        "lacks.csv: its landmarks are not those of skull_0.csv: it misses l_a",
     ),
     ("skull_0.csv missing.csv", "missing.csv: landmark l_a is missing"),
     ("skull_0.csv alike.csv", "alike.csv: two landmarks are called 'l_a'"),
