@@ -13,13 +13,13 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (129, 175085, 1156, 2, 2),
+    "heart": (129, 174867, 1152, 2, 2),
     "symmetries": (30, 77793, 514, 3, 0),
     "synthetic": (8, 17577, 283, 0, 1),
     "io": (7, 12886, 40, 0, 0),
     "published": (5, 11790, 128, 0, 0),
     "light": (4, 8707, 44, 0, 4),
-    "homologous": (4, 8802, 54, 4, 0),
+    "homologous": (4, 6589, 43, 1, 0),
     "processes": (5, 11326, 28, 0, 0),
 }
 # A budget above this multiple of its figure has not followed it down.

@@ -38,7 +38,7 @@ class Symmetrization {
   /// 1 where a point had a counterpart at first, else 0.
   const Eigen::VectorXd& paired() const { return paired_; }
 
-  /// What Counterparts::report_unmatched() said at first.
+  /// What Counterparts::report() said at first.
   const Values& unmatched() const { return unmatched_; }
 
  private:
@@ -64,7 +64,7 @@ class Symmetrization {
     }
     if (paired_.size() == 0) {
       paired_ = paired;
-      found.report_unmatched(unmatched_);
+      found.report(unmatched_);
     }
     const bool keep_pairs =
         static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(found.matched());

@@ -274,6 +274,8 @@ def _operate(
         **task.parameters,
     )
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
+    if "warning" in result.statistics:
+        record["notices"].append(result.statistics["warning"])
     _write(task, result, record)
 
 

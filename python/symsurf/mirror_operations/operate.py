@@ -79,6 +79,8 @@ def operate(
     made = _core.operate(
         name, given.points, given.faces, used, _mask_of(mask), threads, own, parameters
     )
+    if "warning" in made["statistics"]:
+        warn_of([made["statistics"]["warning"]])
     return RESULTS[name].from_fields(
         made
         | {
