@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -14,13 +16,31 @@ namespace symsurf {
 
 namespace {
 
-using Corner = std::array<std::int32_t, 3>;  // from, to, and the third vertex of a face
+// The vertices of a triangulated surface with the edges between them.
+class SurfaceGraph {
+ public:
+  SurfaceGraph(Index vertices, TrianglesView faces);
 
-}  // namespace
+  Index vertices() const { return static_cast<Index>(begin_.size()) - 1; }
 
-SurfaceGraph::SurfaceGraph(PointsView points, TrianglesView faces)
-    : begin_(points.size() + 1, 0), is_boundary_(points.size(), false) {
-  std::vector<Corner> edges;  // both ways
+  // Vertices joined to this one by an edge, in ascending order.
+  std::span<const std::int32_t> neighbours(Index vertex) const {
+    return {neighbour_.data() + begin_[vertex], neighbour_.data() + begin_[vertex + 1]};
+  }
+
+  bool are_neighbours(Index one, Index other) const;
+
+  // The third vertices of the faces at an edge; -1 where there is none, both of more than two.
+  std::array<std::int32_t, 2> thirds(Index one, Index other) const;
+
+ private:
+  std::vector<Index> begin_;
+  std::vector<std::int32_t> neighbour_;
+  std::vector<std::array<std::int32_t, 2>> thirds_;
+};
+
+SurfaceGraph::SurfaceGraph(Index vertices, TrianglesView faces) : begin_(vertices + 1, 0) {
+  std::vector<std::array<std::int32_t, 3>> edges;  // from, to, and the third vertex; both ways
   edges.reserve(6 * faces.size());
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) {
@@ -36,10 +56,8 @@ SurfaceGraph::SurfaceGraph(PointsView points, TrianglesView faces)
     const auto [a, b, third] = edges[k];
     while (next < edges.size() && edges[next][0] == a && edges[next][1] == b) ++next;
     neighbour_.push_back(b);
-    length_.push_back((points[a] - points[b]).norm());
     thirds_.push_back({next - k > 2 ? -1 : third, next - k == 2 ? edges[k + 1][2] : -1});
     ++begin_[a + 1];
-    if (next - k == 1) is_boundary_[a] = is_boundary_[b] = true;
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
 }
@@ -56,39 +74,9 @@ bool SurfaceGraph::are_neighbours(Index one, Index other) const {
   return std::binary_search(around.begin(), around.end(), static_cast<std::int32_t>(other));
 }
 
-std::vector<NearSource> nearest_sources(const SurfaceGraph& graph,
-                                        const std::vector<Index>& sources, int k,
-                                        const Context& context) {
-  using Step = std::tuple<double, std::int32_t, std::int32_t>;  // distance, vertex, source
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;
-  for (std::size_t s = 0; s < sources.size(); ++s)
-    steps.push({0, static_cast<std::int32_t>(sources[s]), static_cast<std::int32_t>(s)});
-  std::vector<NearSource> found(graph.vertices() * k);
-  std::vector<int> count(graph.vertices(), 0);
-  const auto has = [&](Index vertex, std::int32_t source) {
-    const auto begin = found.begin() + vertex * k;
-    return std::any_of(begin, begin + count[vertex],
-                       [&](const NearSource& near) { return near.source == source; });
-  };
-  for (Index taken = 0; !steps.empty(); ++taken) {
-    if (taken % 4096 == 0) context.check();
-    const auto [distance, vertex, source] = steps.top();
-    steps.pop();
-    if (count[vertex] == k || has(vertex, source)) continue;
-    found[vertex * k + count[vertex]++] = {source, distance};
-    const auto around = graph.neighbours(vertex);
-    for (std::size_t e = 0; e < around.size(); ++e)
-      if (count[around[e]] < k && !has(around[e], source))
-        steps.push({distance + graph.lengths(vertex)[e], around[e], source});
-  }
-  return found;
-}
-
-namespace {
-
 constexpr Index table_grain = 1024;
 constexpr int most_starts = 40;       // a connected part: one in fifteen may be right
-constexpr double usual_slide = 0.01;  // of a registration, diagonals
+constexpr double usual_slide = 0.01;  // of the displacements, diagonals
 // Shares of the vertices of a part. An icosphere turned at random was taken to one of its own
 // mirrors with 0.40 of it close; where a side moved by 0.04 diagonals 0.47 and more are.
 constexpr double least_close = 0.45;
@@ -304,8 +292,9 @@ class MirrorMap {
 
 }  // namespace
 
-std::vector<Index> vertex_table(PointsView points, PointsView images, const SurfaceGraph& graph,
+std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
                                 const Points& displacements, const Context& context) {
+  const SurfaceGraph graph(points.size(), faces);
   MirrorMap map(points, images, graph, displacements, context.stage(0, 0.3));
   std::vector<bool> is_known(points.size(), false);
   for (std::int32_t first = 0; first < graph.vertices(); ++first) {

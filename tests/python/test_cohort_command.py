@@ -190,7 +190,7 @@ def test_command_line_of_meshes(tmp_path):
 
 def test_meshes_whose_triangulation_is_not_symmetric(rng, tmp_path):
     """Compared are the points of the surface that mirror each other, as of known ones, but for the
-    error of registration, which is the same for all individuals and is said to be in the row side."""
+    error of homologous points, which is the same for all individuals and is said to be in the row side."""
     x, faces = ball(random_rotation(rng), nsub=4)
     for i, shape in enumerate(bent_more_and_more(x)):
         write_mesh(tmp_path / f"m{i}.off", shape, faces)
@@ -206,7 +206,7 @@ def test_meshes_whose_triangulation_is_not_symmetric(rng, tmp_path):
     found = {name: row["ss"] for name, row in record["table"].items()}
     assert found["individual"] == pytest.approx(expected["individual"]["ss"], rel=0.03)
     assert found["individual_side"] == pytest.approx(expected["individual_side"]["ss"], rel=0.15)
-    assert "directional asymmetry has the error of registration" in record["pairs_from"]
+    assert "directional asymmetry has the error of homologous points" in record["pairs_from"]
 
 
 def test_pairs_of_a_triangulation():

@@ -88,6 +88,9 @@ Sides measured_sides(PointsView points, TrianglesView faces, const Mirror& mirro
   return sides;
 }
 
+// Standard deviations that a part along the surface is to exceed.
+constexpr double detected = 2;
+
 // In units and in shares of the diagonal: none is compared between shapes without knowing its unit.
 void report_length(Values& statistics, const std::string& name, double length, double diagonal) {
   statistics[name] = length;
@@ -167,7 +170,7 @@ void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, co
   Values& statistics = result.statistics;
   statistics["matched_share"] =
       static_cast<double>(counterparts.matched()) / static_cast<double>(count);
-  counterparts.report_unmatched(statistics);
+  counterparts.report(statistics);
   statistics["diagonal"] = diagonal;
   Eigen::VectorXd of_surface = distance;  // not of vertices that no face uses
   if (!input.faces.empty()) {
@@ -181,6 +184,14 @@ void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, co
   result.arrays = {{"vector", vector},         {"distance", distance}, {"signed", outward},
                    {"tangential", tangential}, {"lateral", lateral},   {"matched", matched},
                    {"confidence", confidence}};
+  if (const HomologousPoints* homologous = counterparts.homologous()) {
+    const auto is_known = distance.array().isFinite();  // others have no vector
+    const Eigen::VectorXd& deviations = homologous->deviations;
+    result.arrays["vector_sd"] = is_known.select(deviations, distance);
+    result.arrays["known"] = is_known.select(homologous->known, distance);
+    report_length(statistics, "detectable_tangential",
+                  detected * median(std::vector(deviations.begin(), deviations.end())), diagonal);
+  }
   if (!input.faces.empty()) {
     result.arrays["face"] = face;
     result.arrays["weights"] = weights;
@@ -210,8 +221,14 @@ OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
        "Whether the point has a counterpart: none past a rim, too far away, or with another "
        "normal."},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: the cosine between the normals, halved where the closest image, or the way to the "
-       "homologous point and back, ends a spacing away."},
+       "0 to 1: the cosine between the normals, halved where the closest image is a spacing away; "
+       "with homologous pairing what is known."},
+      {"vector_sd", ParameterType::Real, 1,
+       "With homologous pairing: the standard deviation of the vector along the surface, input "
+       "units; 0 where both sides have one triangulation."},
+      {"known", ParameterType::Real, 1,
+       "With homologous pairing: the share of the variance along the surface that the shape "
+       "explains, 0 to 1."},
       {"face", ParameterType::Integer, 1,
        "Of a mesh, the face whose image the place lies on; -1 for none.", false, false, true},
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},

@@ -409,7 +409,7 @@ void complete_by(const SymmetryMap& map, const ParameterValues& values, const Co
   for (const Index i : completion->sources()) result.point_sources.push_back(point_sources[i]);
   for (std::size_t f = face_sources.size(); f < result.face_sources.size(); ++f)
     result.face_sources[f] = face_sources[result.face_sources[f]];
-  if (map.is_reflection()) counterparts.report_unmatched(result.statistics);
+  if (map.is_reflection()) counterparts.report(result.statistics);
   const auto count = [&](const char* name, Index more) {
     Value& sum = result.statistics.try_emplace(name, Index{0}).first->second;
     sum = std::get<Index>(sum) + more;

@@ -31,7 +31,7 @@ void run_correspondences(HomologousMatcher homologous, const OperationInput& inp
   }
   const auto paired = static_cast<double>((index.array() >= 0).count());
   result.statistics["paired_share"] = paired / static_cast<double>(count);
-  counterparts.report_unmatched(result.statistics);
+  counterparts.report(result.statistics);
   result.arrays = {{"index", index}, {"confidence", confidence}};
   if (!input.faces.empty()) {
     result.arrays["face"] = face;
@@ -57,8 +57,9 @@ OperationImplementation correspondences_operation(HomologousMatcher homologous) 
        "corner of the face that the image comes closest to.",
        false, true},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: the cosine between the normals, halved where the closest image, or the way to the "
-       "homologous point and back, ends a spacing away."},
+       "0 to 1: the cosine between the normals, halved where the closest image is a spacing away; "
+       "with homologous pairing the share of the variance along the surface that the shape "
+       "explains."},
       {"face", ParameterType::Integer, 1,
        "Of a mesh, the face that the image comes closest to; -1 for none.", false, false, true},
       {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
@@ -110,7 +111,7 @@ void run_transfer(HomologousMatcher homologous, const OperationInput& input, con
     }
   }
   result.statistics["failed_points"] = static_cast<Index>(failed.sum());
-  counterparts.report_unmatched(result.statistics);
+  counterparts.report(result.statistics);
   result.arrays = {{"failed", failed}};
 }
 

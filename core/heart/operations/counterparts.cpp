@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/cloud.h"
@@ -95,8 +96,7 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
   distances_ = map.signed_distance(input.points, context.stage(0.3, 0.3));
   if (!map.is_reflection()) preimages_ = map.inverse().images(input.points, context);
   const double registered = homologous ? 0.8 : 0.3;
-  if (homologous)
-    homologous_ = homologous(input.points, input.faces, images_, context.stage(0.3, 0.8));
+  if (homologous) homologous_ = homologous(input, map, images_, context.stage(0.3, 0.8));
   const Context rest = context.stage(registered, 1);
   if (input.faces.empty())
     match_cloud(input, rest);
@@ -108,7 +108,6 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
     pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
   }
-  if (homologous) go_back(input, context.stage(1, 1));
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
@@ -119,35 +118,24 @@ void Counterparts::settle(Index i, double cosine) {
   c.matched = !c.past_rim && c.gap <= limits_.distance && c.agreement >= limits_.cosine;
 }
 
-// From the homologous point of a point to the homologous point of that.
-void Counterparts::go_back(const OperationInput& input, const Context& context) {
-  parallel_for(context, input.points.size(), grain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      Counterpart& c = all_[i];
-      if (!c.matched || homologous_.partners[i] >= 0) continue;
-      Vector3 displacement = Vector3::Zero();
-      if (c.face < 0)
-        displacement = homologous_.displacements.row(c.nearest).transpose();
-      else
-        for (int k = 0; k < 3; ++k)
-          displacement +=
-              c.weights[k] * homologous_.displacements.row(input.faces[c.face][k]).transpose();
-      const Vector3 back = map_.preimage(c.on_surface + displacement);
-      c.return_gap = (back - input.points[i]).norm();
-      if (!std::isfinite(c.return_gap)) c.return_gap = limits_.distance;
-    }
-  });
+// A point that is the image of another, to the rounding of single precision.
+void Counterparts::settle_exact(Index i) {
+  all_[i].matched = true;
+  if (!is_homologous_) return;
+  homologous_.deviations[i] = 0;
+  homologous_.known[i] = 1;
 }
 
 double Counterparts::confidence(Index i, PointsView points) const {
   const Counterpart& c = all_[i];
   if (!c.matched) return 0;
-  double gap = !is_homologous_ ? (image(i) - points[c.nearest]).norm() : c.return_gap;
+  if (is_homologous_) return homologous_.known[i];
+  double gap = (image(i) - points[c.nearest]).norm();
   if (!std::isfinite(gap)) gap = c.gap;  // a point without an image may be another's
   return gap == 0 ? c.agreement : c.agreement / (1 + gap * gap / (spacing_ * spacing_));
 }
 
-void Counterparts::report_unmatched(Values& statistics) const {
+void Counterparts::report(Values& statistics) const {
   const auto share = [&](const auto& is_so) {
     const auto count = std::count_if(all_.begin(), all_.end(),
                                      [&](const Counterpart& c) { return !c.matched && is_so(c); });
@@ -165,6 +153,13 @@ void Counterparts::report_unmatched(Values& statistics) const {
   statistics["unmatched_past_rim"] = share([](const Counterpart& c) { return c.past_rim; });
   statistics["unmatched_too_far"] = share(is_far);
   statistics["unmatched_turned"] = share(is_turned);
+  if (!is_homologous_) return;
+  const double known = median(std::vector(homologous_.known.begin(), homologous_.known.end()));
+  statistics["known_share"] = known;
+  if (known < 0.5)
+    statistics["warning"] =
+        "the shape explains less than half of the displacement along the surface (known_share " +
+        to_string(Value(known)) + "): homologous points are uncertain along it";
 }
 
 void Counterparts::match_mesh(const OperationInput& input, const Context& context) {
@@ -258,7 +253,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     const double cosine =
         cosine_between(image_normals.row(partner).transpose(), normals_.row(i).transpose());
     settle(i, std::abs(cosine));
-    c.matched = c.matched || is_exact;
+    if (is_exact) settle_exact(i);
     return cosine;
   };
 
@@ -338,7 +333,7 @@ void Counterparts::match_cloud(const OperationInput& input, const Context& conte
       c.past_rim = is_own_side || along.norm() > rim_of_cloud * spacing_;
       // Estimated normals have no sign.
       settle(i, std::abs(normal.dot(normals_.row(i).transpose())));
-      c.matched = c.matched || gap.norm() <= exact_reach;
+      if (gap.norm() <= exact_reach) settle_exact(i);
     }
   });
 }
@@ -357,8 +352,9 @@ Parameter max_angle() {
 Parameter pairing() {
   return Parameter::choice(
       "pairing", "closest", {"closest", "homologous"},
-      "What a point is paired with: the closest point of the mirrored surface, or the homologous "
-      "one, by non-rigid registration.");
+      "What a point is compared with: the closest point of the mirrored surface, or the homologous "
+      "one: the vertex that mirrors it in one triangulation, else the estimate of a Gaussian "
+      "process.");
 }
 
 HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous) {

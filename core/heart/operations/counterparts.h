@@ -58,10 +58,12 @@ constexpr double mirror_tolerance = 1e-6;
 struct HomologousPoints {
   Points displacements;  ///< from each point to it, smooth: on the image but for what is fine
   std::vector<Index> partners;  ///< of each point the one that it is the image of; -1: not known
+  Eigen::VectorXd deviations;   ///< standard, of the part along the surface, input units
+  Eigen::VectorXd known;        ///< share of its variance that the shape explains, 0 to 1
 };
 
 /// Finds them. `images`: of the points, NaN where there are none.
-using HomologousMatcher = HomologousPoints (*)(PointsView points, TrianglesView faces,
+using HomologousMatcher = HomologousPoints (*)(const OperationInput& input, const SymmetryMap& map,
                                                PointsView images, const Context& context);
 
 /// Those of a satellite.
@@ -81,10 +83,8 @@ struct Counterpart {
   Index face = -1;     ///< of a mesh, whose image the place lies on
   Vector3 weights = Vector3::Zero();  ///< barycentric, of the face's corners
   double gap = 0;                     ///< from the point to the mirrored surface, input units
-  double return_gap = 0;  ///< of a homologous point: from the point to what the way there and back
-                          ///< leads to, input units
-  double agreement = 0;   ///< cosine between the normals there, 0 to 1
-  bool on_rim = false;    ///< the place is on a boundary of the mirrored mesh
+  double agreement = 0;               ///< cosine between the normals there, 0 to 1
+  bool on_rim = false;                ///< the place is on a boundary of the mirrored mesh
   bool past_rim = false;  ///< the point lies beside the mirrored surface, not above it, or there
                           ///< is none of the other side
   /// Whose image is a point, or which is not past a rim, nor farther away or turned by more than
@@ -111,12 +111,16 @@ class Counterparts {
   const Counterpart& operator[](Index i) const { return all_[i]; }
   Index matched() const { return matched_; }
 
-  /// 0 to 1: the cosine between the normals, halved where the closest image of a point, or the way
-  /// there and back between homologous points, ends a spacing away. 0 without a counterpart.
+  /// 0 to 1: the cosine between the normals, halved where the closest image of a point is a spacing
+  /// away; of homologous points what is known of them. 0 without a counterpart.
   double confidence(Index i, PointsView points) const;
 
-  /// Of all points the share without a counterpart, and what of it is so for which reason.
-  void report_unmatched(Values& statistics) const;
+  /// Of all points the share without a counterpart, and what of it is so for which reason; a
+  /// warning where little is known of homologous points.
+  void report(Values& statistics) const;
+
+  /// Where homologous points were asked for.
+  const HomologousPoints* homologous() const { return is_homologous_ ? &homologous_ : nullptr; }
 
   /// Of a point, NaN where it has none.
   Vector3 image(Index i) const { return images_.row(i).transpose(); }
@@ -143,7 +147,7 @@ class Counterparts {
   void match_mesh(const OperationInput& input, const Context& context);
   void match_cloud(const OperationInput& input, const Context& context);
   void settle(Index i, double cosine);
-  void go_back(const OperationInput& input, const Context& context);
+  void settle_exact(Index i);
 
   // From where the counterpart of a point is looked for.
   Vector3 query(PointsView points, Index i) const {

@@ -41,7 +41,7 @@ class Symmetrization {
   /// 1 where a point had a counterpart at first, else 0.
   const Eigen::VectorXd& paired() const { return paired_; }
 
-  /// What Counterparts::report_unmatched() said at first.
+  /// What Counterparts::report() said at first.
   const Values& unmatched() const { return unmatched_; }
 
  private:
@@ -71,7 +71,7 @@ class Symmetrization {
     if (paired_.size() == 0) {
       paired_ = Eigen::VectorXd::NullaryExpr(from.size(),
                                              [&](Index i) { return found[i].matched ? 1 : 0; });
-      found.report_unmatched(unmatched_);
+      found.report(unmatched_);
     }
     Points points = from.matrix();
     parallel_for(context.stage(0.8, 1), from.size(), grain, [&](Index begin, Index end) {

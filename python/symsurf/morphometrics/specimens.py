@@ -187,7 +187,7 @@ def paired(specimens: Specimens) -> tuple[Specimens, LandmarkPairs, str]:
         return specimens, _of_vertices(exact.index), f"{source} and the triangulation"
     found = operate("correspondences", shape, mirror, pairing="homologous")
     assert isinstance(found, Correspondences)
-    source += "; the triangulation is not symmetric: directional asymmetry has the error of registration in it"
+    source += "; the triangulation is not symmetric: directional asymmetry has the error of homologous points in it"
     return *_of_one_side(specimens, found, mirror.signed_distance(mean) > 0), source
 
 

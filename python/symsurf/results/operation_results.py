@@ -207,7 +207,9 @@ class Asymmetry(_OverMirror):
     "p99" and "maximum" of the distances, "signed_mean" and "signed_deviation", in input units and,
     with "_of_diagonal" behind the name, as shares of the "diagonal"; of a mesh "positive_area" and
     "negative_area" with "area_index", (positive - negative) / (positive + negative); of a
-    watertight one the same of the volume. 0 means symmetric.
+    watertight one the same of the volume. 0 means symmetric. With homologous pairing
+    "known_share", "detectable_tangential", the smallest asymmetry along the surface that the shape
+    could show, two median ``vector_sd``, and, where less than half is known, "warning".
     """
 
     operation = "asymmetry"
@@ -227,8 +229,14 @@ class Asymmetry(_OverMirror):
     """(n,) whether the point has a counterpart: none past a rim, too far away, or with another
     normal."""
     confidence: NDArray[np.float64]
-    """(n,) 0 to 1: the cosine between the normals, halved where the closest image, or the way to
-    the homologous point and back, ends a spacing away."""
+    """(n,) 0 to 1: the cosine between the normals, halved where the closest image is a spacing away;
+    with homologous pairing what is ``known``."""
+    vector_sd: NDArray[np.float64] | None = None
+    """(n,) with homologous pairing the standard deviation of ``vector`` along the surface, input
+    units; 0 where both sides have one triangulation, NaN without a counterpart."""
+    known: NDArray[np.float64] | None = None
+    """(n,) with homologous pairing the share of the variance along the surface that the shape
+    explains, 0 to 1; NaN without a counterpart."""
     face: NDArray[np.int64] | None = None
     """(n,) of a mesh, the face whose image the place lies on; -1 for none."""
     weights: NDArray[np.float64] | None = None
@@ -246,8 +254,8 @@ class Correspondences(_OverMirror):
     index: NDArray[np.int64]
     """(n,) the mirror point, the point itself on the mirror, -1 for none."""
     confidence: NDArray[np.float64]
-    """(n,) 0 to 1: the cosine between the normals, halved where the closest image, or the way to
-    the homologous point and back, ends a spacing away."""
+    """(n,) 0 to 1: the cosine between the normals, halved where the closest image is a spacing away;
+    with homologous pairing the share of the variance along the surface that the shape explains."""
     face: NDArray[np.int64] | None = None
     """(n,) of a mesh, the face that the image comes closest to; -1 for none."""
     weights: NDArray[np.float64] | None = None

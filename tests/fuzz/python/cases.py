@@ -19,7 +19,7 @@ KINDS = ("detect", "operate", "detect", "operate", "detect", "analyse")
 SLOW_METHOD = "sphere_thesis"
 # What is not known of points without a counterpart or a reflection, and is infinite in a focus.
 MAY_BE_NAN = {"vector", "distance", "signed", "tangential", "lateral", "weights", "reflection"}
-MAY_BE_NAN |= {"irradiance"}
+MAY_BE_NAN |= {"irradiance", "vector_sd", "known"}
 
 
 class NotFinite(Exception):
