@@ -243,8 +243,8 @@ Offset SurfaceDistance::operator()(const Vector3& x) const {
   return offset;
 }
 
-MapDeviation SurfaceDistance::deviation(const std::vector<Eigen::Isometry3d>& maps,
-                                        Index images) const {
+MapDeviation SurfaceDistance::deviation(const std::vector<Eigen::Isometry3d>& maps, Index images,
+                                        double within) const {
   MapDeviation worst;
   const auto all = static_cast<Index>(samples_.size());
   const Index each =
@@ -252,7 +252,7 @@ MapDeviation SurfaceDistance::deviation(const std::vector<Eigen::Isometry3d>& ma
   double near = 0, missing = 0, count = 0;
   std::vector<double> distances, window, medians;
   Index first = 0;
-  const double within = std::max(rounding_, 0.01 * diameter_);
+  within = std::max({within, rounding_, 0.01 * diameter_});
   for (const Eigen::Isometry3d& map : maps) {
     if (map.isApprox(Eigen::Isometry3d::Identity(), 0)) continue;
     distances.clear();

@@ -27,7 +27,7 @@ struct MapDeviation {
   double greatest =
       0;  ///< distance; of a cloud that which medians of neighbours keep to, 98 % of them
   double quantile = 0;  ///< that 95 % of the samples of each map stay below
-  double near = 1;      ///< share of the images within what the shape is off itself
+  double near = 1;      ///< share of the images that lie on the shape
   double missing = 0;   ///< share of the images beyond a rim, which do not count above
   /// Share of the samples of which hardly more than half of the images lie on the shape: not for a
   /// hole, which takes few images of many samples, but for what is there once only.
@@ -48,8 +48,10 @@ class SurfaceDistance {
   /// of the distance.
   Offset rough(const Vector3& x) const;
 
-  /// Of the worst of the maps, by about so many images in all.
-  MapDeviation deviation(const std::vector<Eigen::Isometry3d>& maps, Index images) const;
+  /// Of the worst of the maps, by about so many images in all. `within`: how far off images still
+  /// lie on the shape, where that is more than its rounding.
+  MapDeviation deviation(const std::vector<Eigen::Isometry3d>& maps, Index images,
+                         double within = 0) const;
 
   /// In random order, even by area.
   const std::vector<Vector3>& samples() const { return samples_; }

@@ -74,16 +74,23 @@ class Rule {
   double finite() const { return finite_; }
   bool is_given() const { return name_ == "given"; }
 
-  double excess(const HeldGroup& held) const {
-    const double off = name_ == "object" ? held.deviation.quantile : held.deviation.greatest;
-    return off / (held.group.continuous || held.group.all ? continuous_ : finite_);
+  double limit(const HeldGroup& held) const {
+    return held.group.continuous || held.group.all ? continuous_ : finite_;
   }
 
-  bool allows(const HeldGroup& held, const HeldGroup& exact) const {
-    if (held.size() == 1) return true;
-    return excess(held) <= 1 && held.deviation.near >= minimum_score_ &&
-           held.deviation.missing <= most_missing && held.deviation.alone <= most_alone &&
-           !is_prism(held, exact);
+  double excess(const HeldGroup& held) const {
+    const MapDeviation& off = held.deviation;
+    return (name_ == "object" ? off.quantile : off.greatest) / limit(held);
+  }
+
+  bool may_hold(const HeldGroup& held, const HeldGroup& exact) const {
+    return excess(held) <= 1 && !is_prism(held, exact);
+  }
+
+  bool allows(const HeldGroup& held) const {
+    const MapDeviation& off = held.deviation;
+    return excess(held) <= 1 && off.near >= minimum_score_ && off.missing <= most_missing &&
+           off.alone <= most_alone;
   }
 
  private:
@@ -108,9 +115,9 @@ HeldGroup largest(std::vector<HeldGroup>& groups, const SurfaceDistance& surface
   });
   for (HeldGroup& held : groups) {
     context.check();
-    if (!rule.allows(held, exact)) continue;
-    if (held.size() > 1) held.deviation = surface.deviation(held.maps(), all_images);
-    if (rule.allows(held, exact)) return held;
+    if (held.size() == 1 || !rule.may_hold(held, exact)) continue;
+    held.deviation = surface.deviation(held.maps(), all_images, rule.limit(held));
+    if (rule.allows(held)) return held;
   }
   return {};
 }
@@ -174,7 +181,7 @@ std::optional<HeldGroup> partly_turned(const Cloud& cloud, const SurfaceDistance
   const std::optional<Revolution> part = find_revolution(cloud, surface, context);
   if (!part || part->turn > whole_turn) return {};
   HeldGroup held{axial_group(0, {.vertical = true}), part->pose, part->deviation};
-  if (!rule.allows(held, {})) return {};
+  if (!rule.allows(held)) return {};
   held.deviation.missing = 1 - part->turn;
   return held;
 }
