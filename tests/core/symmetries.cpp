@@ -141,6 +141,91 @@ TEST(Symmetries, OfMolecules) {
   EXPECT_EQ(find_symmetries(ring).group, "D6h");
 }
 
+// Coordinates of three decimals, as files of molecules have; the tolerance that is given lets more
+// in.
+TEST(Symmetries, OfRoundedMolecules) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const double unit : {1e-3, 1e-4, 1e-6})
+      for (const PointGroup& group :
+           {polyhedral_group(3, false, true), polyhedral_group(5, true, true),
+            axial_group(6, {.across = true, .vertical = true}),
+            axial_group(3, {.rotary = true, .vertical = true}), axial_group(2, {.twofold = true}),
+            reflection_group()}) {
+        const Points exact = 2 * orbits_of(group, 2, random);
+        const Points rounded = unit * (exact / unit).array().round().matrix();
+        EXPECT_EQ(find_symmetries(rounded).group, group.name) << unit;
+      }
+  }
+}
+
+struct Mesh {
+  Points points;
+  Triangles faces;
+};
+
+// With a point in the middle of each end.
+Mesh prism(Index sides, double height, const Matrix3& rotation) {
+  Mesh mesh{Points(2 * sides + 2, 3), Triangles(4 * sides, 3)};
+  for (Index i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(sides);
+    const Index j = (i + 1) % sides;
+    mesh.points.row(i) << std::cos(angle), std::sin(angle), -height / 2;
+    mesh.points.row(i + sides) << std::cos(angle), std::sin(angle), height / 2;
+    mesh.faces.row(4 * i) << i, j, j + sides;
+    mesh.faces.row(4 * i + 1) << i, j + sides, i + sides;
+    mesh.faces.row(4 * i + 2) << j, i, 2 * sides;
+    mesh.faces.row(4 * i + 3) << i + sides, j + sides, 2 * sides + 1;
+  }
+  mesh.points.bottomRows(2) << 0, 0, -height / 2, 0, 0, height / 2;
+  mesh.points *= rotation;
+  return mesh;
+}
+
+TEST(Symmetries, OfPrismsAreTheirs) {
+  RandomCloud random(2);
+  for (const Index sides : {3, 5, 12, 15, 20, 33, 64})
+    for (const double height : {0.2, 1.0, 3.0}) {
+      const Mesh mesh = prism(sides, height, random.rotation());
+      const Symmetries found = find_symmetries(mesh.points, {.faces = mesh.faces});
+      EXPECT_EQ(found.group, "D" + std::to_string(sides) + "h") << height;
+      for (const double deviation : found.max_deviations) EXPECT_LT(deviation, 1e-8);
+    }
+}
+
+// Each group holds from its deviation on: of a prism the exact one at any, the cylinder's once the
+// corners are within it.
+TEST(Symmetries, FollowTheTolerance) {
+  RandomCloud random(4);
+  const Mesh mesh = prism(12, 1, random.rotation());
+  const double corner = 1 - std::cos(std::numbers::pi / 12);
+  const auto within = [&](double tolerance) {
+    return find_symmetries(mesh.points, {.faces = mesh.faces, .tolerance = tolerance});
+  };
+  EXPECT_EQ(within(0.9 * corner).group, "D12h");
+  const Symmetries round = within(1.1 * corner);
+  EXPECT_EQ(round.group, "D∞h");
+  ASSERT_GE(round.by_tolerance.size(), 2u);
+  EXPECT_EQ(round.by_tolerance.front().group, "D12h");
+  EXPECT_LT(round.by_tolerance.front().greatest, 1e-8);
+  for (const GroupTolerance& held : round.by_tolerance)
+    if (held.group == "D∞h") EXPECT_NEAR(held.greatest, corner, 0.05 * corner);
+}
+
+// A closed mesh has no unknown side: what a feature has no twin of is no symmetry.
+TEST(Symmetries, OfClosedMeshesAreNotThoseOfMostOfThem) {
+  const Mesh plate = prism(4, 0.3, Matrix3::Identity());
+  Mesh post = prism(6, 1, Matrix3::Identity());
+  post.points *= 0.1;
+  post.points.rowwise() += Eigen::RowVector3d(0.35, 0.2, 0.2);
+  Mesh both{Points(plate.points.rows() + post.points.rows(), 3),
+            Triangles(plate.faces.rows() + post.faces.rows(), 3)};
+  both.points << plate.points, post.points;
+  both.points *= RandomCloud(5).rotation();
+  both.faces << plate.faces, (post.faces.array() + plate.points.rows()).matrix();
+  EXPECT_EQ(find_symmetries(both.points, {.faces = both.faces}).group, "C1");
+}
+
 // Drawn evenly over a box, about its middle.
 Points on_box(const Vector3& size, Index count, RandomCloud& random) {
   const Vector3 areas(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
