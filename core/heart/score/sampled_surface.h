@@ -33,7 +33,8 @@ class SampledSurface {
   struct Sample {
     Vector3 position;
     LocalFacet facet;  ///< of half of its neighbours
-    double above;      ///< how far it lies above that plane: noise, which images are taken without
+    double above = 0;  ///< where noise shows, how far it lies above that plane: images are of the
+                       ///< point without it
     LocalFacet patch;  ///< of all points of some cells around it
     double noise;      ///< root mean square distance of the samples around it from their planes
     double spacing;    ///< median distance to their third neighbours
@@ -77,7 +78,7 @@ class SampledSurface {
   const Cloud& cloud_;
   const PointTree& tree_;
   double noise_ = 0, spacing_ = 0;
-  bool fills_volume_ = false;
+  bool is_noisy_ = false, fills_volume_ = false;
   const Surfels& patches_;
   Points positions_;  // of the samples
   PointTree sample_tree_;
