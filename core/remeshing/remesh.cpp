@@ -116,6 +116,8 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
   const double diagonal = diagonal_of(input.points);
   const ManifoldSurface surface =
       manifold_surface(input.points, input.faces, context.stage(0, 0.05));
+  if (surface.faces.rows() == 0)
+    throw InvalidInput("the faces have no area; remesh needs a surface");
   const Half half = half_of(surface.points, surface.faces, mirror, keeps_positive(values),
                             context.stage(0.05, 0.15));
   const double area = surface_area(half.points, half.faces);

@@ -12,7 +12,7 @@
 #include "cloud/cloud.h"
 #include "cloud/surfels.h"
 #include "operations/operation.h"
-#include "point_group/group_search.h"
+#include "point_group/symmetry_search.h"
 #include "preprocess/surface_samples.h"
 
 namespace symsurf {

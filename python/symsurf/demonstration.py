@@ -84,7 +84,7 @@ def cases() -> Iterator[Case]:
 def find(case: Case, progress: Progress | None = None) -> Finding:
     """By the default call."""
     # Thin wings mostly slide over themselves: with a tip raised, little tells of the plane.
-    result = detect(case.shape, minimum_score=0.3, progress=progress)
+    result = detect(case.shape, progress=progress)
     error = float("nan")
     if result.mirror is not None:
         points = case.shape.points

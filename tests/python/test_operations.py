@@ -215,7 +215,7 @@ def test_only_what_is_unmatched_is_told(ball, tmp_path):
     expected = f"{int(1000 * share) / 10:g} %"
     assert told == {"unmatched share": expected, "unmatched too far": expected}
     np.savetxt(tmp_path / "blob.xyz", lopsided_blob(2000))
-    line = "asymmetry blob.xyz --method plane"
+    line = "asymmetry blob.xyz --method plane --max-distance 0.05"
     record = json.loads(run_here(f"{line} --json", tmp_path).stdout)
     shares = {name: share for name, share in record["statistics"].items() if "unmatched" in name}
     assert shares["unmatched_without_image"] == 0 < shares["unmatched_too_far"]

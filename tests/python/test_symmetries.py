@@ -183,30 +183,6 @@ def test_the_command_line_makes_a_table_and_takes_other_formats(tmp_path):
     assert "minimum_score is much; allowed is real [0, 1]" in refused.stderr
 
 
-def test_groups_by_tolerance_hold_one_another():
-    part = PARTS["hexagonal nut"]
-    corners, faces = np.unique(part.triangles.reshape(-1, 3), axis=0, return_inverse=True)
-    nut = symsurf.Shape(corners, faces.reshape(-1, 3))
-    exact = symsurf.symmetries(nut)
-    assert exact.group == "D6h"
-    first, *more = exact.by_tolerance
-    assert first.group == "D6h" and first.tolerance < 1e-8
-    assert [held.tolerance for held in more] == sorted(held.tolerance for held in more)
-    round_one = next(held for held in more if held.group == "D∞h")
-    assert symsurf.symmetries(nut, tolerance=1.05 * round_one.tolerance).group == "D∞h"
-    assert symsurf.symmetries(nut, tolerance=0.5 * round_one.tolerance).group == "D6h"
-
-
-def test_a_pin_on_a_cylinder_is_ignored_where_people_ignore_it():
-    part = PARTS["cylinder"]
-    pin = np.random.default_rng(0).normal(size=(40, 3))
-    pin *= 0.02 / np.linalg.norm(pin, axis=1, keepdims=True)
-    points = np.vstack([part.sampled(6000, np.random.default_rng(1)), pin + (0.51, 0, 0.2)])
-    found = symsurf.symmetries(points, tolerance_rule="object")
-    assert found.group == "D∞h"
-    assert symsurf.symmetries(points, tolerance=0.1).to_bop()["symmetries_continuous"]
-
-
 def test_bad_input_is_named():
     points, _, _ = posed(PARTS["box"])
     with pytest.raises(

@@ -13,6 +13,10 @@ namespace symsurf {
 
 namespace {
 
+// Of the set's diameter: from an image to a point, single precision; the same under an isometry
+// that two points define.
+constexpr double exactly = 2e-6, guessed = 5e-5;
+constexpr double same_map = 1e-4;         // between matrices
 constexpr double least_radius = 0.3;      // of the largest, of points that define a map
 constexpr double least_sine = 0.3;        // of the angle between two of them
 constexpr Index most_bases = 4'000'000;   // pairs that are tried for the base
@@ -33,9 +37,8 @@ Vector3 centre_of(PointsView points, const PointTree& tree) {
 
 class Search {
  public:
-  Search(PointsView points, const PointTree& tree, Index checked, double exactly)
-      : exactly(exactly),
-        all_(points),
+  Search(PointsView points, const PointTree& tree, Index checked)
+      : all_(points),
         tree_(tree),
         centre_(tree.has_copies() ? centre_of(points, tree)
                                   : Vector3(points.matrix().colwise().mean())),
@@ -182,15 +185,11 @@ class Search {
     return true;
   }
 
-  bool is_known(const std::vector<Matrix3>& maps, const Matrix3& map) const {
+  static bool is_known(const std::vector<Matrix3>& maps, const Matrix3& map) {
     return std::any_of(maps.begin(), maps.end(),
                        [&](const Matrix3& other) { return (other - map).norm() < same_map; });
   }
 
-  // Of the set's diameter: from an image to a point; the same under an isometry that two points
-  // define. Between matrices that are the same.
-  double exactly, guessed = std::min(25 * exactly, std::max(5e-5, 4 * exactly)),
-                  same_map = std::max(1e-4, 5 * exactly);
   PointsView all_;
   const PointTree& tree_;
   Vector3 centre_;
@@ -213,8 +212,8 @@ std::optional<Vector3> reflected_normal(const Matrix3& map) {
 }  // namespace
 
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
-                                 std::size_t most, Index checked, double exactly) {
-  return Search(points, tree, checked, exactly).run(most, context);
+                                 std::size_t most, Index checked) {
+  return Search(points, tree, checked).run(most, context);
 }
 
 std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {

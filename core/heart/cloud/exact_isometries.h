@@ -21,12 +21,11 @@ struct ExactIsometries {
 /// them, to the rounding of single precision: by trying all images of two points (Atallah 1985 in
 /// the plane) with few as far out as they are (Wolter, Woo and Volz 1985), then fitted to all; of
 /// what is found all products. At most about `most`. `checked`: how many of the points, spread
-/// over them, are asked where they are taken. `exactly`: how far points may be off, over the
-/// diameter. The identity alone where of many points too many lie as far out, as on a sphere.
+/// over them, are asked where they are taken. The identity alone where of many points too many lie
+/// as far out, as on a sphere.
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
                                  std::size_t most = std::numeric_limits<std::size_t>::max(),
-                                 Index checked = std::numeric_limits<Index>::max(),
-                                 double exactly = 2e-6);
+                                 Index checked = std::numeric_limits<Index>::max());
 
 /// The reflections among them, by some of the points: the planes that map a cloud onto itself, but
 /// for one that all points lie on.

@@ -20,7 +20,7 @@ inline constexpr double usual_minimum_score = 0.5;
 /// chance makes of it. Of 120 shapes, cut, asymmetric and without a mirror, 4 false planes reach
 /// this and 6 right ones do not.
 inline double least_evidence(const Mirror& mirror) {
-  return mirror.kind() == "plane" ? 0.52 : 0.64;
+  return mirror.kind() == "plane" ? 0.51 : 0.6;
 }
 
 /// Sets "verdict" and "reason" of a mirror, or of pairs alone. A reason that the method gave says

@@ -28,13 +28,6 @@ struct SymmetryAxis {
   std::array<Vector3, 2> segment(PointsView points) const;
 };
 
-/// A point group, and from which tolerance on it holds, input units.
-struct GroupTolerance {
-  std::string group;
-  double greatest;  ///< as Symmetries::max_deviations, of the worst element
-  double quantile;  ///< that 95 % of the images of the worst element keep to
-};
-
 /// The point group of a shape: every rigid motion and reflection that maps it onto itself.
 struct Symmetries {
   /// In Schoenflies' notation: "C1", "Cs", "Ci", "C4", "C4v", "C4h", "D4", "D4h", "D4d", "S8", "T",
@@ -51,30 +44,22 @@ struct Symmetries {
   /// Every element on homogeneous columns (x, y, z, 1), the identity first; of a continuous group
   /// those that, with the turns about the continuous axes, make up all.
   std::vector<Matrix4> elements;
-  /// Of each element how far it takes the shape off itself, input units: the greatest distance of
-  /// an image from the faces; of a cloud from the planes through neighbours, which the medians of
-  /// 98 % of the neighbourhoods keep to; of a small set from the points. By a sample of the images.
+  /// Of each element how far it takes the shape off itself, input units: the greatest distance from
+  /// the image of a vertex to the surface, of a cloud from that of a point to the nearest point. Of
+  /// large shapes by a sample of their points.
   std::vector<double> max_deviations;
   /// The same of the turns about each continuous axis, in the order of axes: of eight.
   std::vector<double> axis_max_deviations;
-  /// Groups by how far they take the shape off itself, each holding the one before it.
-  std::vector<GroupTolerance> by_tolerance;
-  double diameter = 0;  ///< the greatest distance of two points, input units
-  double score = 1;     ///< share of the images on the shape, of those where it has points, 0 to 1
-  double missing = 0;   ///< share of the images that fall where it has none: what is cut away
-  double seconds = 0;   ///< that it took
+  double score = 1;    ///< how well images lie on the shape where it has points, 0 to 1
+  double missing = 0;  ///< share of the images that fall where it has none: what is cut away
+  double seconds = 0;  ///< that it took
 };
 
 struct SymmetryOptions {
   TrianglesView faces = {};       ///< optional, between the points, as detect() takes them
   bool refuse_nonfinite = false;  ///< whether a point that is not finite is an error
   double minimum_score = 0.7;     ///< of a group, [0, 1]
-  double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: by the rule
-  /// "rounding": a thousandth of the diameter or twice the sagitta of facets, of a cloud what
-  /// spacing and noise explain, of a small set its decimals; "given": the tolerance, as wherever
-  /// one is given in place of the rounding; "object": 95 % of the images within 2.5 % of the
-  /// diameter, of continuous axes 5 %; "bop": the greatest within 15 or a tenth of the diameter.
-  std::string tolerance_rule = "rounding";
+  double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: any
   /// One row a point, a column a channel; empty: colours do not count. Else only what keeps them is
   /// a symmetry: nowhere may most of a dozen neighbours, of 20000 samples of the surface, fall
   /// where the colours differ by more than a tenth of their range, beyond what neighbours differ
@@ -82,12 +67,15 @@ struct SymmetryOptions {
   Eigen::MatrixXd colours = {};
 };
 
-/// Finds the largest point group of a shape within a tolerance. Of at most 1000 points without
-/// faces, as landmarks and the atoms of a molecule are, it is that of the isometries that map each
-/// point onto one of them, where there are any but the identity. Otherwise the images of the
-/// surface are to lie on it; those beyond a rim of an open mesh or a cloud, a third at most, do not
-/// count. Orders are 64 at most but for what maps the vertices onto each other. Throws InvalidInput
-/// and Cancelled as detect() does, InvalidInput for colours that are not one a point or not finite,
+/// Finds the point group of a shape. Of at most 1000 points without faces, as landmarks and the
+/// atoms of a molecule are, it is that of all isometries that map each point onto one of them, to
+/// the rounding of single precision, where there are any but the identity. Otherwise a group counts
+/// where its elements map the shape onto itself wherever it has points, where hardly any point is
+/// confirmed by too few of its images, as a bottle's handle is when the bottle is turned, and where
+/// at most a third of the images fall where the shape has none. Orders are products of primes up to
+/// 31 and their powers up to 64, 128 at most. Groups of turns about several axes without any mirror
+/// (T, O, I) are found only where the principal axes are among theirs. Throws InvalidInput and
+/// Cancelled as detect() does, InvalidInput for colours that are not one a point or not finite,
 /// InvalidParameter for minimum_score and tolerance.
 Symmetries find_symmetries(PointsView points, const SymmetryOptions& options = {},
                            const Context& context = {});

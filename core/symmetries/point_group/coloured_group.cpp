@@ -10,8 +10,8 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "cloud/closest_point_on_mesh.h"
-#include "point_group/group_search.h"
 #include "point_group/point_group.h"
+#include "point_group/symmetry_search.h"
 #include "preprocess/surface_samples.h"
 
 namespace symsurf {
@@ -302,12 +302,20 @@ PlacedGroup kept_elements(const Symmetries& found, const ColouredSurface& surfac
 PlacedGroup group_of_sphere(const Symmetries& found, const ColouredSurface& surface,
                             const Context& context) {
   constexpr AxialElements all{.across = true, .vertical = true, .twofold = true};
+  constexpr double least_score = 0.7;  // as of shapes
   const bool any_turn = std::all_of(found.axes.begin(), found.axes.end(), [&](const auto& axis) {
     return ColouredAxis(surface, axis.direction, found.centre).most_elements() == infinity;
   });
   if (any_turn) return {spherical_group(), {}};
   const Points relief = surface.relief(found.centre);
-  const Symmetries raised = find_symmetries(surface.relief(found.centre), {}, context);
+  const Symmetries raised = search_symmetries(
+      checked_cloud(relief, {}, 4, context), false, least_score,
+      [&](const Symmetries& group) {
+        return std::all_of(group.elements.begin(), group.elements.end(), [&](const Matrix4& each) {
+          return surface.is_kept_by(Eigen::Isometry3d(each));
+        });
+      },
+      context);
   std::vector<Vector3> directions = surface.principal_directions(found.centre);
   for (const SymmetryAxis& axis : raised.axes) directions.push_back(axis.direction);
   suppress_non_maxima(directions, directions.size(), [](const Vector3& a, const Vector3& b) {
@@ -347,7 +355,7 @@ Symmetries coloured_group(const Symmetries& found, const ColouredSurface& surfac
                        .vertical = has_plane(false),
                        .twofold = found.axes.size() > 1});
   if (kept.group.name == found.group) return found;
-  return described({kept.group, kept.pose, {.near = found.score, .missing = found.missing}}, {});
+  return described(kept.group, kept.pose, {.support = found.score, .missing = found.missing}, {});
 }
 
 }  // namespace symsurf

@@ -60,21 +60,6 @@ Matrix3 reflection(const Vector3& normal) {
   return Matrix3::Identity() - 2 / normal.squaredNorm() * normal * normal.transpose();
 }
 
-std::vector<Matrix3> turns_of(Index order) {
-  std::vector<Matrix3> turns;
-  const auto n = static_cast<double>(order);
-  for (Index k = 1; k < order; ++k)
-    turns.push_back(turn(Vector3::UnitZ(), 2 * std::numbers::pi * static_cast<double>(k) / n));
-  return turns;
-}
-
-std::vector<Matrix3> any_turns(const Vector3& axis, int count) {
-  std::vector<Matrix3> turns;
-  for (int k = 1; k <= count; ++k)
-    turns.push_back(turn(axis, 2 * std::numbers::pi * std::numbers::phi * k));
-  return turns;
-}
-
 bool are_parallel(const Vector3& a, const Vector3& b, double angle) {
   return a.cross(b).norm() < angle;
 }

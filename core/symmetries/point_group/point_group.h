@@ -61,12 +61,6 @@ bool contains(const std::vector<Matrix3>& elements, const Matrix3& element);
 Matrix3 turn(const Vector3& axis, double angle);
 Matrix3 reflection(const Vector3& normal);
 
-/// Turns by k / order of a full turn, k = 1, 2, ... about z.
-std::vector<Matrix3> turns_of(Index order);
-
-/// Turns about an axis that are those of no order up to hundreds.
-std::vector<Matrix3> any_turns(const Vector3& axis, int count);
-
 /// Whether the lines along two unit vectors are, within an angle in radians.
 bool are_parallel(const Vector3& a, const Vector3& b, double angle);
 

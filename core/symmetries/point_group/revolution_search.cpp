@@ -10,8 +10,7 @@
 #include "base/math.h"
 #include "base/random.h"
 #include "cloud/surface_points.h"
-#include "cloud/surfels.h"
-#include "point_group/group_search.h"
+#include "point_group/symmetry_search.h"
 
 namespace symsurf {
 
@@ -23,8 +22,7 @@ constexpr std::size_t most_refined = 16, most_tried = 3;
 constexpr int steps = 10;
 constexpr double farthest_off = 0.2;  // radians between a normal and the plane of the axis
 constexpr double least_flatness = 0.3;
-constexpr double same_direction = 0.05;  // radians: 3 degrees
-constexpr double least_radius = 0.02;    // diagonals
+constexpr double least_radius = 0.02;  // diagonals
 constexpr Index bins = 72;
 // Of what is there, so that most images fall on it; far enough to show what they do not map.
 constexpr std::array turns{-0.3, -0.2, 0.14, 0.25};
@@ -252,25 +250,23 @@ double share_of_turn(const Points& points, const Line& line) {
 
 }  // namespace
 
-std::optional<Revolution> find_revolution(const Cloud& cloud, const SurfaceDistance& surface,
+std::optional<Revolution> find_revolution(const Cloud& cloud, const SymmetryTest& test,
                                           const Context& context) {
-  constexpr Index surfels = 1000, images = 8000;
   const SurfacePoints samples(cloud.frame.to_frame(cloud.points, context), sampled, context);
-  const Surfels& coarse = cloud.patches(surfels, context);
   std::vector<OrientedPoint> patches;
-  for (Index i = 0; i < coarse.size(); ++i)
-    if (const Surfel& s = coarse[i]; s.flatness > least_flatness)
+  for (Index i = 0; i < test.coarse().size(); ++i)
+    if (const Surfel& s = test.coarse()[i]; s.flatness > least_flatness)
       patches.push_back({s.mean, s.normal});
   std::optional<Revolution> best;
   for (const Guess& guess : guesses_of(patches)) {
     const Line line = ProfileFit(samples.points).from(guess.line);
     const double share = share_of_turn(samples.points, line);
-    const GroupPose pose = GroupPose::along(line.direction, line.point);
-    std::vector<Eigen::Isometry3d> maps;
+    std::vector<Matrix3> elements;
     for (const double part : turns)
-      maps.push_back(pose.placed(turn(Vector3::UnitZ(), 2 * std::numbers::pi * share * part)));
-    const MapDeviation deviation = surface.deviation(maps, images);
-    if (!best || deviation.near > best->deviation.near) best = Revolution{pose, deviation, share};
+      elements.push_back(turn(Vector3::UnitZ(), 2 * std::numbers::pi * share * part));
+    const auto passed = test.voted(GroupPose::along(line.direction, line.point), elements);
+    if (passed && (!best || passed->vote.fit > best->axis.vote.fit))
+      best = Revolution{{passed->pose, passed->vote, 0}, share};
   }
   return best;
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -127,16 +127,6 @@ class AnalysisResult(BaseResult):
         return plot(self, path, camera=camera, title=title)
 
 
-class GroupTolerance(NamedTuple):
-    """A point group, and from which tolerance on it holds, in input units."""
-
-    tolerance: float
-    """The greatest deviation, as ``Symmetries.max_deviation``, of its worst element."""
-    group: str
-    quantile: float
-    """What 95 % of the images under its worst element keep to."""
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Symmetries(AnalysisResult):
     """What maps a shape onto itself: its point group.
@@ -178,21 +168,9 @@ class Symmetries(AnalysisResult):
     @property
     def max_deviation(self) -> NDArray[np.float64]:
         """(n,) of each element how far it takes the shape off itself, in input units: the greatest
-        distance of an image from the faces; of a cloud from the planes through neighbours, which the
-        medians of 98 % of the neighbourhoods keep to; of a small set from the points."""
+        distance from the image of a vertex to the surface, of a cloud from that of a point to the
+        nearest point."""
         return self.statistics["max_deviations"].ravel()
-
-    @property
-    def by_tolerance(self) -> list[GroupTolerance]:
-        """Groups by how far they take the shape off itself, each holding the one before it: a bolt is
-        C6v to a thousandth of its size, D∞h to a thirtieth."""
-        names = self.statistics["groups"].split()
-        return [
-            GroupTolerance(float(greatest), name, float(quantile))
-            for name, (greatest, quantile) in zip(
-                names, self.statistics["by_tolerance"], strict=True
-            )
-        ]
 
     @property
     def elements(self) -> NDArray[np.float64]:
