@@ -16,7 +16,7 @@ PREFIX = "compute_mirror_"
 OF_THE_HOST = {"only_selected", "use_normals", "show_candidates"}
 # What a dialog has no use for: the layer is the input, the filter the method, the bar the progress.
 # MeshLab's layers bring their faces, are no grids or files of other programs, and log what is left out.
-OF_PYTHON = {"absolute", "points", "method", "normals", "progress", "parameters"} | {
+OF_PYTHON = {"absolute", "shape", "method", "normals", "progress", "parameters"} | {
     "faces",
     "threshold",
     "scalars",
