@@ -127,7 +127,10 @@ def _by_processes(tasks: Iterable[FileTask], jobs: int) -> Iterator[Ended]:
 
 
 def _by_itself(processes: Processes, task: FileTask) -> Record:
-    try:
-        return processes.call(perform.__module__, perform.__name__, task)
-    except ProcessDied:
-        return failed(task, "the process that worked on it died, perhaps for want of memory")
+    """Twice where the process dies: it may have been killed for what others took."""
+    for _ in range(2):
+        try:
+            return processes.call(perform.__module__, perform.__name__, task)
+        except ProcessDied:
+            continue
+    return failed(task, "the process that worked on it died, perhaps for want of memory")
