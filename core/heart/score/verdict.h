@@ -19,9 +19,7 @@ inline constexpr double usual_minimum_score = 0.5;
 /// The evidence of MirrorScore that a mirror is found with: the more freely it bends, the more
 /// chance makes of it. Of 120 shapes, cut, asymmetric and without a mirror, 4 false planes reach
 /// this and 6 right ones do not.
-inline double least_evidence(const Mirror& mirror) {
-  return mirror.kind() == "plane" ? 0.51 : 0.6;
-}
+inline double least_evidence(const Mirror& mirror) { return mirror.kind() == "plane" ? 0.51 : 0.6; }
 
 /// Sets "verdict" and "reason" of a mirror, or of pairs alone. A reason that the method gave says
 /// why it chose this mirror: where there is none, what is missing comes before it.
