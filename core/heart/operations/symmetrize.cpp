@@ -12,7 +12,7 @@ namespace {
 
 // Of so many matched points, the vertices mirror each other and are kept together; fewer meet by
 // chance, and pairs of them would slide over the surface.
-constexpr double vertices_mirror = 0.9;
+constexpr double vertices_mirror = 0.9, triangles_agree = 0.95;
 
 class Symmetrization {
  public:
@@ -65,8 +65,21 @@ class Symmetrization {
       return static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(all->matched());
     };
     bool keep_pairs = are_pairs(matcher_, context.stage(0, 0.4));
-    // The triangles tell the others, however far one side was moved.
-    if (keep_pairs && vertex_pairs_) keep_pairs = are_pairs(vertex_pairs_, context.stage(0.4, 0.8));
+    // The triangles tell the others, however far one side was moved, where they tell the same of
+    // nearly all.
+    if (keep_pairs && vertex_pairs_) {
+      std::vector<Index> closest(from.size(), -1);
+      for (Index i = 0; i < from.size(); ++i)
+        if ((*all)[i].matched && is_mutual(*all, i)) closest[i] = (*all)[i].nearest;
+      keep_pairs = are_pairs(vertex_pairs_, context.stage(0.4, 0.7));
+      Index pairs = 0, same = 0;
+      for (Index i = 0; i < from.size(); ++i) {
+        pairs += closest[i] >= 0;
+        same += closest[i] >= 0 && (*all)[i].nearest == closest[i];
+      }
+      if (!keep_pairs || static_cast<double>(same) < triangles_agree * static_cast<double>(pairs))
+        keep_pairs = are_pairs(matcher_, context.stage(0.7, 0.8));
+    }
     const Counterparts& found = *all;
     if (paired_.size() == 0) {
       paired_ = Eigen::VectorXd::NullaryExpr(from.size(),
