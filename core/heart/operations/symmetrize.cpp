@@ -52,35 +52,38 @@ class Symmetrization {
     return partner.matched && partner.nearest == i;
   }
 
+  bool mirrors_vertices(const Counterparts& found) const {
+    Index mutual = 0;
+    for (Index i = 0; i < input_.points.size(); ++i)
+      mutual += found[i].matched && is_mutual(found, i);
+    return static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(found.matched());
+  }
+
+  // Whether the triangles tell nearly all of the pairs that were found without them.
+  bool agree(const Counterparts& asked, const Counterparts& told) const {
+    Index pairs = 0, same = 0;
+    for (Index i = 0; i < input_.points.size(); ++i) {
+      if (!asked[i].matched || !is_mutual(asked, i)) continue;
+      ++pairs;
+      same += told[i].nearest == asked[i].nearest;
+    }
+    return static_cast<double>(same) >= triangles_agree * static_cast<double>(pairs);
+  }
+
   // What has a counterpart comes to to(x, place); what lies on the mirror, to its foot.
   template <typename To>
   Points moved(PointsView from, const Context& context, const To& to) {
     OperationInput input = input_;
     input.points = from;
-    std::optional<Counterparts> all;
-    const auto are_pairs = [&](HomologousMatcher matcher, const Context& stage) {
-      all.emplace(input, mirror_, limits_, stage, matcher);
-      Index mutual = 0;
-      for (Index i = 0; i < from.size(); ++i) mutual += (*all)[i].matched && is_mutual(*all, i);
-      return static_cast<double>(mutual) >= vertices_mirror * static_cast<double>(all->matched());
-    };
-    bool keep_pairs = are_pairs(matcher_, context.stage(0, 0.4));
-    // The triangles tell the others, however far one side was moved, where they tell the same of
-    // nearly all.
+    const Counterparts asked(input, mirror_, limits_, context.stage(0, 0.4), matcher_);
+    const bool keep_pairs = mirrors_vertices(asked);
+    // The triangles tell the others, however far one side was moved.
+    std::optional<Counterparts> told;
     if (keep_pairs && vertex_pairs_) {
-      std::vector<Index> closest(from.size(), -1);
-      for (Index i = 0; i < from.size(); ++i)
-        if ((*all)[i].matched && is_mutual(*all, i)) closest[i] = (*all)[i].nearest;
-      keep_pairs = are_pairs(vertex_pairs_, context.stage(0.4, 0.7));
-      Index pairs = 0, same = 0;
-      for (Index i = 0; i < from.size(); ++i) {
-        pairs += closest[i] >= 0;
-        same += closest[i] >= 0 && (*all)[i].nearest == closest[i];
-      }
-      if (!keep_pairs || static_cast<double>(same) < triangles_agree * static_cast<double>(pairs))
-        keep_pairs = are_pairs(matcher_, context.stage(0.7, 0.8));
+      told.emplace(input, mirror_, limits_, context.stage(0.4, 0.8), vertex_pairs_);
+      if (!mirrors_vertices(*told) || !agree(asked, *told)) told.reset();
     }
-    const Counterparts& found = *all;
+    const Counterparts& found = told ? *told : asked;
     if (paired_.size() == 0) {
       paired_ = Eigen::VectorXd::NullaryExpr(from.size(),
                                              [&](Index i) { return found[i].matched ? 1 : 0; });

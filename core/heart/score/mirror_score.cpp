@@ -456,7 +456,7 @@ void tell(std::string_view kind, const MirrorFit& fit, Result& result) {
   if (prior_of(kind)) result.statistics["log_odds"] = fit.log_odds;
 }
 
-// Of those that map alike the one whose partners are more exact.
+// Exact mirrors come first, then those that map more; of equal ones that with more exact partners.
 std::pair<double, double> order_of(const MirrorFit& fit) {
   return {fit.exact >= 1 ? infinity : fit.share, fit.exact};
 }
@@ -465,12 +465,12 @@ std::pair<double, double> order_of(const MirrorFit& fit) {
 
 void MirrorScore::fill(const Mirror& mirror, Result& result) const {
   // Shares that say by themselves whether a mirror is found.
-  constexpr double certain = 0.97, hopeless = 0.3;
+  constexpr double certain = 0.97, too_little = 0.3;
   with_fit_of(mirror, 1, [&](const MirrorFit& its, const auto& fits, const auto& image) {
     tell(mirror.kind(), its, result);
-    result.statistics["evidence"] = its.share > certain    ? 1.0
-                                    : its.share < hopeless ? 0.0
-                                                           : evidence(image, fits);
+    result.statistics["evidence"] = its.share > certain      ? 1.0
+                                    : its.share < too_little ? 0.0
+                                                             : evidence(image, fits);
     const Uncertainty uncertainty(fits, surface_);
     result.statistics["angle_sd"] = uncertainty.angle * 180 / std::numbers::pi;
     result.statistics["offset_sd"] = uncertainty.offset * cloud_.frame.size;
@@ -502,7 +502,8 @@ Result MirrorScore::ranked(const std::string& method,
     tell(one.mirror->kind(), one.fit, result);
   }
   fill(best);
-  cap_candidates(best);
+  // Of a mirror that others fit no better, none is surer.
+  for (Result& other : best.candidates) other.score = std::min(other.score, best.score);
   return best;
 }
 
@@ -518,9 +519,5 @@ double statistic(const Result& result, const char* name) {
 }
 
 bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
-
-void cap_candidates(Result& result) {
-  for (Result& other : result.candidates) other.score = std::min(other.score, result.score);
-}
 
 }  // namespace symsurf

@@ -106,8 +106,8 @@ class MirrorScore {
   std::optional<MeshSymmetry> mesh_;
 };
 
-/// The score: the share that a mirror maps, and of one of any shape times the probability that it
-/// is none of chance's.
+/// The score: the share that a mirror maps, and of one of any shape times the probability that
+/// chance did not make it.
 double score_of(const MirrorFit& fit, std::string_view kind);
 
 /// One of the statistics that a score fills in; 0 where it has none of that name.
@@ -115,8 +115,5 @@ double statistic(const Result& result, const char* name);
 
 /// Whether every point that the result's mirror moves has an exact partner: no mirror is better.
 bool is_exact(const Result& result);
-
-/// Of a mirror that others fit no better, none is surer: lowers the scores of its candidates.
-void cap_candidates(Result& result);
 
 }  // namespace symsurf

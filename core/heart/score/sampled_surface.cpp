@@ -90,7 +90,6 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     patch_flatness += sample.patch.flatness;
     samples_.push_back(sample);
   }
-  std::vector<double> noises{0}, spacings{0};
   for (Index k = 0; k < size(); ++k) {
     std::vector<double> squares, thirds;
     for (const Index j : nearest(samples_[k].position, like_it)) {
@@ -103,8 +102,6 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     for (const double square : squares) sum += square;
     samples_[k].noise = std::sqrt(sum / static_cast<double>(squares.size()));
     samples_[k].spacing = median(std::move(thirds));
-    noises.push_back(samples_[k].noise);
-    spacings.push_back(samples_[k].spacing);
   }
   fills_volume_ = flatness < least_flatness * static_cast<double>(size()) &&
                   (cloud.points.size() <= few ||
@@ -116,8 +113,6 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
                    sample.spacing, sample.facet.normal, sample.facet.flatness, own[k].other);
     sample.ceiling = fills_volume_ ? 1 : std::max(least_ceiling, support);
   }
-  noise_ = median(std::move(noises));
-  spacing_ = median(std::move(spacings));
 }
 
 SampledSurface::Landing SampledSurface::landing(const Sample& sample,

@@ -64,11 +64,6 @@ class SampledSurface {
   /// The numbers of the samples nearest to a position.
   std::vector<Index> nearest(const Vector3& position, Index count) const;
 
-  double noise() const { return noise_; }      ///< the median
-  double spacing() const { return spacing_; }  ///< the median
-  /// Whether the points fill a volume or are scattered: then they have to meet points, not planes.
-  bool fills_volume() const { return fills_volume_; }
-
  private:
   double around(const Vector3& position) const;
   std::vector<Neighbour> neighbours(const Vector3& position, Index count) const;
@@ -77,8 +72,8 @@ class SampledSurface {
 
   const Cloud& cloud_;
   const PointTree& tree_;
-  double noise_ = 0, spacing_ = 0;
-  bool is_noisy_ = false, fills_volume_ = false;
+  bool is_noisy_ = false;
+  bool fills_volume_ = false;  // or scattered: then images have to meet points, not planes
   const Surfels& patches_;
   Points positions_;  // of the samples
   PointTree sample_tree_;
