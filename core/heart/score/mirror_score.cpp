@@ -237,7 +237,8 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, Index strid
 }
 
 template <typename Image>
-double MirrorScore::evidence(const Image& image, const std::vector<PointFit>& fits) const {
+MirrorScore::Evidence MirrorScore::evidence(const Image& image,
+                                            const std::vector<PointFit>& fits) const {
   constexpr Index stride = 3;        // three hundred samples say what chance maps
   constexpr double doubted = 0.9;    // chance that maps more is a symmetry as well: vases, balls
   constexpr double least = 0.01;     // of its weight, that a sample has whatever chance maps of it
@@ -262,12 +263,14 @@ double MirrorScore::evidence(const Image& image, const std::vector<PointFit>& fi
     }
     for (Index k = 0; k < surface_.size(); ++k) chance[k] = std::max(chance[k], mapped[k]);
   }
-  double mapped = 0, contradicted = 0, support = 0, weights = 0;
+  double mapped = 0, contradicted = 0, support = 0, weights = 0, deciding = 0, looked_at = 0;
   for (const PointFit& fit : fits) {
     weights += fit.weight;
     support += fit.weight * (1 - unmapped[fit.point]);
     if (fit.point % stride != 0) continue;
     const double tells = fit.weight * (least + 1 - chance[fit.point]);
+    deciding += tells;
+    looked_at += fit.weight;
     mapped += tells * (1 - unmapped[fit.point]);
     if (!fit.image.allFinite()) continue;
     // Where the shape goes on around the image, or is itself unmapped there; else it is missing.
@@ -276,9 +279,10 @@ double MirrorScore::evidence(const Image& image, const std::vector<PointFit>& fi
     for (const Index j : near) there += unmapped[j] / static_cast<double>(near.size());
     contradicted += tells * unmapped[fit.point] * std::min(1.0, there);
   }
-  if (!(mapped > 0)) return 0;
+  if (!(mapped > 0)) return {};
   const double top = std::min(doubted, greatest), share = std::min(1.0, support / weights);
-  return (mapped / (mapped + contradicted) + std::max(0.0, (share - top) / (1 - top))) / 2;
+  return {(mapped / (mapped + contradicted) + std::max(0.0, (share - top) / (1 - top))) / 2,
+          deciding / looked_at};
 }
 
 namespace {
@@ -468,9 +472,11 @@ void MirrorScore::fill(const Mirror& mirror, Result& result) const {
   constexpr double certain = 0.97, too_little = 0.3;
   with_fit_of(mirror, 1, [&](const MirrorFit& its, const auto& fits, const auto& image) {
     tell(mirror.kind(), its, result);
-    result.statistics["evidence"] = its.share > certain      ? 1.0
-                                    : its.share < too_little ? 0.0
-                                                             : evidence(image, fits);
+    const Evidence found = its.share > certain      ? Evidence{1}
+                           : its.share < too_little ? Evidence{0}
+                                                    : evidence(image, fits);
+    result.statistics["evidence"] = found.sure;
+    result.statistics["deciding_share"] = found.deciding;
     const Uncertainty uncertainty(fits, surface_);
     result.statistics["angle_sd"] = uncertainty.angle * 180 / std::numbers::pi;
     result.statistics["offset_sd"] = uncertainty.offset * cloud_.frame.size;
@@ -488,7 +494,7 @@ Result MirrorScore::ranked(const std::string& method,
     return order_of(a.fit) > order_of(b.fit);
   };
   std::vector<Ranked> found;
-  for (const std::shared_ptr<Mirror>& mirror : mirrors) found.push_back({mirror, glance(*mirror)});
+  for (const std::shared_ptr<Mirror>& mirror : mirrors) found.push_back({mirror, fit(*mirror, 3)});
   std::stable_sort(found.begin(), found.end(), better);
   const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(closely, found.size()));
   std::for_each(found.begin(), end, [&](Ranked& one) { one.fit = fit(*one.mirror); });

@@ -61,9 +61,8 @@ class MirrorScore {
   /// The cloud must outlive the score, and keep its tree.
   MirrorScore(const Cloud& cloud, const Context& context);
 
-  MirrorFit fit(const Mirror& mirror) const { return fit(mirror, 1); }
-  /// The same of a third of the samples: enough to rank mirrors.
-  MirrorFit glance(const Mirror& mirror) const { return fit(mirror, 3); }
+  /// Of every `stride`-th sample: a third are enough to rank mirrors, a ninth while they are rough.
+  MirrorFit fit(const Mirror& mirror, Index stride = 1) const;
   /// Of a rotation, a reflection or both, in the principal frame, what each sample that it moves
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, Index stride = 1) const;
@@ -75,7 +74,8 @@ class MirrorScore {
   double nats(const Mirror& freer, const Mirror& simpler, double freedom) const;
 
   /// Sets the result's score, and among its statistics "mapped_share", "missing_share",
-  /// "contradicted_share", "exact_share", "deviation", "evidence", "angle_sd" and "offset_sd".
+  /// "contradicted_share", "exact_share", "deviation", "evidence", "deciding_share", "angle_sd" and
+  /// "offset_sd".
   void fill(Result& result) const { fill(*result.mirror, result); }
   /// The same of a mirror that is not the result's own.
   void fill(const Mirror& mirror, Result& result) const;
@@ -88,7 +88,6 @@ class MirrorScore {
   template <typename Image>
   std::vector<PointFit> point_fits(const Image& image_of, Index stride,
                                    MirrorSides* sides = nullptr) const;
-  MirrorFit fit(const Mirror& mirror, Index stride) const;
   MirrorFit whole_of(const std::vector<PointFit>& points, Index stride) const;
   template <typename Take>
   void with_image_of(const Mirror& mirror, const Take& take) const;
@@ -96,9 +95,13 @@ class MirrorScore {
   void with_fit_of(const Mirror& mirror, Index stride, const Take& take) const;
   // Whether a mirror maps the shape better than the same one turned and shifted, 0..1: the mean of
   // two. What it maps of the samples that tell it from those, over that and what contradicts it;
-  // and how far its share lies between the greatest of theirs and 1.
+  // and how far its share lies between the greatest of theirs and 1. `deciding`: the samples that
+  // tell, over all.
+  struct Evidence {
+    double sure = 0, deciding = 1;
+  };
   template <typename Image>
-  double evidence(const Image& image, const std::vector<PointFit>& fits) const;
+  Evidence evidence(const Image& image, const std::vector<PointFit>& fits) const;
   void add_sides(const PointFit& fit, Index partner, MirrorSides& sides) const;
 
   const Cloud& cloud_;

@@ -6,6 +6,7 @@
 #include <symsurf/points.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/cloud.h"
@@ -19,7 +20,10 @@ inline constexpr double usual_minimum_score = 0.5;
 /// The evidence of MirrorScore that a mirror is found with: the more freely it bends, the more
 /// chance makes of it. Of 120 shapes, cut, asymmetric and without a mirror, 4 false planes reach
 /// this and 6 right ones do not.
-inline double least_evidence(const Mirror& mirror) { return mirror.kind() == "plane" ? 0.51 : 0.6; }
+inline double least_evidence(const Mirror& mirror) {
+  const std::string_view kind = mirror.kind();
+  return kind == "plane" ? 0.56 : kind == "sphere" || kind == "cylinder" ? 0.7 : 0.6;
+}
 
 /// Sets "verdict" and "reason" of a mirror, or of pairs alone. A reason that the method gave says
 /// why it chose this mirror: where there is none, what is missing comes before it.
@@ -27,8 +31,11 @@ inline void judge(Result& result, const Mirror* mirror, double minimum_score) {
   const bool has_mirror = mirror || result.pairs.rows() > 0;
   // Rounded down: a score below the minimum does not read as the minimum.
   const auto digits = [](double x) { return to_string(Value(std::floor(1e4 * x) / 1e4)); };
-  const auto evidence = result.statistics.find("evidence");
-  const double sure = evidence == result.statistics.end() ? 1 : std::get<double>(evidence->second);
+  const auto statistic = [&](const char* name, double otherwise) {
+    const auto known = result.statistics.find(name);
+    return known == result.statistics.end() ? otherwise : std::get<double>(known->second);
+  };
+  const double sure = statistic("evidence", 1);
   const bool scores = has_mirror && result.score >= minimum_score;
   const double least = mirror ? least_evidence(*mirror) : 0;
   const bool found = scores && sure >= least;
@@ -38,9 +45,12 @@ inline void judge(Result& result, const Mirror* mirror, double minimum_score) {
     score = result.method + " scores " + digits(result.score) +
             (scores ? ", at least " : ", below ") + "the minimum_score of " +
             to_string(Value(minimum_score));
+  constexpr double too_few = 0.1;  // of the samples, that tell a mirror from others
   if (scores && !found)
-    score += ", but its evidence is " + digits(sure) + ", below " + digits(least) +
-             ": mirrors beside it map the shape nearly as well";
+    score += statistic("deciding_share", 1) < too_few
+                 ? ", but it cannot be decided at this sampling"
+                 : ", but its evidence is " + digits(sure) + ", below " + digits(least) +
+                       ": mirrors beside it map the shape nearly as well";
   const auto [reason, is_new] = result.statistics.try_emplace("reason", score);
   if (!is_new && !found) reason->second = score + "; " + std::get<std::string>(reason->second);
 }

@@ -22,7 +22,7 @@ namespace symsurf {
 
 namespace {
 
-// Of what has a counterpart over it, that a mirror maps: freer ones have nothing to explain.
+// Of what has a counterpart over it, that a mirror maps.
 constexpr double enough = 0.95;
 // For a mirror with so many numbers more (MirrorScore::nats): below it straight skulls bend.
 constexpr double decisive = 20;
@@ -31,13 +31,11 @@ constexpr std::size_t planes_bent = 3;  // the best ones
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
 constexpr Index bent_size = 100000;     // a free form of these takes hardly longer than of so few
-constexpr Index few = 1000;             // points: the score of fewer is unreliable
 
 // Beside a plane that maps the shape well, yet not each point onto another, a mirror that does may
-// hide where the score looks least closely: among few points, and inside bodies.
+// hide where the score looks least closely: inside bodies.
 bool may_hide_exact_one(const Cloud& cloud, const Context& context) {
-  return cloud.points.size() <= few ||
-         (cloud.points.size() <= thinned_size && is_volumetric(cloud, context));
+  return cloud.points.size() <= thinned_size && is_volumetric(cloud, context);
 }
 
 std::string text(double score) { return to_string(Value(std::round(100 * score) / 100)); }
@@ -121,12 +119,14 @@ struct Contest {
   using Run = std::function<Result(const Cloud&, const Context&)>;
 
   bool pairs;  // whether the result is to have some
-  Result best;
-  const MethodImplementation* winner;
+  Result best = {};
+  const MethodImplementation* winner = nullptr;
   Run of_all = {};  // finds the winner again, on all points; none where it saw them
   std::vector<std::pair<std::string, double>> shares = {};  // the greatest of each kind tried
+  bool content = false;  // one maps enough: what is freer has nothing to explain
 
   void take(const MethodImplementation& kind, Result result, bool wins, Run again) {
+    content = content || (maps_enough(result) && explained(result) >= explained(best));
     tell(kind.name, explained(result));
     if (!wins) return;
     best = std::move(result);
@@ -225,8 +225,8 @@ void try_bent_planes(const Cloud& cloud, const Comparison& comparison, Contest& 
 Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context& context) {
   const MethodImplementation& plane = heart_method("plane");
   const bool pairs = values.boolean("pairs");
-  Contest contest{pairs, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), &plane};
-  contest.tell(plane.name, explained(contest.best));
+  Contest contest{pairs};
+  contest.take(plane, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), true, {});
   std::string reason = "the plane maps " + text(explained(contest.best)) +
                        " of the shape onto it, and " + text(1 - covered(contest.best)) +
                        " has no counterpart: nothing is left for freer mirrors to explain";
@@ -234,13 +234,12 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     reason = "every point has an exact partner over the plane";
   } else {
     const Comparison comparison(cloud, context.stage(0.2, 0.2));
-    if (!maps_enough(contest.best))
-      try_bent_planes(cloud, comparison, contest, context.stage(0.2, 0.3));
-    const bool content = maps_enough(contest.best);
+    if (!contest.content) try_bent_planes(cloud, comparison, contest, context.stage(0.2, 0.3));
+    const bool content = contest.content && is_found(contest.best);
     if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))
       try_freer_kinds(cloud, content, comparison, contest, context.stage(0.3, 0.9));
     if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
-    if (!content || contest.winner != &plane)
+    if (contest.shares.size() > 1)
       reason = contest.winner->name +
                " is the simplest of those that explain most of the shape: " + contest.tried();
   }

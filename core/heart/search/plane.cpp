@@ -124,9 +124,9 @@ struct Effort {
 };
 
 constexpr Effort usual{usual_search, 20, 10, 6, 0.6};
-// For clouds that a usual search explains no better than this: where most of one side is missing,
-// few pairs define the mirror, and patches distinguish it badly from others.
-constexpr double unexplained = 0.15;
+// For clouds of which the usual search finds no plane that maps more: where most of one side is
+// missing, few pairs define the mirror, and patches distinguish it badly from others.
+constexpr double unexplained = 0.4;
 constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 30, 12, 0.7};
 
 double below(double best, double share) { return best - share * std::max(best, least_best); }
@@ -161,51 +161,40 @@ void improve(std::vector<PlaneCandidate>& candidates, const Context& context, co
   }
 }
 
-// Planes on the full cloud.
-class FullCloud {
- public:
-  FullCloud(const Cloud& cloud, const Refinement& refinement, const MirrorScore& score)
-      : cloud_(cloud), refinement_(refinement), score_(score) {}
-
-  // Moved a little.
-  void fit(const Effort& effort, std::vector<PlaneCandidate>& candidates,
-           const Context& context) const {
-    improve(candidates, context.stage(0, 0.5),
-            [&](const PlaneCandidate& c) { return refinement_.fitted(c, quick); });
+// Fitted to the full cloud, and ranked by the share of it that they map.
+void fit_to_all(const Effort& effort, std::vector<PlaneCandidate>& candidates,
+                const Refinement& refinement, const MirrorScore& score, const PrincipalFrame& frame,
+                const Context& context) {
+  struct Look {
+    Fit fit;
+    Index stride;      // of the score's samples
+    double far_below;  // the best by this share of it: not worth another look
+  };
+  double done = 0;
+  for (const Look& look : {Look{quick, 9, 0.5}, {careful, 3, 0.2}}) {
+    improve(candidates, context.stage(done, done + 0.5), [&](const PlaneCandidate& c) {
+      const UnitPlane plane = refinement.fitted(c, look.fit).shape;
+      return PlaneCandidate{plane, score.fit(in_input_units(plane, frame), look.stride).share};
+    });
     suppress_non_maxima(candidates, alike_planes, effort.finalists);
-    drop_far_below_best(candidates, effort.far_below_best);
-    improve(candidates, context.stage(0.5, 1),
-            [&](const PlaneCandidate& c) { return refinement_.fitted(c, careful); });
-    suppress_non_maxima(candidates, alike_planes, effort.finalists);
+    drop_far_below_best(candidates, look.far_below);
+    done += 0.5;
   }
-
-  PlaneCandidate glanced(const PlaneCandidate& c) const { return {c.shape, share(c.shape)}; }
-
- private:
-  double share(const UnitPlane& plane) const {
-    return score_.glance(in_input_units(plane, cloud_.frame)).share;
-  }
-  const Cloud& cloud_;
-  const Refinement& refinement_;
-  const MirrorScore& score_;
-};
+}
 
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const SurfelMap& map, const Refinement& refinement,
-                                       const FullCloud& whole,
+                                       const MirrorScore& score,
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
-  whole.fit(usual, candidates, context.stage(0, 0.4));
+  fit_to_all(usual, candidates, refinement, score, cloud.frame, context.stage(0, 0.4));
   if (candidates.front().support < unexplained) {
     std::vector<PlaneCandidate> more =
         promising_planes(surfels, map, thorough, context.stage(0.4, 0.6));
-    whole.fit(thorough, more, context.stage(0.6, 0.7));
+    fit_to_all(thorough, more, refinement, score, cloud.frame, context.stage(0.6, 0.7));
     candidates.insert(candidates.end(), more.begin(), more.end());
-    suppress_non_maxima(candidates, alike_planes, thorough.finalists);
   }
-  improve(candidates, context.stage(0.7, 0.75),
-          [&](const PlaneCandidate& c) { return whole.glanced(c); });
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
@@ -260,7 +249,6 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
     for (const Plane& plane : posed) mirrors.push_back(std::make_shared<Plane>(plane));
     return score.ranked("plane", mirrors);
   };
-  const FullCloud whole(cloud, refinement, score);
   const bool is_mesh = cloud.vertices != nullptr;
   std::vector<UnitPlane> planes;
   for (const Plane& plane : is_mesh ? cloud.vertex_planes : exact_planes(cloud, context)) {
@@ -281,7 +269,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   std::vector<UnitPlane> more;
   if (!others.empty()) {
     more =
-        searched_planes(cloud, coarse, map, refinement, whole, others, context.stage(0.46, 0.55));
+        searched_planes(cloud, coarse, map, refinement, score, others, context.stage(0.46, 0.55));
     if (is_mesh) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
     std::erase_if(more, [&](const UnitPlane& plane) {
       return is_one_of(plane, planes) || (is_exact && is_flat && std::abs(plane.normal.z()) > 0.5);
