@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "controller_communicator.h"
+#include "mirror_input.h"
 #include "point_arrays.h"
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
@@ -80,6 +81,11 @@ Shape joined_blocks(vtkShapeAlgorithm* filter, vtkCompositeDataSet* composite) {
 
 Shape shape_of(vtkShapeAlgorithm* filter, vtkDataObject* data) {
   if (!data) return nullptr;
+  if (is_mirror(data))
+    throw symsurf::InvalidInput(
+        "the input is a mirror, by its field data array Kind; connect a shape: output 0 \"Shape\" "
+        "of "
+        "a mirror detection, or what that takes");
   if (auto* polygons = vtkPolyData::SafeDownCast(data)) {
     for (vtkCellArray* cells :
          {polygons->GetVerts(), polygons->GetLines(), polygons->GetPolys(), polygons->GetStrips()})

@@ -123,8 +123,10 @@ vtkNew<vtkSignedCharArray> sides_of(symsurf::PointsView points, const symsurf::R
   return sides;
 }
 
-// The least residual that at most a hundredth of all exceeds: where a colour map may end.
+// The least residual that at most a hundredth of all exceeds: where a colour map may end. NaN of
+// none.
 double p99(const Eigen::VectorXd& residuals) {
+  if (residuals.size() == 0) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> sizes(residuals.begin(), residuals.end());
   const auto place =
       static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(sizes.size() - 1)));
@@ -132,8 +134,8 @@ double p99(const Eigen::VectorXd& residuals) {
   return sizes[place];
 }
 
-void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCharArray* sides,
-                 const symsurf::Result& result) {
+void set_shape(vtkPolyData* output, symsurf::Index points_before, vtkSignedCharArray* sides,
+               const symsurf::Result& result) {
   const vtkIdType count = sides->GetNumberOfValues();
   const auto partners = filled<vtkIdTypeArray>("MirrorPartner", count, -1);
   const auto residuals =
@@ -145,8 +147,11 @@ void set_mapping(vtkPolyData* output, symsurf::Index points_before, vtkSignedCha
     partner[i] = result.pairs(row, 1);
     residual[i] = result.residuals[row];
   }
-  if (result.residuals.size() > 0)
-    add_field_values(output->GetFieldData(), {{"mirror_residual_p99", p99(result.residuals)}});
+  vtkFieldData* field = output->GetFieldData();
+  add_field_values(field, {{"mirror_residual_p99", p99(result.residuals)},
+                           {"kind", std::string(result.mirror ? result.mirror->kind() : "none")},
+                           {"score", result.score},
+                           {"verdict", result.verdict()}});
   vtkPointData* data = output->GetPointData();
   data->AddArray(partners);
   data->AddArray(sides);
@@ -187,9 +192,9 @@ int vtkMirrorDetection::RequestData(vtkInformation*, vtkInformationVector** inpu
     if (processes.rank() == 0) set_mirror_meshes(mirror, result, this->ShowCandidates);
     set_mirror_fields(mirror, result);
     set_surface_points(vtkPolyData::GetData(outputs, SURFACE_POINTS), result);
-    vtkPolyData* mapping = vtkPolyData::GetData(outputs, MAPPING);
-    mapping->ShallowCopy(input);
-    set_mapping(mapping, before, sides, result);
+    vtkPolyData* shape = vtkPolyData::GetData(outputs, SHAPE);
+    shape->ShallowCopy(input);
+    set_shape(shape, before, sides, result);
   });
 }
 

@@ -2,7 +2,7 @@
  * @class vtkMirrorOperation
  * @brief What the filters that do something with a mirror have in common.
  *
- * Input 0 is the shape, see vtkShapeAlgorithm. Input 1, optional, is its mirror: output 0 of
+ * Input 0 is the shape, see vtkShapeAlgorithm. Input 1, optional, is its mirror: output 1 of
  * vtkMirrorDetection, whose field data (Kind and numbers) says everything, in the unit and pose of
  * the shape. Without it the mirror is found first, by Method; where its verdict is "none", it is
  * used with a warning that says why, unless RequireFound is on.

@@ -2,7 +2,7 @@
  * @class vtkMirrorReflection
  * @brief Reflects a shape over a mirror that vtkMirrorDetection found.
  *
- * Input 0 is what is reflected, input 1 the mirror: output 0 of vtkMirrorDetection, whose field
+ * Input 0 is what is reflected, input 1 the mirror: output 1 of vtkMirrorDetection, whose field
  * data (Kind and numbers) says everything; its triangles, of candidates or not, are not looked at,
  * so one saved and read again will do. Cells are turned over, so that the outside stays the
  * outside; normals are not passed on. Points that have no image over the mirror (beyond a sphere's

@@ -12,7 +12,8 @@
  *   the arrays that all blocks have.
  *
  * Where an output is said to be the input, it is the vtkPolyData that comes of this. Another kind
- * of data, an image without scalars and a cell that names a point that is not there are errors.
+ * of data, a mirror (data with the field data array Kind, such as output 1 of vtkMirrorDetection),
+ * an image without scalars and a cell that names a point that is not there are errors.
  */
 #ifndef vtkShapeAlgorithm_h
 #define vtkShapeAlgorithm_h

@@ -1,5 +1,6 @@
 #include "homologous_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloud/cloud.h"
@@ -21,33 +22,34 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
   };
   HomologousPoints found{Points::Zero(points.size(), 3), std::vector<Index>(points.size(), -1),
                          Eigen::VectorXd::Zero(points.size()),
-                         Eigen::VectorXd::Zero(points.size())};
+                         Eigen::VectorXd::Ones(points.size())};
   if (!(unit > 0) || (faces.empty() && !estimates)) return found;
   const Points positions = normalised(points.matrix()(distinct.first, Eigen::indexing::all)),
                mirrored = normalised(images.matrix()(distinct.first, Eigen::indexing::all));
+  const Context first = context.stage(0.05, 0.2);
   Triangles triangles(faces.size(), 3);
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) triangles(f, c) = distinct.number[faces[f][c]];
-  if (faces.empty()) triangles = cloud_laplacian(positions, context.stage(0.05, 0.2)).triangles;
+  if (faces.empty()) triangles = cloud_laplacian(positions, first).triangles;
   const TriangleMesh mesh(positions, triangles, context);
   const auto image_of = [&](const Points& all) -> Points {
     const Points own = (unit * all).rowwise() + origin;
     return normalised(map.images(own, context));
   };
-  Points displacements = Points::Zero(positions.rows(), 3);
-  if (estimates) {
+  std::vector<Index> table(positions.rows(), -1);
+  const auto look_up = [&](const Points& displacements, const Context& stage) {
+    if (!faces.empty())
+      table = vertex_table(positions, mirrored, mesh.manifold_faces(), displacements, stage);
+  };
+  look_up(Points::Zero(positions.rows(), 3), first);
+  if (estimates && *std::min_element(table.begin(), table.end()) < 0) {
     const Displacements moved = displacement_process(positions, mirrored, triangles, mesh, image_of,
                                                      context.stage(0.2, 0.9));
     found.deviations = unit * moved.deviations(distinct.number);
     found.known = moved.known(distinct.number);
-    displacements = moved.mean;
-  } else {
-    found.known.setOnes();  // nothing is estimated
+    found.displacements = unit * moved.mean(distinct.number, Eigen::indexing::all);
+    look_up(moved.mean, context.stage(0.9, 1));
   }
-  found.displacements = unit * displacements(distinct.number, Eigen::indexing::all);
-  if (faces.empty()) return found;
-  const std::vector<Index> table = vertex_table(positions, mirrored, mesh.manifold_faces(),
-                                                displacements, context.stage(0.9, 1));
   for (Index i = 0; i < points.size(); ++i)
     if (const Index partner = table[distinct.number[i]]; partner >= 0) {
       found.partners[i] = distinct.first[partner];

@@ -21,19 +21,28 @@ class SurfaceGraph {
  public:
   SurfaceGraph(Index vertices, TrianglesView faces);
 
-  Index vertices() const { return static_cast<Index>(begin_.size()) - 1; }
-
   // Vertices joined to this one by an edge, in ascending order.
   std::span<const std::int32_t> neighbours(Index vertex) const {
     return {neighbour_.data() + begin_[vertex], neighbour_.data() + begin_[vertex + 1]};
   }
 
-  bool are_neighbours(Index one, Index other) const;
+  bool are_neighbours(Index one, Index other) const { return edge(one, other) >= 0; }
 
   // The third vertices of the faces at an edge; -1 where there is none, both of more than two.
-  std::array<std::int32_t, 2> thirds(Index one, Index other) const;
+  std::array<std::int32_t, 2> thirds(Index one, Index other) const {
+    const Index found = edge(one, other);
+    return found < 0 ? std::array{-1, -1} : thirds_[found];
+  }
 
  private:
+  // Its place among the neighbours of all; -1: there is none.
+  Index edge(Index one, Index other) const {
+    const auto around = neighbours(one);
+    const auto found =
+        std::lower_bound(around.begin(), around.end(), static_cast<std::int32_t>(other));
+    return found == around.end() || *found != other ? -1 : &*found - neighbour_.data();
+  }
+
   std::vector<Index> begin_;
   std::vector<std::int32_t> neighbour_;
   std::vector<std::array<std::int32_t, 2>> thirds_;
@@ -60,18 +69,6 @@ SurfaceGraph::SurfaceGraph(Index vertices, TrianglesView faces) : begin_(vertice
     ++begin_[a + 1];
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-}
-
-std::array<std::int32_t, 2> SurfaceGraph::thirds(Index one, Index other) const {
-  const auto begin = neighbour_.begin() + begin_[one], end = neighbour_.begin() + begin_[one + 1];
-  const auto found = std::lower_bound(begin, end, static_cast<std::int32_t>(other));
-  if (found == end || *found != other) return {-1, -1};
-  return thirds_[found - neighbour_.begin()];
-}
-
-bool SurfaceGraph::are_neighbours(Index one, Index other) const {
-  const auto around = neighbours(one);
-  return std::binary_search(around.begin(), around.end(), static_cast<std::int32_t>(other));
 }
 
 constexpr Index table_grain = 1024;
@@ -125,8 +122,7 @@ class MirrorMap {
         best = worth;
         for (const std::int32_t i : part) best_[i] = table_[i];
       }
-      for (const Index i : joined_) table_[i] = -1;
-      joined_.clear();
+      undo();
     }
     for (const std::int32_t i : part)
       if (best_[i] >= 0) join(i, best_[i]);
@@ -136,7 +132,7 @@ class MirrorMap {
   // The other vertex of each pair that keeps enough edges, else -1.
   std::vector<Index> sound_pairs() const {
     std::vector<Index> pairs(table_.size(), -1);
-    for (Index i = 0; i < graph_.vertices(); ++i)
+    for (std::size_t i = 0; i < pairs.size(); ++i)
       if (is_sound(i)) pairs[i] = table_[i];
     return pairs;
   }
@@ -161,6 +157,12 @@ class MirrorMap {
     return true;
   }
 
+  // Breaks the pairs of the present map.
+  void undo() {
+    for (const Index i : joined_) table_[i] = -1;
+    joined_.clear();
+  }
+
   // Whether a map takes the corners of a face to the nearest.
   bool is_in(const std::vector<Index>& map, const Corner& face) const {
     return face[2] >= 0 &&
@@ -174,8 +176,7 @@ class MirrorMap {
     if (std::find(thirds.begin(), thirds.end(), nearest_[face[2]]) == thirds.end()) return false;
     for (const std::int32_t i : face) join(i, nearest_[i]);
     if (is_in(table_, face)) return true;
-    for (const Index i : joined_) table_[i] = -1;
-    joined_.clear();
+    undo();
     return false;
   }
 
@@ -295,9 +296,9 @@ class MirrorMap {
 std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
                                 const Points& displacements, const Context& context) {
   const SurfaceGraph graph(points.size(), faces);
-  MirrorMap map(points, images, graph, displacements, context.stage(0, 0.3));
+  MirrorMap map(points, images, graph, displacements, context);
   std::vector<bool> is_known(points.size(), false);
-  for (std::int32_t first = 0; first < graph.vertices(); ++first) {
+  for (std::int32_t first = 0; first < points.size(); ++first) {
     if (is_known[first] || graph.neighbours(first).empty()) continue;
     is_known[first] = true;
     std::vector<std::int32_t> part{first};

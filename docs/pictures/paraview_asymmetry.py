@@ -13,7 +13,7 @@ from swollen_head import SCRIPT
 simple.LoadPlugin(os.environ["SYMSURF_PLUGIN"], remote=False, ns=vars(simple))
 shape = simple.ProgrammableSource(Script=SCRIPT)
 detection = simple.MirrorDetection(Input=shape, Method="plane")
-asymmetry = simple.MirrorAsymmetry(Input=shape, Mirror=detection)
+asymmetry = simple.MirrorAsymmetry(Input=shape, Mirror=detection[1])
 
 view = simple.CreateRenderView(ViewSize=[1200, 800], OrientationAxesVisibility=0)
 view.UseColorPaletteForBackground = 0

@@ -21,7 +21,7 @@ edges.ColorArrayName = ["POINTS", ""]
 edges.DiffuseColor = edges.AmbientColor = [0.1, 0.1, 0.1]
 edges.LineWidth = 3
 
-mirrors = simple.Show(detection[0], view)
+mirrors = simple.Show(detection[1], view)
 mirrors.Representation = "Surface"
 mirrors.Opacity = 0.6
 mirrors.Ambient, mirrors.Diffuse = 0.7, 0.3

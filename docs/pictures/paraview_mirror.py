@@ -17,19 +17,19 @@ view = simple.CreateRenderView(ViewSize=[1200, 800], OrientationAxesVisibility=0
 view.UseColorPaletteForBackground = 0
 view.Background = [1, 1, 1]
 
-mapping = simple.Show(simple.GenerateSurfaceNormals(Input=detection[2]), view)
-simple.ColorBy(mapping, ("POINTS", "MirrorResidual"))
+head = simple.Show(simple.GenerateSurfaceNormals(Input=detection), view)
+simple.ColorBy(head, ("POINTS", "MirrorResidual"))
 colours = simple.GetColorTransferFunction("MirrorResidual")
 colours.ApplyPreset("Cool to Warm", True)
 colours.RescaleTransferFunction(0, 0.14)
-mapping.SetScalarBarVisibility(view, True)
+head.SetScalarBarVisibility(view, True)
 bar = simple.GetScalarBar(colours, view)
 bar.Title, bar.ComponentTitle = "Distance from the image to its partner", ""
 bar.TitleColor = bar.LabelColor = [0, 0, 0]
 bar.WindowLocation = "Lower Center"
 bar.Orientation = "Horizontal"
 
-mirror = simple.Show(detection[0], view)
+mirror = simple.Show(detection[1], view)
 mirror.ColorArrayName = ["POINTS", ""]
 mirror.DiffuseColor = mirror.AmbientColor = [0.2, 0.55, 0.3]
 mirror.Opacity = 0.45

@@ -12,7 +12,7 @@ LoadPlugin(os.environ["SYMSURF_PLUGIN"], remote=False, ns=globals())
 
 face = OpenDataFile(sys.argv[1])
 detection = MirrorDetection(Input=face, Method="plane")
-asymmetry = MirrorAsymmetry(Input=face, Mirror=detection)
+asymmetry = MirrorAsymmetry(Input=face, Mirror=detection[1])
 
 asymmetry.UpdatePipeline()
 figures = servermanager.Fetch(asymmetry).GetFieldData()
@@ -25,7 +25,7 @@ view.OrientationAxesVisibility = 0
 shown = Show(asymmetry, view)
 ColorBy(shown, ("POINTS", "MirrorAsymmetrySigned"))
 shown.SetScalarBarVisibility(view, True)
-mirror = Show(detection[0], view)
+mirror = Show(detection[1], view)
 mirror.Representation = "Surface"
 mirror.Opacity = 0.3
 view.ResetActiveCameraToNegativeY()

@@ -46,7 +46,8 @@ int main(int argc, char* argv[]) {
   detection->SetInputConnection(reader->GetOutputPort());
   detection->SetMethod("plane");
   detection->Update();
-  vtkDataArray* normal = detection->GetOutput()->GetFieldData()->GetArray("Normal");
+  vtkDataArray* normal =
+      detection->GetOutput(vtkMirrorDetection::MIRROR)->GetFieldData()->GetArray("Normal");
   if (!normal) {  // an error of the filter, which VTK has said, or a shape without a plane
     std::cerr << argv[1] << ": no mirror plane" << std::endl;
     return EXIT_FAILURE;

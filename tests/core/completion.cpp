@@ -157,6 +157,39 @@ TEST(Complete, GivesAHalfItsExactImage) {
     }
 }
 
+// Where a mesh of single precision is cut through its vertices, faces thinner than rounding lie
+// between the rim and points beside it.
+TEST(Complete, GivesAHalfWithSliversItsExactImage) {
+  const Ball b = ball(4);
+  OperationResult half = operate("cut", {b.points, b.faces}, middle, {{"capped", false}});
+  const Index count = half.points.rows(), faces = half.faces.rows();
+  std::vector<std::array<Index, 3>> all;
+  std::vector<Vector3> inside;
+  for (const auto& face : half.faces.rowwise()) {
+    const auto on = [&](int k) { return half.arrays.at("on_mirror")(face[k % 3], 0) > 0; };
+    int k = 0;
+    while (k < 3 && !(on(k) && on(k + 1))) ++k;
+    if (k == 3) {
+      all.push_back({face[0], face[1], face[2]});
+      continue;
+    }
+    const Index p = face[k], q = face[(k + 1) % 3], r = face[(k + 2) % 3];
+    const auto v = count + static_cast<Index>(inside.size());
+    inside.push_back((half.points.row(p) + half.points.row(q)).transpose() / 2);
+    inside.back().x() += 1e-8;
+    for (const auto& own : {std::array{p, q, v}, std::array{q, r, v}, std::array{r, p, v}})
+      all.push_back(own);
+  }
+  ASSERT_GT(inside.size(), 8u);
+  Points points(count + static_cast<Index>(inside.size()), 3);
+  points << half.points, rows_of(inside);
+  const Triangles slivered = rows_of(all);
+  ASSERT_EQ(slivered.rows(), faces + 2 * static_cast<Index>(inside.size()));
+  const OperationResult whole = operate("complete", {points, slivered}, middle);
+  EXPECT_EQ(whole.faces.rows(), 2 * slivered.rows());
+  EXPECT_EQ(open_edges(whole.faces), 0);
+}
+
 TEST(Complete, FindsNoCounterpartsWithinHalfACloud) {
   const Ball b = ball(1);
   for (const double width : {1.0, 0.5}) {

@@ -15,6 +15,7 @@
 #include "cloud/triangle_mesh.h"
 #include "expect_error.h"
 #include "random_cloud.h"
+#include "remeshing/isotropic_remeshing.h"
 
 namespace symsurf::mirrored_triangles_tests {
 namespace {
@@ -165,6 +166,19 @@ TEST(MirroredTriangles, HaveThreeCornersEach) {
         operate("remesh", input, middle)})
     for (Index f = 0; f < made.faces.rows(); ++f)
       EXPECT_FALSE(is_degenerate(made.faces.data() + 3 * f)) << made.operation;
+}
+
+// As where a curve has a gap: the closest point is an end of the edge that is split.
+TEST(IsotropicRemeshing, EndsWhereTheSurfaceIsFarFromItsEdges) {
+  Points square(4, 3);
+  square << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  Triangles faces(2, 3);
+  faces << 0, 1, 2, 0, 2, 3;
+  Remeshing remeshing{0.3};
+  remeshing.onto = [](const Vector3&) { return Vector3(0, 0, 0); };
+  const Remeshed made = isotropic_remeshing(square, faces, remeshing, Context());
+  EXPECT_GT(made.faces.rows(), 2);
+  EXPECT_LT(made.faces.rows(), 200);  // 26 of that length cover it
 }
 
 TEST(MirroredTriangles, AverageFirst) {

@@ -117,5 +117,5 @@ def test_picture_of_the_mirror(
         display = f"env DISPLAY={seen['DISPLAY']} pvpython"
         drawn = run_host(display, "picture.py", tmp_path / "picture.png")
     assert drawn["nothing"] == 0
-    for name in ("Mirror", "Surface Points", "Mapping"):
+    for name in ("Shape", "Mirror", "Surface Points"):
         assert 0.001 < drawn[name] < 0.9, name

@@ -20,7 +20,7 @@ HOSTS = ["pvpython", pytest.param("pvbatch", marks=full_run)]
 
 
 def check(answer: dict[str, Any]) -> None:
-    assert answer["ports"] == ["Mirror", "Surface Points", "Mapping"]
+    assert answer["ports"] == ["Shape", "Mirror", "Surface Points"]
     assert list(answer["methods"]) == list(symsurf.methods())
     for method, found in answer["methods"].items():
         assert found["partners"] == found["points"] >= found["paired"]

@@ -67,7 +67,7 @@ def by_pip_vtk(points: np.ndarray) -> Mirrors:
         detection.SetInputData(data)
         detection.SetMethod(name)
         detection.Update()
-        fields = detection.GetOutput().GetFieldData()
+        fields = detection.GetOutput(detection.MIRROR).GetFieldData()
         arrays = [fields.GetArray(i) for i in range(fields.GetNumberOfArrays())]
         mirrors[name] = {plain(a.GetName()): vtk_to_numpy(a).ravel() for a in arrays if a}
     return mirrors

@@ -61,6 +61,14 @@ def test_every_operation_gives_what_the_core_gives(
     assert answer["operations"]["MirrorCompletion"]["ports"] == ["Whole", "Patch"]
 
 
+def test_asymmetry_after_a_detection_is_that_of_the_shape(run_host: Callable[..., Any]) -> None:
+    seen = run_host("pvpython", "default_connections.py")
+    assert seen["found"]["Maximum"] == pytest.approx([0.1], abs=0.015)
+    assert seen["found"]["Maximum"] == pytest.approx(seen["known"]["Maximum"], abs=0.01)
+    assert "the input is a mirror" in seen["no shape"]
+    assert "connect output 1" in seen["no mirror"]
+
+
 def test_bad_input_leaves_the_session_alive(run_host: Callable[..., Any]) -> None:
     outside = [
         (proxy, parameter, value)

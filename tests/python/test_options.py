@@ -127,8 +127,7 @@ def test_labels_of_vtk_filters():
         MirrorAlignment(input_data=image, method="plane", image_label=1, seed=3),
     ):
         filter_.Update()
-        port = 2 if isinstance(filter_, MirrorDetection) else 0
-        assert filter_.GetOutput(port).GetNumberOfPoints() == np.count_nonzero(VOXELS == 1)
+        assert filter_.output.GetNumberOfPoints() == np.count_nonzero(VOXELS == 1)
 
 
 # The search of operations.

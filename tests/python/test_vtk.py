@@ -37,7 +37,7 @@ def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
     gc.collect()  # the arrays own what they show
     expected = symsurf.detect(points, method)
 
-    mirror, surface, mapping = (found.GetOutput(port) for port in range(3))
+    shape, mirror, surface = (found.GetOutput(port) for port in range(3))
     fields = mirror.GetFieldData()
     assert fields.GetArray("Score").GetValue(0) == expected.score
     assert fields.GetAbstractArray("Method").GetValue(0) == expected.method
@@ -47,18 +47,18 @@ def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
         assert np.array_equal(vtk_to_numpy(mirror.GetPoints().GetData()), vertices)
         corners = vtk_to_numpy(mirror.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         assert np.array_equal(corners, triangles)
-        sides = array(mapping, "MirrorSide")
+        sides = array(shape, "MirrorSide")
         assert np.all(sides * np.nan_to_num(expected.mirror.signed_distance(points)) >= 0)
 
     assert np.array_equal(vtk_to_numpy(surface.GetPoints().GetData()), expected.surface_points)
     assert np.array_equal(array(surface, "Residual"), expected.residuals)
     assert surface.GetNumberOfVerts() == len(expected.surface_points)
     paired = np.isin(np.arange(len(points)), expected.pairs[:, 0])
-    assert np.array_equal(array(mapping, "MirrorPartner") >= 0, paired)
-    residuals = array(mapping, "MirrorResidual")
+    assert np.array_equal(array(shape, "MirrorPartner") >= 0, paired)
+    residuals = array(shape, "MirrorResidual")
     assert np.array_equal(np.isfinite(residuals), paired)
     if paired.any():
-        p99 = mapping.GetFieldData().GetArray("MirrorResidualP99").GetValue(0)
+        p99 = shape.GetFieldData().GetArray("MirrorResidualP99").GetValue(0)
         assert p99 in residuals and np.mean(residuals[paired] > p99) <= 0.01
         assert np.mean(residuals[paired] >= p99) >= 0.01
 
@@ -66,7 +66,7 @@ def test_every_method_gives_what_symsurf_detect_gives(method: str) -> None:
 def test_known_plane() -> None:
     found = detection(mirrored_shape(2000))
     found.Update()
-    vertices = vtk_to_numpy(found.GetOutput(0).GetPoints().GetData())
+    vertices = vtk_to_numpy(found.GetOutput(found.MIRROR).GetPoints().GetData())
     assert np.abs(PLANE.signed_distance(vertices)).max() < 1e-9
 
 
@@ -103,8 +103,8 @@ def test_properties_are_keywords_of_the_constructor() -> None:
         input_data=polydata(shape), method="plane", plane_pair_distance=0, number_of_threads=1
     )
     found.Update()
-    assert np.nanmax(array(found.GetOutput(2), "MirrorResidual"), initial=0) < 1e-12
-    assert found.output.GetFieldData().GetAbstractArray("Method").GetValue(0) == "plane"
+    assert np.nanmax(array(found.output, "MirrorResidual"), initial=0) < 1e-12
+    assert found.GetOutput(1).GetFieldData().GetAbstractArray("Method").GetValue(0) == "plane"
     for method in symsurf.methods().values():
         for parameter in method.parameters:
             name = f"{method.name}_{parameter.name}"
@@ -148,7 +148,7 @@ def test_parameters_reach_the_method() -> None:
     found.SetPlanePairDistance(0)
     assert found.GetMTime() > before
     found.Update()
-    assert np.nanmax(array(found.GetOutput(2), "MirrorResidual"), initial=0) < 1e-12
+    assert np.nanmax(array(found.output, "MirrorResidual"), initial=0) < 1e-12
 
 
 def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
@@ -164,10 +164,10 @@ def test_bad_input_is_an_error_and_a_later_good_run_works() -> None:
     ]:
         found.SetInputData(polydata(points))
         assert said in error_of(found)
-        assert found.GetOutput(0).GetNumberOfPoints() == 0
+        assert found.GetOutput(found.MIRROR).GetNumberOfPoints() == 0
         found.SetInputData(good)
         assert error_of(found) == ""
-        assert found.GetOutput(0).GetNumberOfPoints() > 0
+        assert found.GetOutput(found.MIRROR).GetNumberOfPoints() > 0
     found.SetInputData(vtkPolyData())
     assert "0 points" in error_of(found)
     assert "0 connections" in error_of(MirrorDetection())
@@ -220,19 +220,19 @@ def test_points_that_are_not_finite_are_left_out() -> None:
     found = detection(given)
     said = error_of(found, "WarningEvent")
     assert "3 points are not finite" in said
-    mapping = found.GetOutput(2)
-    partners = array(mapping, "MirrorPartner")
+    shape = found.output
+    partners = array(shape, "MirrorPartner")
     assert (partners[[0, 1, -1]] == -1).all() and (
-        array(mapping, "MirrorSide")[[0, 1, -1]] == 0
+        array(shape, "MirrorSide")[[0, 1, -1]] == 0
     ).all()
     np.testing.assert_array_equal(partners[plain.pairs[:, 0] + 2], plain.pairs[:, 1] + 2)
-    fields = found.GetOutput(0).GetFieldData()
+    fields = found.GetOutput(found.MIRROR).GetFieldData()
     assert fields.GetArray("NonfinitePoints").GetValue(0) == 3
     assert fields.GetAbstractArray("Verdict").GetValue(0) == plain.verdict
     assert fields.GetAbstractArray("Reason").GetValue(0) == plain.reason
     found.SetRefuseNonfinite(True)
     assert "point 0 is (nan, nan, nan)" in error_of(found)
-    assert found.GetOutput(0).GetNumberOfPoints() == 0
+    assert found.GetOutput(found.MIRROR).GetNumberOfPoints() == 0
 
 
 def test_polygons_are_a_surface() -> None:
@@ -248,13 +248,13 @@ def test_polygons_are_a_surface() -> None:
     found.SetInputData(box)
     found.SetMethod("plane")
     found.Update()
-    fields = found.GetOutput(0).GetFieldData()
+    fields = found.GetOutput(found.MIRROR).GetFieldData()
     samples = fields.GetArray("SurfaceSamples").GetValue(0)
     assert samples == expected.statistics["surface_samples"] > 10000
     assert fields.GetArray("Score").GetValue(0) == pytest.approx(expected.score, abs=1e-3)
     found.SetUseFaces(False)
     found.Update()
-    assert found.GetOutput(0).GetFieldData().GetArray("SurfaceSamples") is None
+    assert found.GetOutput(found.MIRROR).GetFieldData().GetArray("SurfaceSamples") is None
 
 
 def test_candidates_are_shown_when_asked_for() -> None:
@@ -266,11 +266,11 @@ def test_candidates_are_shown_when_asked_for() -> None:
     found.SetInputData(cube.GetOutput())
     found.SetMethod("plane")
     found.Update()
-    alone = found.GetOutput(0).GetNumberOfCells()
-    assert not vtk_to_numpy(found.GetOutput(0).GetCellData().GetArray("Rank")).any()
+    alone = found.GetOutput(found.MIRROR).GetNumberOfCells()
+    assert not vtk_to_numpy(found.GetOutput(found.MIRROR).GetCellData().GetArray("Rank")).any()
     found.SetShowCandidates(True)
     found.Update()
-    mirror = found.GetOutput(0)
+    mirror = found.GetOutput(found.MIRROR)
     ranks = vtk_to_numpy(mirror.GetCellData().GetArray("Rank"))
     assert (ranks[:alone] == 0).all() and set(ranks) == {0, 1, 2}
     assert np.allclose(vtk_to_numpy(mirror.GetCellData().GetArray("Score")), 1)
@@ -296,11 +296,11 @@ def test_candidates_of_other_kinds_have_scores() -> None:
     found = detection(points, "sphere")
     found.SetShowCandidates(True)
     found.Update()
-    fields = found.GetOutput(0).GetFieldData()
+    fields = found.GetOutput(found.MIRROR).GetFieldData()
     scores = vtk_to_numpy(fields.GetArray("CandidateScores"))
     assert np.array_equal(scores, [candidate.score for candidate in expected]) and len(expected) > 0
     assert fields.GetArray("CandidateNormals") is None
-    ranks = vtk_to_numpy(found.GetOutput(0).GetCellData().GetArray("Rank"))
+    ranks = vtk_to_numpy(found.GetOutput(found.MIRROR).GetCellData().GetArray("Rank"))
     assert set(ranks) == set(range(1 + len(expected)))
 
 
@@ -316,7 +316,7 @@ def test_normals_that_are_asked_for_must_be_there() -> None:
     found = detection(mirrored_shape())
     found.SetUseNormals(True)
     assert "the input has no point normals" in error_of(found)
-    assert found.GetOutput(0).GetNumberOfPoints() == 0
+    assert found.GetOutput(found.MIRROR).GetNumberOfPoints() == 0
     found.SetUseNormals(False)
     assert error_of(found) == ""
 
@@ -332,7 +332,7 @@ def test_pipeline_operator() -> None:
     sphere = vtkSphereSource()
     if not hasattr(sphere, "__rshift__"):
         pytest.skip("this VTK has no >> pipelines")
-    mirror, surface, mapping = (sphere >> detection(np.empty((0, 3))))()
+    shape, mirror, surface = (sphere >> detection(np.empty((0, 3))))()
     assert mirror.GetNumberOfPolys() > 0
-    assert mapping.GetNumberOfPoints() == sphere.GetOutput().GetNumberOfPoints()
+    assert shape.GetNumberOfPoints() == sphere.GetOutput().GetNumberOfPoints()
     assert surface.GetNumberOfPoints() > 0

@@ -23,7 +23,14 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from symsurf import _core
-from symsurf.vtk import MirrorDetection, MirrorReflection, MirrorSampleSource, PointDamage
+from symsurf.vtk import (
+    MirrorAsymmetry,
+    MirrorDetection,
+    MirrorReflection,
+    MirrorSampleSource,
+    PointDamage,
+    SymmetryAnalysis,
+)
 from symsurf.vtk.arrays import add_values
 
 
@@ -44,7 +51,7 @@ def normal_of_first_cell(data: vtkPolyData) -> np.ndarray:
 def test_reflection_lies_on_the_partners() -> None:
     detection = MirrorDetection(method="plane", input_data=polydata(mirrored_shape()))
     reflection = MirrorReflection()
-    reflection.SetInputConnection(detection.GetOutputPort(MirrorDetection.MAPPING))
+    reflection.SetInputConnection(detection.GetOutputPort())
     reflection.SetMirrorConnection(detection.GetOutputPort(MirrorDetection.MIRROR))
     assert error_of(reflection) == ""
     partners = array(reflection.output, "MirrorPartner")
@@ -96,6 +103,23 @@ def test_reflection_needs_a_mirror() -> None:
         assert reflection.output.GetNumberOfPoints() == 0
     reflection.mirror_data = mirror_data(BALL_MIRROR)
     assert error_of(reflection) == ""
+
+
+def test_a_mirror_is_no_shape_and_a_shape_no_mirror() -> None:
+    detection = MirrorDetection(method="plane", input_data=polydata(mirrored_shape()))
+    mirror = detection.GetOutputPort(detection.MIRROR)
+    made = [MirrorDetection, MirrorReflection, MirrorAsymmetry, SymmetryAnalysis, PointDamage]
+    for filter_ in [each() for each in (*made, MirrorSampleSource)]:
+        if isinstance(filter_, MirrorReflection):
+            filter_.SetMirrorConnection(mirror)
+        filter_.SetInputConnection(mirror)
+        assert "the input is a mirror" in error_of(filter_)
+        assert filter_.output.GetNumberOfPoints() == 0
+        filter_.SetInputConnection(detection.GetOutputPort())
+        assert error_of(filter_) == ""
+    reflection = MirrorReflection(input_data=polydata(mirrored_shape()))
+    reflection.SetMirrorConnection(detection.GetOutputPort())
+    assert "is the shape of a mirror detection; connect output 1" in error_of(reflection)
 
 
 @pytest.mark.parametrize("generator", _core.generators())

@@ -104,7 +104,7 @@ def test_keeps_cells_and_data_of_the_input(operation: symsurf.Operation) -> None
 def test_finds_the_mirror_where_none_is_connected(operation: symsurf.Operation) -> None:
     detection = MirrorDetection(method="plane", input_data=dented_ball())
     connected = filter_of(operation, input_data=dented_ball())
-    connected.SetMirrorConnection(detection.GetOutputPort())
+    connected.SetMirrorConnection(detection.GetOutputPort(detection.MIRROR))
     alone = filter_of(operation, input_data=dented_ball(), method="plane")
     connected.Update()
     alone.Update()
@@ -114,6 +114,19 @@ def test_finds_the_mirror_where_none_is_connected(operation: symsurf.Operation) 
     connected.SetMirrorConnection(None)
     connected.SetMethod("plane")
     assert error_of(connected) == "" and connected.output.GetNumberOfPoints() > 0
+
+
+def test_asymmetry_after_a_detection_is_that_of_the_shape() -> None:
+    detection = MirrorDetection(method="plane", input_data=dented_ball(60, 40))
+    asymmetry = filter_of(symsurf.operations()["asymmetry"], method="plane")
+    asymmetry.SetInputConnection(detection.GetOutputPort())
+    assert error_of(asymmetry) == ""
+    found = asymmetry.output.GetFieldData().GetArray("Maximum").GetValue(0)
+    assert found == pytest.approx(0.1, abs=0.015)  # the depth of the dent, which tilts the plane
+    asymmetry.mirror_data = mirror_data(BALL_MIRROR)
+    asymmetry.Update()
+    known = asymmetry.output.GetFieldData().GetArray("Maximum").GetValue(0)
+    assert found == pytest.approx(known, abs=0.01)
 
 
 def test_a_mirror_that_is_none_warns_unless_refused(operation: symsurf.Operation) -> None:

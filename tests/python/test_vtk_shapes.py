@@ -73,7 +73,7 @@ def mirror_found(data: Any, **properties: Any) -> tuple[np.ndarray, float]:
     """Of the plane, its normal with x positive."""
     found = MirrorDetection(method="plane", input_data=data, **properties)
     assert error_of(found) == ""
-    fields = found.output.GetFieldData()
+    fields = found.GetOutput(found.MIRROR).GetFieldData()
     assert fields.GetAbstractArray("Verdict").GetValue(0) == "found"
     normal = vtk_to_numpy(fields.GetArray("Normal"))[0]
     sign = np.sign(normal[0])
@@ -125,8 +125,8 @@ def test_of_bodies_the_surface_counts() -> None:
         grid.InsertNextCell(VTK_HEXAHEDRON, ids)
     detection = MirrorDetection(method="plane", input_data=grid)
     assert error_of(detection) == ""
-    mapping = detection.GetOutput(MirrorDetection.MAPPING)
-    assert (mapping.GetNumberOfPoints(), mapping.GetNumberOfPolys()) == (26, 24)
+    shape = detection.output
+    assert (shape.GetNumberOfPoints(), shape.GetNumberOfPolys()) == (26, 24)
 
 
 def test_a_grid_without_cells_is_its_points() -> None:
@@ -175,7 +175,7 @@ def test_the_scalars_of_an_image_can_be_chosen() -> None:
     detection.SetInputArrayToProcess(0, 0, 0, 0, "body")
     assert error_of(detection) == ""
     body = vtk_to_numpy(image.GetPointData().GetArray("body"))
-    assert detection.GetOutput(detection.MAPPING).GetNumberOfPoints() == body.sum()
+    assert detection.output.GetNumberOfPoints() == body.sum()
 
 
 def test_what_is_no_shape_is_an_error() -> None:

@@ -16,11 +16,13 @@
 #include "vtkCellArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkMirrorAsymmetry.h"
 #include "vtkMirrorDetection.h"
 #include "vtkMirrorReflection.h"
 #include "vtkMirrorSampleSource.h"
 #include "vtkPointDamage.h"
 #include "vtkPointData.h"
+#include "vtkSymmetryAnalysis.h"
 #include "vtkTable.h"
 
 namespace {
@@ -216,7 +218,7 @@ TEST(FilterErrors, PointsThatAreNotFiniteAreLeftOutWithAWarning) {
     EXPECT_TRUE(error_of(filter).empty());
     EXPECT_NE(warnings.message().find("3 points are not finite"), std::string::npos);
   }
-  vtkPointData* mapped = filter->GetOutput(vtkMirrorDetection::MAPPING)->GetPointData();
+  vtkPointData* mapped = filter->GetOutput(vtkMirrorDetection::SHAPE)->GetPointData();
   for (const vtkIdType i : {0, 1, 202}) {
     EXPECT_EQ(mapped->GetArray("MirrorPartner")->GetComponent(i, 0), -1);
     EXPECT_EQ(mapped->GetArray("MirrorSide")->GetComponent(i, 0), 0);
@@ -259,6 +261,37 @@ TEST(FilterErrors, AReflectionNeedsAMirror) {
   reflection->Update();
   EXPECT_NE(listener.message().find("Kind"), std::string::npos);
   EXPECT_EQ(reflection->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(FilterErrors, AMirrorIsNoShapeAndAShapeNoMirror) {
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetInputData(polydata_of(mirrored_shape(tilted, 100)));
+  detection->SetMethod("plane");
+  vtkNew<vtkMirrorSampleSource> source;
+  vtkNew<vtkMirrorDetection> again;
+  vtkNew<vtkMirrorReflection> reflection;
+  vtkNew<vtkMirrorAsymmetry> asymmetry;
+  vtkNew<vtkSymmetryAnalysis> analysis;
+  vtkNew<vtkPointDamage> damage;
+  vtkAlgorithmOutput* mirror = detection->GetOutputPort(vtkMirrorDetection::MIRROR);
+  reflection->SetMirrorConnection(mirror);
+  const auto said = [](vtkAlgorithm* filter) {
+    const ErrorListener listener(filter);
+    filter->Update();
+    return listener.message();
+  };
+  for (vtkShapeAlgorithm* filter : std::initializer_list<vtkShapeAlgorithm*>{
+           source, again, reflection, asymmetry, analysis, damage}) {
+    SCOPED_TRACE(filter->GetClassName());
+    filter->SetInputConnection(mirror);
+    EXPECT_NE(said(filter).find("the input is a mirror"), std::string::npos);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    filter->SetInputConnection(detection->GetOutputPort());
+    EXPECT_EQ(said(filter), "");
+  }
+  reflection->SetMirrorConnection(detection->GetOutputPort());
+  EXPECT_NE(said(reflection).find("is the shape of a mirror detection; connect output 1"),
+            std::string::npos);
 }
 
 TEST(FilterErrors, AnAbortStopsTheRunAndEmptiesTheOutputs) {

@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     detection->SetInputData(data);
     detection->SetMethod(method.c_str());
     detection->Update();
-    vtkFieldData* field = detection->GetOutput()->GetFieldData();
+    vtkFieldData* field = detection->GetOutput(vtkMirrorDetection::MIRROR)->GetFieldData();
     for (int i = 0; i < field->GetNumberOfArrays(); ++i) {
       vtkDataArray* array = field->GetArray(i);  // null: texts
       if (!array) continue;

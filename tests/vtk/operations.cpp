@@ -167,7 +167,7 @@ TEST(Operations, FindTheMirrorWhereNoneIsConnected) {
     alone->SetInputData(0, dented_ball());
     alone->SetMethod("plane");
     connected->SetInputData(0, dented_ball());
-    connected->SetMirrorConnection(detection->GetOutputPort());
+    connected->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
     connected->SetMethod("plane");
     alone->Update();
     connected->Update();
@@ -177,6 +177,24 @@ TEST(Operations, FindTheMirrorWhereNoneIsConnected) {
     connected->Update();
     expect_near(alone->GetOutput(), connected->GetOutput());
   }
+}
+
+TEST(Operations, AfterADetectionTakeTheShape) {
+  vtkNew<vtkMirrorDetection> detection;
+  detection->SetInputData(dented_ball());
+  detection->SetMethod("plane");
+  const auto filters = every_operation();
+  vtkMirrorOperation* asymmetry = filters.at("MirrorAsymmetry");
+  asymmetry->SetMethod("plane");
+  const auto largest = [&] {
+    asymmetry->Update();
+    return asymmetry->GetOutput()->GetFieldData()->GetArray("Maximum")->GetTuple1(0);
+  };
+  asymmetry->SetInputConnection(0, detection->GetOutputPort());
+  const double found = largest();
+  asymmetry->SetInputData(1, mirror_data(ball_mirror));
+  EXPECT_NEAR(found, largest(), 0.01);
+  EXPECT_NEAR(found, 0.1, 0.015);  // the depth of the dent, which tilts the plane
 }
 
 TEST(Operations, AShapeIsSymmetricOnceItIsSymmetrized) {

@@ -35,19 +35,19 @@ TEST(MirrorReflection, PutsEveryPointOnItsPartnerButForTheResidual) {
   detection->SetInputData(polydata_of(mirrored_shape({{1, 2, -0.5}, 1.3}, 300)));
   detection->SetMethod("plane");
   vtkNew<vtkMirrorReflection> reflection;
-  reflection->SetInputConnection(detection->GetOutputPort(vtkMirrorDetection::MAPPING));
+  reflection->SetInputConnection(detection->GetOutputPort());
   reflection->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
   reflection->Update();
 
-  vtkPolyData* mapping = detection->GetOutput(vtkMirrorDetection::MAPPING);
+  vtkPolyData* shape = detection->GetOutput(vtkMirrorDetection::SHAPE);
   vtkPolyData* reflected = reflection->GetOutput();
-  ASSERT_EQ(reflected->GetNumberOfPoints(), mapping->GetNumberOfPoints());
+  ASSERT_EQ(reflected->GetNumberOfPoints(), shape->GetNumberOfPoints());
   vtkDataArray* partners = reflected->GetPointData()->GetArray("MirrorPartner");
   vtkDataArray* residuals = reflected->GetPointData()->GetArray("MirrorResidual");
   for (vtkIdType i = 0; i < reflected->GetNumberOfPoints(); ++i) {
     const auto partner = static_cast<vtkIdType>(partners->GetComponent(i, 0));
     if (partner < 0) continue;
-    EXPECT_NEAR(distance(reflected, i, mapping, partner), residuals->GetComponent(i, 0), 1e-12);
+    EXPECT_NEAR(distance(reflected, i, shape, partner), residuals->GetComponent(i, 0), 1e-12);
   }
 }
 
@@ -58,9 +58,9 @@ TEST(MirrorReflection, KeepsTheOutsideOutAndDropsNormals) {
   detection->SetMethod("plane");
   vtkNew<vtkMirrorReflection> once, twice;
   once->SetInputConnection(sphere->GetOutputPort());
-  once->SetMirrorConnection(detection->GetOutputPort());
+  once->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
   twice->SetInputConnection(once->GetOutputPort());
-  twice->SetMirrorConnection(detection->GetOutputPort());
+  twice->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
   twice->Update();
 
   vtkPolyData* original = sphere->GetOutput();
@@ -82,7 +82,7 @@ TEST(MirrorReflection, IsOverTheResultWhereCandidatesAreShown) {
   detection->SetMethod("plane");
   vtkNew<vtkMirrorReflection> reflection;
   reflection->SetInputConnection(cube->GetOutputPort());
-  reflection->SetMirrorConnection(detection->GetOutputPort());
+  reflection->SetMirrorConnection(detection->GetOutputPort(vtkMirrorDetection::MIRROR));
   reflection->Update();
   vtkNew<vtkPolyData> expected;
   expected->DeepCopy(reflection->GetOutput());

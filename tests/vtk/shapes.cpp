@@ -117,7 +117,7 @@ class Detection : public testing::Test {
 
   void expect_the_plane(vtkDataObject* data, double tolerance) {
     EXPECT_EQ(error_of(data), "");
-    vtkFieldData* fields = filter->GetOutput()->GetFieldData();
+    vtkFieldData* fields = filter->GetOutput(vtkMirrorDetection::MIRROR)->GetFieldData();
     ASSERT_NE(fields->GetArray("Normal"), nullptr);
     const symsurf::Vector3 normal(fields->GetArray("Normal")->GetTuple3(0));
     EXPECT_NEAR(std::abs(normal.x()), 1, tolerance);
@@ -125,7 +125,7 @@ class Detection : public testing::Test {
   }
 
   vtkIdType shape_points() {
-    return filter->GetOutput(vtkMirrorDetection::MAPPING)->GetNumberOfPoints();
+    return filter->GetOutput(vtkMirrorDetection::SHAPE)->GetNumberOfPoints();
   }
 
   vtkNew<vtkMirrorDetection> filter;
@@ -135,7 +135,7 @@ TEST_F(Detection, OfGridsAndBlocksIsThatOfTheMesh) {
   const auto ball = lopsided_ball(), image = reflected(ball);
   const auto grid = grid_of({ball, image});
   expect_the_plane(grid, 1e-9);
-  EXPECT_EQ(filter->GetOutput(vtkMirrorDetection::MAPPING)->GetNumberOfPolys(),
+  EXPECT_EQ(filter->GetOutput(vtkMirrorDetection::SHAPE)->GetNumberOfPolys(),
             2 * ball->GetNumberOfPolys());
   expect_the_plane(blocks_of({ball, image}), 1e-9);
   expect_the_plane(blocks_of({grid_of({ball}), image}), 1e-9);
@@ -196,7 +196,7 @@ TEST_F(Detection, OfBodiesIsThatOfTheirSurface) {
   ASSERT_EQ(grid->GetNumberOfCells(), 8);
   EXPECT_EQ(error_of(grid), "");
   EXPECT_EQ(shape_points(), 26);
-  EXPECT_EQ(filter->GetOutput(vtkMirrorDetection::MAPPING)->GetNumberOfPolys(), 24);
+  EXPECT_EQ(filter->GetOutput(vtkMirrorDetection::SHAPE)->GetNumberOfPolys(), 24);
 }
 
 TEST_F(Detection, WhatIsNoShapeIsAnError) {

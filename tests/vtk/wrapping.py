@@ -80,8 +80,8 @@ class Wrapping(unittest.TestCase):
         for data in (mirror, surface):
             for i in range(data.GetNumberOfPoints()):
                 self.assertAlmostEqual(distance(data.GetPoint(i)), 0, 9)
-        mapping = self.detection.GetOutput(symsurf.vtkMirrorDetection.MAPPING)
-        partners = mapping.GetPointData().GetArray("MirrorPartner")
+        shape = self.detection.GetOutput()
+        partners = shape.GetPointData().GetArray("MirrorPartner")
         for i in range(COUNT):
             self.assertEqual(partners.GetValue(i), COUNT + i)
             self.assertEqual(partners.GetValue(COUNT + i), i)
@@ -89,7 +89,9 @@ class Wrapping(unittest.TestCase):
     def test_reflection_follows_the_detected_mirror(self):
         reflection = symsurf.vtkMirrorReflection()
         reflection.SetInputData(self.shape)
-        reflection.SetMirrorConnection(self.detection.GetOutputPort())
+        reflection.SetMirrorConnection(
+            self.detection.GetOutputPort(symsurf.vtkMirrorDetection.MIRROR)
+        )
         self.assertEqual(errors_of(reflection), "")
         self.assertEqual(reflection.GetOutput().GetNumberOfPoints(), 2 * COUNT)
         for i in range(2 * COUNT):
@@ -104,7 +106,9 @@ class Wrapping(unittest.TestCase):
         for made in filters:
             operation = made()
             operation.SetInputData(self.shape)
-            operation.SetMirrorConnection(self.detection.GetOutputPort())
+            operation.SetMirrorConnection(
+                self.detection.GetOutputPort(symsurf.vtkMirrorDetection.MIRROR)
+            )
             if made is symsurf.vtkMirrorRemeshing:
                 self.assertIn("remesh needs a mesh", errors_of(operation))
                 continue

@@ -148,7 +148,7 @@ class Completion {
         if (missing[i]) sources_.push_back(i);
       return;
     }
-    const double exact = mirror_tolerance * diagonal_of(input.points);
+    const double exact = 2 * mirror_tolerance * diagonal_of(input.points);
     for (Index i = 0; i < count; ++i)
       if (const Index j = counterparts[i].nearest;
           j >= 0 && !missing[i] && (counterparts.preimage(i) - input.points[j]).norm() <= exact)
@@ -160,7 +160,7 @@ class Completion {
       for (std::size_t k = 0; k < loop.size(); ++k)
         rims.insert(std::minmax(loop[k], loop[(k + 1) % loop.size()]));
     const auto has_room = [&](Index a, Index b) {  // beside an edge of the shape, or for a new one
-      if (a < 0 || b < 0 || rims.contains(std::minmax(a, b))) return true;
+      if (counterparts.is_half() || a < 0 || b < 0 || rims.contains(std::minmax(a, b))) return true;
       const std::vector<Index> around = counterparts.mesh().neighbours(a);
       return !std::binary_search(around.begin(), around.end(), b);
     };

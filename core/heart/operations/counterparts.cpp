@@ -184,6 +184,11 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const auto side = [&](Index i) {
     return distances_[i] > on_mirror ? 1 : distances_[i] < -on_mirror ? -1 : 0;
   };
+  const auto ends_at_mirror = [&](Index i) { return is_boundary[i] && side(i) == 0; };
+  std::array<bool, 3> seen{};  // sides, and an end at the mirror
+  for (Index i = 0; i < points.size(); ++i)
+    if (side(i) != 0 || is_boundary[i]) seen[1 + side(i)] = true;
+  is_half_ = map_.is_reflection() && seen[1] && seen[0] != seen[2];
   // The images of the faces that reach beyond the mirror, as the points of a side look for them.
   const auto surface_for = [&](int own, const Context& part) {
     return ClosestPointOnMesh(images_, input.faces, part, [&, own](Index f) {
@@ -262,7 +267,11 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   std::vector<signed char> faces_alike(points.size(), 0);
   parallel_for(context.stage(0.3, 0.9), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      Index partner = images.nearest(points[i], exact_reach * exact_reach).index;
+      if (is_half_ && !ends_at_mirror(i)) {
+        all_[i].past_rim = image(i).allFinite();
+        continue;
+      }
+      Index partner = is_half_ ? i : images.nearest(points[i], exact_reach * exact_reach).index;
       const bool is_exact = partner >= 0;
       if (!is_exact && is_homologous_) partner = homologous_.partners[i];
       const auto look = [&](double cosine) {

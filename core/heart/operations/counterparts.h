@@ -140,6 +140,10 @@ class Counterparts {
   /// Of a shape with faces.
   const TriangleMesh& mesh() const { return *mesh_; }
 
+  /// Of a mesh that lies on one side of the mirror and ends there: the points where it ends are the
+  /// only ones that have counterparts, themselves.
+  bool is_half() const { return is_half_; }
+
   /// Of a mesh that is closed and without faces that a manifold has no room for.
   bool is_watertight() const { return is_watertight_; }
 
@@ -165,7 +169,7 @@ class Counterparts {
   Eigen::VectorXd distances_;            // of the points, from the mirror, signed
   double spacing_ = 0;
   Index matched_ = 0;
-  bool is_watertight_ = false;
+  bool is_half_ = false, is_watertight_ = false;
 };
 
 /// Parameters that operations share, and the limits that they set.

@@ -8,14 +8,12 @@
 
 #include "base/math.h"
 #include "cloud/cloud.h"
+#include "operations/counterparts.h"
 #include "operations/meshes.h"
 
 namespace symsurf {
 
 namespace {
-
-// Points nearer to the mirror than this lie on it, in diagonals: rounding.
-constexpr double on_the_mirror = 1e-9;
 
 class Cut {
  public:
@@ -24,7 +22,7 @@ class Cut {
         mirror_(mirror),
         positive_(positive),
         distances_(mirror.signed_distance(points, context)),
-        near_(on_the_mirror * diagonal_of(points)),
+        near_(mirror_tolerance * diagonal_of(points)),
         kept_(points.size(), -1) {
     if (!positive) distances_ = -distances_;
     if (const Index lost = distances_.array().isNaN().count(); lost > 0)
@@ -103,7 +101,7 @@ class Cut {
     const auto coordinates = [&](Index i) { return std::span(points_.data() + 3 * i, 3); };
     if (std::ranges::lexicographical_compare(coordinates(b), coordinates(a))) std::swap(a, b);
     const Vector3 from = points_[a], along = points_[b] - from;
-    const double zero = precision * near_ / on_the_mirror;
+    const double zero = precision * near_ / mirror_tolerance;
     double low = 0, high = 1, at_low = distances_[a], at_high = distances_[b], share = 0.5;
     int last = 0;  // which end moved: -1 the low one, 1 the high one
     for (int step = 0; step < most_steps && high - low > precision; ++step) {

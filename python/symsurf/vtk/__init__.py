@@ -5,7 +5,7 @@
 >>> detection.SetInputConnection(reader.GetOutputPort())
 >>> asymmetry = MirrorAsymmetry(max_angle=45)
 >>> asymmetry.SetInputConnection(reader.GetOutputPort())
->>> asymmetry.SetMirrorConnection(detection.GetOutputPort())  # or none: it is found first
+>>> asymmetry.SetMirrorConnection(detection.GetOutputPort(detection.MIRROR))  # or none: it is found
 >>> asymmetry.Update()
 >>> asymmetry.output.GetPointData().GetArray("MirrorAsymmetrySigned")
 

@@ -15,6 +15,7 @@ from vtkmodules.vtkCommonCore import (
 )
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
+    vtkDataObject,
     vtkDataSetAttributes,
     vtkFieldData,
     vtkPolyData,
@@ -52,20 +53,32 @@ def add_values(field: vtkFieldData, values: dict[str, Any]) -> None:
         field.AddArray(array)
 
 
+def is_mirror(data: vtkDataObject) -> bool:
+    """Whether the field data have Kind. The shape of a detection has it too, but beside
+    MirrorResidualP99."""
+    return _has_kind(data) and not data.GetFieldData().HasArray("MirrorResidualP99")
+
+
+def _has_kind(data: vtkDataObject) -> bool:
+    field = data.GetFieldData()
+    return isinstance(field and field.GetAbstractArray("Kind"), vtkStringArray)
+
+
 def mirror_of(data: vtkPolyData) -> Mirror:
     """The mirror that the field data of a detection's output "Mirror" describes. Raises InvalidInput
     where it describes none."""
+    if not is_mirror(data):
+        given = "is the shape of a mirror detection"
+        raise InvalidInput(
+            f"the mirror {given if _has_kind(data) else 'has no field data array Kind'}; connect "
+            'output 1 "Mirror" of a mirror detection'
+        )
     field = data.GetFieldData()
     values = {}
     for i in range(field.GetNumberOfArrays()):
         array = field.GetAbstractArray(i)
         if array.GetName() and array.GetNumberOfValues() > 0:
             values[_core_name(array.GetName())] = _value(array)
-    if "kind" not in values:
-        raise InvalidInput(
-            'the mirror has no field data array Kind; connect the output "Mirror" of a mirror '
-            "detection"
-        )
     return make_mirror(str(values.pop("kind")), values)
 
 

@@ -25,15 +25,15 @@ class MirrorDetection(Algorithm):
     that are not finite are left out, with a warning, and have no partners; with RefuseNonfinite they
     are an error.
 
-    Output 0 "Mirror": triangles over the footprint, of the candidates too with ShowCandidates; cell
-    data Rank (0 the result, from 1 the candidates) and Score; field data, of the result, Method,
-    Kind, Score, the mirror's numbers and the method's statistics, and CandidateScores, of planes
-    also CandidateNormals and CandidateOffsets, where there are candidates. Output 1 "Surface
-    Points": a vertex in the middle of each pair, at most half its residual off the mirror
-    (``perpendicular``, ``quadric`` and ``fixed_direction`` project it onto that); point data
-    Residual. Output 2 "Mapping": the input; point data MirrorPartner (index, -1 for none),
-    MirrorResidual (NaN for none) and MirrorSide; field data MirrorResidualP99, which at most a
-    hundredth of the residuals exceeds.
+    Output 0 "Shape": the input; point data MirrorPartner (index, -1 for none), MirrorResidual (NaN
+    for none) and MirrorSide; field data Kind, Score and Verdict of the mirror, and MirrorResidualP99,
+    which at most a hundredth of the residuals exceeds (NaN without any). Output 1 "Mirror": triangles
+    over the footprint, of the candidates too with ShowCandidates; cell data Rank (0 the result, from
+    1 the candidates) and Score; field data, of the result, Method, Kind, Score, the mirror's numbers
+    and the method's statistics, and CandidateScores, of planes also CandidateNormals and
+    CandidateOffsets, where there are candidates. Output 2 "Surface Points": a vertex in the middle of
+    each pair, at most half its residual off the mirror (``perpendicular``, ``quadric`` and
+    ``fixed_direction`` project it onto that); point data Residual.
 
     Every parameter of every method is a property, a keyword of the constructor, and has its setter
     and getter: ``plane_pair_distance`` and ``SetPlanePairDistance`` for ``pair_distance`` of
@@ -41,7 +41,7 @@ class MirrorDetection(Algorithm):
     input and values out of range are errors of the filter; they leave the outputs empty.
     """
 
-    MIRROR, SURFACE_POINTS, MAPPING = range(3)
+    SHAPE, MIRROR, SURFACE_POINTS = range(3)
     _output_count = 3
     _properties = selected(
         "method",
@@ -64,13 +64,13 @@ class MirrorDetection(Algorithm):
 
     def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
         (source,) = inputs
-        mirror, surface_points, mapping = outputs
+        shape, mirror, surface_points = outputs
         result = self._detected(source)
         _set_mirror_meshes(mirror, result, self._options["show_candidates"])
         _set_mirror_fields(mirror, result)
         _set_surface_points(surface_points, result)
-        mapping.ShallowCopy(source)
-        _set_mapping(mapping, result)
+        shape.ShallowCopy(source)
+        _set_shape(shape, result)
 
     def _detected(self, source: vtkPolyData) -> Result:
         options = self._options
@@ -143,7 +143,7 @@ def _set_surface_points(output: vtkPolyData, result: Result) -> None:
     output.GetPointData().SetScalars(numpyTovtkDataArray(result.residuals, "Residual"))
 
 
-def _set_mapping(output: vtkPolyData, result: Result) -> None:
+def _set_shape(output: vtkPolyData, result: Result) -> None:
     count = output.GetNumberOfPoints()
     partners, residuals = np.full(count, -1, np.int64), np.full(count, np.nan)
     partners[result.pairs[:, 0]] = result.pairs[:, 1]
@@ -158,6 +158,8 @@ def _set_mapping(output: vtkPolyData, result: Result) -> None:
     data.AddArray(numpyTovtkDataArray(partners, "MirrorPartner"))
     data.AddArray(numpyTovtkDataArray(sides, "MirrorSide"))
     data.SetScalars(numpyTovtkDataArray(residuals, "MirrorResidual"))
-    if len(result.residuals):
-        p99 = float(np.quantile(result.residuals, 0.99, method="higher"))
-        add_values(output.GetFieldData(), {"mirror_residual_p99": p99})
+    some = len(result.residuals) > 0
+    p99 = float(np.quantile(result.residuals, 0.99, method="higher")) if some else np.nan
+    kind = "none" if result.mirror is None else result.mirror.kind
+    values = {"kind": kind, "score": result.score, "verdict": result.verdict}
+    add_values(output.GetFieldData(), values | {"mirror_residual_p99": p99})

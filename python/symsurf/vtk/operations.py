@@ -44,7 +44,7 @@ _FOUND_AT = 0.6  # the share of the progress that finding the mirror takes
 class MirrorOperation(Algorithm):
     """What the filters of the operations have in common; ``vtkMirrorOperation`` in Python.
 
-    Input 0 is the shape. Input 1, optional, is its mirror: output 0 of ``MirrorDetection``, in the
+    Input 0 is the shape. Input 1, optional, is its mirror: output 1 of ``MirrorDetection``, in the
     unit and pose of the shape. Without it the mirror is found first, by ``method``; where its verdict
     is "none", it is used with a warning that says why, unless ``require_found`` is set.
 

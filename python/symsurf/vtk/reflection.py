@@ -17,7 +17,7 @@ from .arrays import mirror_of, set_subset
 class MirrorReflection(Algorithm):
     """Reflects a shape over a mirror; ``vtkMirrorReflection`` in Python.
 
-    Input 0 is what is reflected, input 1 the mirror: output 0 of ``MirrorDetection``, whose field
+    Input 0 is what is reflected, input 1 the mirror: output 1 of ``MirrorDetection``, whose field
     data says everything. Cells are turned over, so that the outside stays the outside; normals are
     not passed on. Points that have no image over the mirror are left out, together with the cells
     that need them.

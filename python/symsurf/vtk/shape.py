@@ -21,6 +21,7 @@ from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 from .._core import InvalidInput
 from ..shapes.poly_data import require_points, require_sound_cells
+from .arrays import is_mirror
 
 
 def shape_of(
@@ -32,11 +33,16 @@ def shape_of(
     """Poly data as they are; the surface of other point sets' cells, or their points where they have
     none; of an image the points whose scalar is greater, or is the label; all blocks of a composite as one shape.
 
-    algorithm: its input array to process 0 says which scalars. Raises InvalidInput, also where a
-    cell names a point that is not there.
+    algorithm: its input array to process 0 says which scalars. Raises InvalidInput, also where the
+    data are a mirror and where a cell names a point that is not there.
     """
     if data is None:
         return None
+    if is_mirror(data):
+        raise InvalidInput(
+            'the input is a mirror, by its field data array Kind; connect a shape: output 0 "Shape" '
+            "of a mirror detection, or what that takes"
+        )
     if isinstance(data, vtkPolyData):
         require_sound_cells(data)
         return data

@@ -41,7 +41,7 @@ def shown(depth):
 
 
 shown.depth = "0.2"
-asymmetry = simple.MirrorAsymmetry(Input=dented, Mirror=simple.MirrorDetection(Input=shape))
+asymmetry = simple.MirrorAsymmetry(Input=dented, Mirror=simple.MirrorDetection(Input=shape)[1])
 answers = {depth: shown(depth) for depth in ("0.2", "0.1", "0.3")}
 table = simple.GetColorTransferFunction(NAME)
 table.RescaleTransferFunction(0, 1)  # as a user may

@@ -54,8 +54,8 @@ def run(method, rows):
     for event in said:
         algorithm.AddObserver(event, heard)
     detection.UpdatePipeline()
-    surface_points = algorithm.GetOutputDataObject(1).GetNumberOfPoints()
-    fields = field(algorithm.GetOutputDataObject(0))
+    surface_points = algorithm.GetOutputDataObject(2).GetNumberOfPoints()
+    fields = field(algorithm.GetOutputDataObject(1))
     return said | {"score": fields.get("Score"), "pairs": surface_points}
 
 

@@ -11,7 +11,7 @@ answers = {}
 for method in detection.GetProperty("Method").Available:
     detection.Method = method
     detection.UpdatePipeline()
-    mirror, surface, mapping = (fetched(detection, port) for port in range(3))
+    shape, mirror, surface = (fetched(detection, port) for port in range(3))
     answers[method] = {
         "field": field(mirror),
         "triangles": mirror.GetNumberOfPolys(),
@@ -19,9 +19,9 @@ for method in detection.GetProperty("Method").Available:
         "vertices": surface.GetNumberOfVerts(),
         "residuals": len(point_array(surface, "Residual")),
         "points": source.GetDataInformation().GetNumberOfPoints(),
-        "partners": len(point_array(mapping, "MirrorPartner")),
-        "paired": int((point_array(mapping, "MirrorPartner") >= 0).sum()),
-        "sides": sorted(set(point_array(mapping, "MirrorSide").tolist())),
+        "partners": len(point_array(shape, "MirrorPartner")),
+        "paired": int((point_array(shape, "MirrorPartner") >= 0).sum()),
+        "sides": sorted(set(point_array(shape, "MirrorSide").tolist())),
     }
 ports = [detection.SMProxy.GetOutputPortName(port) for port in range(3)]
 answer({"methods": answers, "ports": ports})

@@ -22,7 +22,7 @@ def points_of(data):
 answers = {}
 for name in sys.argv[3:]:
     make = getattr(simple, name)
-    connected = make(Input=shape, Mirror=detection)
+    connected = make(Input=shape, Mirror=detection[1])
     made = fetched(connected)
     data = made.GetPointData()
     arrays = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
@@ -49,6 +49,6 @@ answer(
     {
         "operations": answers,
         "cells": given.GetNumberOfCells(),
-        "mirror": field(fetched(detection)),
+        "mirror": field(fetched(detection, 1)),
     }
 )

@@ -25,7 +25,7 @@ def share():
 
 
 shares = {"nothing": share()}
-for port, name in enumerate(("Mirror", "Surface Points", "Mapping")):
+for port, name in enumerate(("Shape", "Mirror", "Surface Points")):
     shown = simple.Show(detection[port], view)
     shares[name] = share()
     simple.Hide(detection[port], view)

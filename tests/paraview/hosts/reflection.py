@@ -6,10 +6,9 @@ from session import answer, fetched, lopsided, point_array
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 detection = simple.MirrorDetection(Input=lopsided(simple.Sphere()), Method="plane")
-mapping = detection[2]
-reflection = simple.MirrorReflection(Input=mapping, Mirror=detection[0])
+reflection = simple.MirrorReflection(Input=detection, Mirror=detection[1])
 reflected = fetched(reflection)
-points = vtk_to_numpy(fetched(detection, 2).GetPoints().GetData())
+points = vtk_to_numpy(fetched(detection).GetPoints().GetData())
 partners = point_array(reflected, "MirrorPartner")
 paired = partners >= 0
 gaps = vtk_to_numpy(reflected.GetPoints().GetData())[paired] - points[partners[paired]]

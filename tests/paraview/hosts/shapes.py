@@ -5,14 +5,15 @@ from session import answer, fetched, field, lopsided
 
 
 def found(shape):
-    detection = simple.MirrorDetection(Input=shape, Method="plane")
-    fields = field(fetched(detection))
+    # Of an input by keyword ParaView takes the arrays of the active source for those of the image.
+    detection = simple.MirrorDetection(shape, Method="plane")
+    fields = field(fetched(detection, 1))
     return {
         "threshold": detection.ImageThreshold,
         "normal": fields["Normal"],
         "offset": fields["Offset"][0],
         "verdict": fields["Verdict"],
-        "points": fetched(detection, 2).GetNumberOfPoints(),
+        "points": fetched(detection).GetNumberOfPoints(),
     }
 
 

@@ -9,7 +9,7 @@ detection = simple.MirrorDetection(Input=shape, Method="plane")
 
 
 def points_of(source):
-    asymmetry = simple.MirrorAsymmetry(Input=source, Mirror=detection)
+    asymmetry = simple.MirrorAsymmetry(Input=source, Mirror=detection[1])
     asymmetry.UpdatePipeline()
     return asymmetry.GetDataInformation().GetNumberOfPoints()
 

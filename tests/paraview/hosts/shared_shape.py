@@ -53,9 +53,9 @@ for i in range(len(mine)):
 
 shape = simple.ProgrammableSource(Script=f"how = {sys.argv[2]!r}\n{SHARE}")
 detection = simple.MirrorDetection(Input=shape, Method="plane")
-mirror, surface, mapping = (fetched(detection, port) for port in range(3))
-first_mirror = servermanager.Fetch(detection, 0)
-ids, partners = point_array(mapping, "Id"), point_array(mapping, "MirrorPartner")
+mapped, mirror, surface = (fetched(detection, port) for port in range(3))
+first_mirror = servermanager.Fetch(detection, 0, idx=1)
+ids, partners = point_array(mapped, "Id"), point_array(mapped, "MirrorPartner")
 order = ids.argsort()
 if is_client():  # the others see their own part only
     answer(
@@ -63,8 +63,8 @@ if is_client():  # the others see their own part only
             "field": field(first_mirror),
             "bounds": mirror.GetBounds(),
             "partners": [int(ids[p]) if p >= 0 else -1 for p in partners[order]],
-            "residuals": point_array(mapping, "MirrorResidual")[order].tolist(),
-            "sides": point_array(mapping, "MirrorSide")[order].tolist(),
+            "residuals": point_array(mapped, "MirrorResidual")[order].tolist(),
+            "sides": point_array(mapped, "MirrorSide")[order].tolist(),
             "surface_points": surface.GetNumberOfPoints(),
         }
     )

@@ -11,7 +11,7 @@ cone = simple.Cone(Resolution=24)
 detection = simple.MirrorDetection(Input=cone, Method="plane", PlanePairDistance=0.125)
 detection.UpdatePipeline()
 text = smtrace.stop_trace()
-before = field(fetched(detection))
+before = field(fetched(detection, 1))
 with open(os.path.join(sys.argv[2], "trace_made.py"), "w") as file:
     file.write(text)
 
@@ -20,4 +20,4 @@ simple.Delete(cone)
 exec(compile(text, "trace_made.py", "exec"))  # noqa: S102 (to replay it is the test)
 replayed = [p for (name, _), p in simple.GetSources().items() if name.startswith("MirrorDetection")]
 assert len(replayed) == 1
-answer([before, field(fetched(replayed[0]))])
+answer([before, field(fetched(replayed[0], 1))])
