@@ -11,7 +11,7 @@ setup:
 	@.ci/setup cached python $(SUITES:%=suite_%)
 
 demo:
-	@.ci/setup report
+	@.ci/setup demo
 	@build/venv/bin/symsurf demo --output build/demo
 
 # A wheel for this machine's Python and for Linux of its C library's age, and the source distribution.

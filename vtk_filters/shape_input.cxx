@@ -83,9 +83,8 @@ Shape shape_of(vtkShapeAlgorithm* filter, vtkDataObject* data) {
   if (!data) return nullptr;
   if (is_mirror(data))
     throw symsurf::InvalidInput(
-        "the input is a mirror, by its field data array Kind; connect a shape: output 0 \"Shape\" "
-        "of "
-        "a mirror detection, or what that takes");
+        "the input is a mirror, by its field data array Kind; connect a shape: output 0 "
+        "\"Shape\" of a mirror detection, or what that takes");
   if (auto* polygons = vtkPolyData::SafeDownCast(data)) {
     for (vtkCellArray* cells :
          {polygons->GetVerts(), polygons->GetLines(), polygons->GetPolys(), polygons->GetStrips()})

@@ -43,19 +43,20 @@ OperationImplementation illuminate_operation() {
   operation.name = "illuminate";
   operation.title = "Mirror illumination";
   operation.summary =
-      "Says of each point, as of a screen, how a point light reaches it over the mirror: by how "
-      "many paths, and how bright.";
-  operation.parameters = {Parameter::position(
-      "light",
-      "Where the light stands, in the unit and pose of the points; both sides of the "
-      "mirror reflect, and nothing stands in the way.")};
+      "Computes how a point light reaches each point of a screen by reflection at the mirror: "
+      "number of paths and irradiance.";
+  operation.parameters = {
+      Parameter::position("light",
+                          "Position of the light, in the unit and pose of the points; both sides "
+                          "of the mirror reflect, and nothing casts shadows.")};
   operation.arrays = {
-      {"paths", ParameterType::Integer, 1, "How many reflected paths lead to the point."},
+      {"paths", ParameterType::Integer, 1,
+       "Number of reflected paths from the light to the point."},
       {"irradiance", ParameterType::Real, 1,
-       "Their sum for a light of unit intensity, per square input unit: on the surface of a mesh, "
-       "across each path for a cloud; infinite in a focus."},
+       "Irradiance over all paths for a light of unit intensity, per square input unit: on the "
+       "surface of a mesh, across each path for a cloud; infinite in a focus."},
       {"reflection", ParameterType::Real, 3,
-       "Where the shortest path meets the mirror, input units; NaN without one."}};
+       "Point where the shortest path meets the mirror, input units; NaN without one."}};
   operation.shown = "irradiance";
   operation.takes_any_mirror = true;
   operation.run = run_illuminate;

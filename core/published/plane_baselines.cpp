@@ -70,14 +70,14 @@ MethodImplementation plane_icp_method() {
   method.name = "plane_icp";
   method.title = "Mirror plane by reflective ICP (Combes)";
   method.summary =
-      "Pairs each image with its closest point and solves for the plane directly, in turns, with "
+      "Alternates between pairing each image with its closest point and solving for the plane with "
       "robust weights (Combes et al. 2008).";
   method.parameters = {
-      start_normal("Normal of the one plane to start from, through the centroid; (0, 0, 0): start "
-                   "from many."),
+      start_normal("Normal of the only starting plane, through the centroid; (0, 0, 0): many "
+                   "starting planes."),
       Parameter::integer("starts", 33, 3, 1000, "",
-                         "Planes through the centroid to start from, evenly spread; without "
-                         "normal."),
+                         "Number of starting planes through the centroid, evenly spread; ignored "
+                         "if normal is given."),
       pair_distance(),
   };
   method.preprocessing = {.order_points = true};
@@ -172,15 +172,13 @@ MethodImplementation plane_svd_method() {
   method.name = "plane_svd";
   method.title = "Mirror plane by mutual pairs (Nagar)";
   method.summary =
-      "Keeps the mutual pairs of images and their closest points and takes the reflection matrix "
-      "in "
-      "closed form, in turns, from random starts (Nagar and Raman 2020).";
+      "Alternates between pairing images and points that are mutually closest and computing the "
+      "reflection matrix in closed form, from random starts (Nagar and Raman 2020).";
   method.parameters = {
-      start_normal(
-          "Starts are drawn within 30 degrees of this normal of a plane through the centroid; "
-          "(0, 0, 0): anywhere."),
+      start_normal("Normal of a plane through the centroid; random starts lie within 30 degrees of "
+                   "it; (0, 0, 0): anywhere."),
       Parameter::integer("draws", 500, 1, 100000, "",
-                         "Random pairs whose planes are tried as starts."),
+                         "Number of random pairs of points whose planes are tried as starts."),
       pair_distance(),
   };
   method.preprocessing = {.order_points = true};
@@ -311,14 +309,15 @@ MethodImplementation plane_hruda_method() {
   method.name = "plane_hruda";
   method.title = "Mirror plane by a differentiable measure (Hruda)";
   method.summary =
-      "Maximises a smooth measure of symmetry of a thinned cloud from the best of the planes "
+      "Maximises a smooth symmetry measure of a downsampled cloud, starting from the best planes "
       "between pairs of its points (Hruda, Kolingerova and Vasa 2022).";
   method.parameters = {
       Parameter::integer("sample_size", 1000, 10, 10000, "points",
-                         "Points at the least that the measure is taken over."),
+                         "Minimum number of points over which the measure is computed."),
       Parameter::integer("paired_points", 100, 3, 1000, "points",
-                         "Points at the least between whose pairs planes are tried."),
-      Parameter::integer("starts", 5, 1, 1000, "", "Planes that the measure is maximised from."),
+                         "Minimum number of points whose pairs give the planes tried."),
+      Parameter::integer("starts", 5, 1, 1000, "",
+                         "Number of planes from which the measure is maximised."),
       pair_distance(),
   };
   method.preprocessing = {.order_points = true};

@@ -81,12 +81,12 @@ Result midpoint_pairs(const Cloud& cloud, const std::vector<Neighbour>& partners
 std::vector<Parameter> normal_parameters() {
   return {
       Parameter::integer("neighbours", 10, 3, 1000, "points",
-                         "Nearest points, the point itself among them, that a normal is estimated "
-                         "from."),
+                         "Number of nearest points, including the point itself, from which a "
+                         "normal is estimated."),
       Parameter::choice(
           "normal_estimation", "regression", {"regression", "pca"},
-          "How normals are estimated: by regression of z on x and y, as in the thesis, "
-          "which breaks on vertical patches, or by least variance."),
+          "How normals are estimated: by regression of z on x and y, as in the thesis, which fails "
+          "on vertical patches, or by principal components (pca)."),
   };
 }
 
@@ -343,9 +343,9 @@ Result run_separation_normals(const Cloud& cloud, const ParameterValues& values,
 }
 
 Parameter direction_steps() {
-  return Parameter::integer("steps", 10, 1, 1000, "",
-                            "Steps over half a turn in each of the two angles of the directions "
-                            "tried.");
+  return Parameter::integer(
+      "steps", 10, 1, 1000, "",
+      "Number of steps over 180 degrees in each of the two angles of the directions tried.");
 }
 
 }  // namespace
@@ -368,8 +368,8 @@ MethodImplementation separation_normals_method() {
   method.name = "separation_normals";
   method.title = "Symmetry by separation and normals (thesis, Algorithm 2)";
   method.summary =
-      "As separation, but scores a plane by how near the partner is to the point with the most "
-      "similar normal; the score depends on the unit of the input.";
+      "Like separation, but scores a plane by the distance between the partner and the point with "
+      "the most similar normal; the score depends on the unit of the input.";
   method.parameters = normal_parameters();
   method.parameters.insert(method.parameters.begin(), direction_steps());
   method.preprocessing = Preprocessing::order_only();

@@ -164,16 +164,16 @@ MethodImplementation sphere_thesis_method() {
   method.name = "sphere_thesis";
   method.title = "Mirror sphere (thesis, Algorithm 4)";
   method.summary =
-      "Tries spheres of given radii between all pairs of a thinned cloud and improves the best by "
-      "Nelder and Mead's simplex.";
+      "Tries spheres of several radii between all pairs of points of a downsampled cloud and "
+      "refines the best by the Nelder-Mead simplex method.";
   method.parameters = {
       Parameter::real("min_radius_divisor", 5, 0.01, 1000, "",
-                      "The diagonal is divided by this to give the least radius tried."),
+                      "The least radius tried is the diagonal divided by this."),
       Parameter::real("max_radius_divisor", 3, 0.01, 1000, "",
-                      "The diagonal is divided by this to give the greatest radius tried."),
-      Parameter::integer("radii", 10, 1, 1000, "", "How many radii are tried, evenly spaced."),
+                      "The greatest radius tried is the diagonal divided by this."),
+      Parameter::integer("radii", 10, 1, 1000, "", "Number of radii tried, evenly spaced."),
       Parameter::integer("sample_size", 300, 10, 2000, "points",
-                         "Points at the least that the cloud is thinned to."),
+                         "Minimum number of points after downsampling."),
       pair_distance(),
   };
   method.minimum_points = 5;

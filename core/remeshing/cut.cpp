@@ -165,12 +165,13 @@ OperationImplementation cut_operation() {
   operation.summary = "Cuts the shape along the mirror and keeps one side: half a model.";
   operation.parameters = {
       kept_side(),
-      Parameter::boolean("capped", true,
-                         "Close a mesh by faces within the mirror; what is closed stays so."),
-      Parameter::boolean("even_cap", false,
-                         "Close it by triangles as large as those of the shape, as is always done "
-                         "over a mirror that bends; slower. Otherwise by some between the points "
-                         "at the cut.")};
+      Parameter::boolean(
+          "capped", true,
+          "Close the cut of a mesh by faces in the mirror: a closed mesh stays closed."),
+      Parameter::boolean(
+          "even_cap", false,
+          "Close the cut by triangles as large as those of the shape, as always over a curved "
+          "mirror; slower than triangles between the points at the cut.")};
   operation.arrays = {{"on_mirror", ParameterType::Boolean, 1,
                        "Whether the point lies on the mirror: at the cut or within it."}};
   operation.face_arrays = {

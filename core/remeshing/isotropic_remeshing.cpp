@@ -353,8 +353,8 @@ Remeshed isotropic_remeshing(PointsView points, TrianglesView faces, const Remes
   const TriangleMesh mesh(points, faces, context.stage(0, 0.1));
   if (const Index refused = mesh.refused().nonmanifold; refused > 0)
     throw InvalidInput(std::to_string(refused) + " of the " + std::to_string(faces.size()) +
-                       " faces are a third at an edge or wound against their neighbours; a "
-                       "surface that is remeshed has none");
+                       " faces are the third at an edge or wound against their neighbours; remesh "
+                       "needs a manifold, consistently oriented surface");
   Remesher remesher(points, mesh.manifold_faces(), remeshing, context);
   remesher.run(context.stage(0.1, 1));
   return remesher.remeshed();

@@ -157,16 +157,17 @@ OperationImplementation remesh_operation() {
   operation.name = "remesh";
   operation.title = "Mirror remeshing";
   operation.summary =
-      "Gives one side even triangles and the other their images: an exactly symmetric mesh.";
+      "Remeshes one side with even triangles and mirrors them: an exactly symmetric mesh.";
   operation.parameters = {
       Parameter::real("edge_length", 0, 0, 1, "diagonal",
-                      "Of the triangles; 0: as long as leaves them within 0.1 % of the diagonal of "
-                      "the surface, at most the mean of the shape's edges."),
+                      "Edge length of the triangles; 0: the longest that keeps them within 0.1 % "
+                      "of the diagonal of the surface, at most the mean edge length of the shape."),
       kept_side(),
       Parameter::real("feature_angle", 45, 0, 180, "degrees",
-                      "Edges between faces whose normals differ by more stay sharp.")};
+                      "Edges between faces whose normals differ by more than this stay sharp.")};
   operation.arrays = {{"partner", ParameterType::Integer, 1,
-                       "The point that is its image, itself on the mirror.", false, true}};
+                       "Index of the point that is its image, its own on the mirror.", false,
+                       true}};
   operation.moves_points = true;
   operation.makes_shape = true;
   operation.needs_faces = true;

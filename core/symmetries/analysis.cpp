@@ -66,7 +66,7 @@ void require_colours(PointsView points, const Eigen::MatrixXd& colours) {
   if (colours.size() == 0) return;
   if (colours.rows() != points.size())
     throw InvalidInput(std::to_string(colours.rows()) + " colours are given for " +
-                       std::to_string(points.size()) + " points; allowed is one a point");
+                       std::to_string(points.size()) + " points; allowed is one per point");
   for (Index i = 0; i < points.size(); ++i)
     if (points[i].allFinite() && !colours.row(i).allFinite())
       throw InvalidInput("the colour of point " + std::to_string(i) + " is not finite");

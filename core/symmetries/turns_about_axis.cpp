@@ -135,15 +135,15 @@ class Coverage {
 
 std::vector<Parameter> axis_parameters() {
   return {
-      Parameter::choice("symmetry", "mirror", {"mirror", "axis"},
-                        "What the shape is symmetric under: its mirror, or turns about an axis, "
-                        "for which no mirror is looked at."),
-      Parameter::position("axis_point", "A point of the axis, input units."),
+      Parameter::choice(
+          "symmetry", "mirror", {"mirror", "axis"},
+          "Symmetry of the shape: its mirror, or rotations about an axis, which need no mirror."),
+      Parameter::position("axis_point", "A point on the axis, input units."),
       Parameter::direction("axis_direction",
-                           "The direction of the axis; (0, 0, 0): the axis is found."),
+                           "Direction of the axis; (0, 0, 0): the axis is found."),
       Parameter::integer("axis_order", 0, 0, highest_order, "",
-                         "A turn by 360 degrees / axis_order maps the shape onto itself; 0: any "
-                         "turn does. Of an axis that is found it is found, too.")};
+                         "A rotation by 360 degrees / axis_order maps the shape onto itself; 0: "
+                         "any rotation does. If the axis is found, so is its order.")};
 }
 
 // The axis that the parameters give, or the main one of the shape where they give none. Throws
@@ -159,9 +159,9 @@ SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
                            std::to_string(highest_order) + "]");
   if (axis.direction.isZero(0)) {
     if (!axis.point.isZero(0) || axis.order != 0)
-      throw InvalidParameter(std::string(axis.order != 0 ? "axis_order" : "axis_point") +
-                             " is given without axis_direction; allowed is both, or neither for "
-                             "the axis to be found");
+      throw InvalidParameter(
+          std::string(axis.order != 0 ? "axis_order" : "axis_point") +
+          " is given without axis_direction; allowed is both, or neither for the axis to be found");
     if (const auto found = find_axis(input.points, input.faces, context)) return *found;
     throw InvalidInput("the shape has no rotation axis; give axis_point and axis_direction");
   }
@@ -170,9 +170,9 @@ SymmetryAxis axis_of(const OperationInput& input, const ParameterValues& values,
   axis.point += (middle - axis.point).dot(axis.direction) * axis.direction;
   const double distance = (middle - axis.point).norm(), diagonal = diagonal_of(input.points);
   if (!(distance <= farthest * diagonal))
-    throw InvalidInput("the points lie " + to_string(Value(distance / diagonal)) +
-                       " diagonals away from this axis; the axis is to be in the unit and the "
-                       "pose of the points");
+    throw InvalidInput(
+        "the points lie " + to_string(Value(distance / diagonal)) +
+        " diagonals away from this axis; the axis must be in the unit and pose of the points");
   return axis;
 }
 

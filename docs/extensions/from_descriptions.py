@@ -6,6 +6,9 @@ are read in the repository, too, ``docs/tables.py`` writes.
 
 from __future__ import annotations
 
+import ast
+import importlib
+import inspect
 import os
 import re
 from collections.abc import Iterable
@@ -40,10 +43,39 @@ def analysing_functions() -> str:
 
 
 def classes(names: Iterable[str]) -> str:
-    return _rst(
-        f".. autoclass:: {name}\n   :members:\n   :inherited-members: object, tuple\n"
+    """A table of them, with a page each, which ``write_class_pages`` writes."""
+    rows = [
+        (f"[`{_short(name)}`](classes/{_short(name)}.md)", _first_sentence(_object(name)))
         for name in names
-    )
+    ]
+    pages = "\n".join(f"classes/{_short(name)}" for name in names)
+    return f"{table(('class', ''), rows)}\n\n```{{toctree}}\n:hidden:\n\n{pages}\n```"
+
+
+def write_class_pages(app: Sphinx) -> None:
+    folder = Path(app.srcdir, "reference", "python")
+    (folder / "classes").mkdir(exist_ok=True)
+    for page in folder.glob("*.md"):
+        for names in re.findall(r"\{\{ classes\((\[.*?\])\) \}\}", page.read_text(), re.DOTALL):
+            for name in ast.literal_eval(names):
+                directive = f".. autoclass:: {name}\n   :members:\n   :inherited-members: object, tuple, dict"
+                text = f"# {_short(name)}\n\n{_rst([directive])}\n"
+                (folder / "classes" / f"{_short(name)}.md").write_text(text)
+
+
+def _short(name: str) -> str:
+    return name.rpartition(".")[2]
+
+
+def _object(name: str) -> Any:
+    module, _, own = name.rpartition(".")
+    return getattr(importlib.import_module(module), own)
+
+
+def _first_sentence(described: Any) -> str:
+    """Of its documentation, in Markdown."""
+    text = " ".join((inspect.getdoc(described) or "").split("\n\n")[0].split())
+    return re.split(r"(?<=[.])\s(?=[A-Z])", text)[0].replace("``", "`")
 
 
 def vtk_python() -> str:
@@ -228,6 +260,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
                          analysing_functions, functions, classes,
                          vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
     }  # fmt: skip
+    app.connect("builder-inited", write_class_pages)
     app.connect("source-read", link_examples)
     app.connect("autodoc-process-signature", name_aliases)
     app.connect("autodoc-process-docstring", escape, priority=400)  # before Napoleon

@@ -62,7 +62,7 @@ void bind_analyses(py::module_& module) {
       .def_readonly("title", &Analysis::title, "For menus.")
       .def_readonly("summary", &Analysis::summary, "One sentence.")
       .def_readonly("parameters", &Analysis::parameters)
-      .def_readonly("arrays", &Analysis::arrays, "What it gives each point.")
+      .def_readonly("arrays", &Analysis::arrays, "Arrays that it computes at the points.")
       .def_readonly("shown", &Analysis::shown,
                     "The name of the array to colour points by; empty: none.")
       .def_readonly("minimum_points", &Analysis::minimum_points)

@@ -95,7 +95,7 @@ void bind_mirror(py::module_& module) {
             return owned_array(interruptible(
                 [&](const Context& context) { return m.reflect(PointsView(points), context); }));
           },
-          py::arg("points"), "The images of points (n, 3); NaN where a point has none.")
+          py::arg("points"), "The images of points (n, 3); NaN for points without one.")
       .def(
           "reflect",
           [](const py::object& self, const AnyMesh& mesh) -> AnyMesh {
@@ -113,7 +113,7 @@ void bind_mirror(py::module_& module) {
             return owned_array(interruptible(
                 [&](const Context& context) { return m.project(PointsView(points), context); }));
           },
-          py::arg("points"), "The feet of points (n, 3) on the mirror; NaN where there is none.")
+          py::arg("points"), "The foot points (n, 3) of points (n, 3); NaN for points without one.")
       .def(
           "signed_distance",
           [](const Mirror& m, const PointsArgument& points) {

@@ -62,7 +62,7 @@ void bind_operations(py::module_& module) {
       .def_readonly("names_faces", &PointArray::names_faces, "Likewise of faces.")
       .def("__repr__", [](const PointArray& array) { return "<PointArray " + array.name + ">"; });
 
-  py::class_<Operation>(module, "Operation", "The description of what is done with a mirror.")
+  py::class_<Operation>(module, "Operation", "The description of an operation.")
       .def_readonly("name", &Operation::name)
       .def_readonly("title", &Operation::title, "For menus.")
       .def_readonly("summary", &Operation::summary, "One sentence.")

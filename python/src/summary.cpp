@@ -33,7 +33,7 @@ Sums are integers, so summaries of parts add up to that of the whole in any orde
 to the bit. It pickles; equal summaries have equal pickles. One thread at a time may use it.
 
 Args:
-    cells: the most cells that are occupied, in [64, 2^28]; 120 bytes each.
+    cells: maximum number of occupied cells, in [64, 2^28]; 120 bytes each.
 
 Raises InvalidParameter for another number.)")
       .def(py::init<Index>(), py::arg("cells") = PointSummary::usual_cells)

@@ -1,4 +1,4 @@
-"""How far a result is from a known mirror: the thesis's errors, and two that need no frame."""
+"""Errors of a result against a known mirror: those of the thesis, and two that need no frame."""
 
 from __future__ import annotations
 

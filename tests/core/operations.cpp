@@ -195,7 +195,7 @@ TEST(Operations, RefuseAMirrorOfAnotherUnit) {
     const Triangles faces = each.needs_faces ? triangle_soup(points) : Triangles(0, 3);
     EXPECT_NO_THROW(operate(each.name, {points, faces}, plane));
     if (each.takes_any_mirror) continue;
-    expect_error<InvalidInput>("diagonals away from this plane; the mirror is to be in the unit",
+    expect_error<InvalidInput>("diagonals away from this plane; the mirror must be in the unit",
                                [&] {
                                  operate(each.name, {scaled, faces}, plane);
                                });

@@ -20,7 +20,7 @@ import symsurf
 from symsurf.batching.file_task import FileTask
 from symsurf.batching.growing_table import GrowingTable
 from symsurf.batching.result_table import columns_of, read_table
-from symsurf.cli.progress_bar import time_left
+from symsurf.cli.progress_bar import time_shown
 from symsurf.saving.csv_rows import rows_bytes
 
 PLANE = ("--method", "plane")
@@ -400,15 +400,16 @@ def test_a_terminal_is_told_how_many_files_are_done(clouds, tmp_path):
     ("elapsed", "fraction", "says"),
     [
         (1, 0.5, ""),
-        (60, 0, ""),
+        (60, 0, ", 60 s"),
+        (600, None, ", 10 min"),
         (60, 1, ""),
         (10, 0.25, ", 30 s left"),
         (600, 0.5, ", 10 min left"),
         (36000, 0.5, ", 10 h left"),
     ],
 )
-def test_time_left(elapsed, fraction, says):
-    assert time_left(elapsed, fraction) == says
+def test_time_shown(elapsed, fraction, says):
+    assert time_shown(elapsed, fraction) == says
 
 
 def test_settings_name_what_was_chosen():

@@ -50,7 +50,9 @@ def test_what_a_file_does_not_hold_is_warned_of(suffix, wedge, tmp_path):
             warnings.simplefilter("error")
             found.save(tmp_path / f"made{suffix}")
     else:
-        with pytest.warns(symsurf.InputWarning, match="holds no vector, distance") as given:
+        with pytest.warns(
+            symsurf.InputWarning, match="cannot hold the arrays vector, distance"
+        ) as given:
             found.save(tmp_path / f"made{suffix}")
         assert [each.filename for each in given] == [__file__]
 

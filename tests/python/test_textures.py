@@ -106,7 +106,7 @@ def test_points_that_are_not_finite_need_no_colour():
 def test_bad_colours_are_named():
     points, colours = cloud(BOTTLE, 500)
     for given, message in (
-        (colours[:499], "499 colours are given for 500 points; allowed is one a point"),
+        (colours[:499], "499 colours are given for 500 points; allowed is one per point"),
         (colours[None], r"colours have shape \(1, 500, 3\); allowed is \(n, k\)"),
         (np.where(np.arange(500)[:, None] == 3, np.nan, colours), "the colour of point 3 is not"),
         (["red"] * 500, "colours are no numbers"),

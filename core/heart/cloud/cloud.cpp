@@ -177,7 +177,7 @@ void require_normals(PointsView points, PointsView normals, Index first) {
   if (normals.empty()) return;
   if (normals.size() != points.size())
     throw InvalidInput(std::to_string(normals.size()) + " normals given for " +
-                       std::to_string(points.size()) + " points; one a point is needed");
+                       std::to_string(points.size()) + " points; one per point is needed");
   for (Index i = 0; i < normals.size(); ++i) {
     if (normals[i].allFinite() && !normals[i].isZero(0)) continue;
     if (!points[i].allFinite()) continue;

@@ -284,13 +284,14 @@ MethodImplementation fixed_direction_method() {
   method.name = "fixed_direction";
   method.title = "Curved mirror, fixed direction";
   method.summary =
-      "Finds a curved mirror that maps all points along one direction, wherever that points and "
-      "whether or not a plane separates the sides.";
+      "Finds a curved mirror that maps all points along one direction, which is searched for "
+      "unless given; the two sides may overlap.";
   method.parameters = {
-      Parameter::direction("direction",
-                           "The direction of mapping, if known to a degree; (0, 0, 0) searches."),
+      Parameter::direction(
+          "direction",
+          "Direction of mapping, known to within a degree; (0, 0, 0): it is searched for."),
       Parameter::integer("sample_size", 5000, 100, 100000, "points",
-                         "Points that the search works on."),
+                         "Number of points used by the search."),
       pair_distance(),
   };
   method.minimum_points = 20;

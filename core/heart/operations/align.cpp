@@ -39,7 +39,7 @@ MidPlane mid_plane(PointsView points, const Mirror& mirror, const Context& conte
     return {foot.normal, foot.point};
   }
   const Points feet = finite_rows(mirror.project(points, context));
-  if (feet.rows() < 3) throw InvalidInput("the mirror has feet of less than three points");
+  if (feet.rows() < 3) throw InvalidInput("fewer than three points have a foot on the mirror");
   const Vector3 middle = feet.colwise().mean().transpose();
   const Vector3 normal = eigen_of_scatter(feet.rowwise() - middle.transpose()).vectors.col(0);
   return {normal, centroid - normal.dot(centroid - middle) * normal};
@@ -128,20 +128,19 @@ OperationImplementation align_operation() {
   operation.name = "align";
   operation.title = "Mirror alignment";
   operation.summary =
-      "Turns and shifts the shape, without reflecting it, so that its mirror plane, or the plane "
-      "nearest to a mirror that bends, is a coordinate plane through the origin.";
+      "Moves the shape rigidly so that its mirror plane, or the plane closest to a curved mirror, "
+      "becomes a coordinate plane through the origin.";
   operation.parameters = {
       Parameter::choice("axis", "x", {"x", "y", "z"},
-                        "The axis that the mirror will lie across; the frames of others have their "
-                        "own."),
+                        "Coordinate axis normal to the mirror after the move; the frames of other "
+                        "programs have their own."),
       Parameter::choice("frame", "least", {"least", "principal", "ras", "lps", "blender", "cfd"},
-                        "How to turn about that axis: least turns as little as need be, principal "
-                        "lays the longest extent upright, the others are the coordinates of NIfTI, "
-                        "of DICOM, of Blender and of flow along x, with up and front."),
-      Parameter::direction("up",
-                           "The direction of the input that will point up, along z; of axis "
-                           "z along y."),
-      Parameter::direction("front", "The direction of the input that will point to the front."),
+                        "Rotation about that axis: least rotates as little as possible, principal "
+                        "puts the longest extent upright, the others are the coordinate systems of "
+                        "NIfTI, DICOM, Blender and flow along x, oriented by up and front."),
+      Parameter::direction(
+          "up", "Direction in the input that will point up: along z, or along y if axis is z."),
+      Parameter::direction("front", "Direction in the input that will point to the front."),
   };
   operation.moves_points = true;
   operation.run = run_align;
@@ -170,11 +169,10 @@ OperationImplementation straighten_operation() {
   operation.name = "straighten";
   operation.title = "Mirror straightening";
   operation.summary =
-      "Carries the shape along while its curved mirror is laid flat, and back: each point keeps "
-      "its "
-      "distance from the mirror and the place of its foot.";
+      "Flattens a curved mirror and the shape with it, or reverses that: each point keeps its foot "
+      "point and its distance from the mirror.";
   operation.parameters = {Parameter::boolean(
-      "back", false, "The way back: bends what was straightened over the same mirror.")};
+      "back", false, "Reverse: bends a straightened shape over the same mirror.")};
   operation.moves_points = true;
   operation.run = run_straighten;
   return operation;

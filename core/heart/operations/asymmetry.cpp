@@ -205,24 +205,27 @@ OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
   operation.name = "asymmetry";
   operation.title = "Mirror asymmetry";
   operation.summary =
-      "Measures for each point how far it is from where the other side says it should be: the "
-      "closest or the homologous point of the mirrored surface.";
+      "Measures the distance of each point from its counterpart: the closest or the homologous "
+      "point of the mirrored surface.";
   operation.parameters = {pairing(), max_distance(), max_angle()};
   operation.arrays = {
       {"vector", ParameterType::Real, 3,
-       "From the point to its place, input units; NaN without a counterpart."},
-      {"distance", ParameterType::Real, 1, "Its length, input units."},
+       "Vector from the point to its counterpart, input units; NaN without one."},
+      {"distance", ParameterType::Real, 1, "Length of the vector, input units."},
       {"signed", ParameterType::Real, 1,
-       "Its part along the outward normal, input units: positive where the point lies too far in.",
+       "Component of the vector along the outward normal, input units: positive if the point lies "
+       "too far in.",
        true},
-      {"tangential", ParameterType::Real, 1, "Its part along the surface, input units."},
-      {"lateral", ParameterType::Real, 1, "Its part away from the mirror, input units.", true},
+      {"tangential", ParameterType::Real, 1,
+       "Component of the vector along the surface, input units."},
+      {"lateral", ParameterType::Real, 1,
+       "Component of the vector away from the mirror, input units.", true},
       {"matched", ParameterType::Boolean, 1,
-       "Whether the point has a counterpart: none past a rim, too far away, or with another "
-       "normal."},
+       "Whether the point has a counterpart: none beyond a boundary of the surface, too far away, "
+       "or with a different normal."},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: the cosine between the normals, halved where the closest image is a spacing away; "
-       "with homologous pairing what is known."},
+       "0 to 1: the cosine between the normals, halved if the closest image is one point spacing "
+       "away; with homologous pairing the array known."},
       {"vector_sd", ParameterType::Real, 1,
        "With homologous pairing: the standard deviation of the vector along the surface, input "
        "units; 0 where both sides have one triangulation."},
@@ -230,8 +233,10 @@ OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
        "With homologous pairing: the share of the variance along the surface that the shape "
        "explains, 0 to 1."},
       {"face", ParameterType::Integer, 1,
-       "Of a mesh, the face whose image the place lies on; -1 for none.", false, false, true},
-      {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
+       "For a mesh: the face on whose image the counterpart lies; -1 for none.", false, false,
+       true},
+      {"weights", ParameterType::Real, 3,
+       "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "signed";
   operation.run = std::bind_front(run_asymmetry, homologous);

@@ -442,17 +442,17 @@ OperationImplementation complete_operation() {
   operation.name = "complete";
   operation.title = "Mirror completion";
   operation.summary =
-      "Adds what is missing: the images, over a mirror or turned about an axis, of the points and "
-      "faces that are there.";
+      "Adds missing parts: the images, over a mirror or about an axis, of the points and faces "
+      "that exist.";
   operation.parameters = {
-      Parameter::choice("fill", "all", {"all", "holes"},
-                        "What to add: all that is missing, or of a mesh only what the shape "
-                        "surrounds."),
+      Parameter::choice(
+          "fill", "all", {"all", "holes"},
+          "What to add: all missing parts or, for a mesh, only those that the shape surrounds."),
       Parameter::boolean("close_seam", true,
-                         "Join the added faces to the rims of the shape by more faces."),
+                         "Join the added faces to the boundary of the shape by further faces."),
       Parameter::real("blend", 0.05, 0, 1, "diagonal",
-                      "From the rim as far as this, what is added is bent to meet the shape; 0: it "
-                      "is the exact image."),
+                      "Width of the band along the boundary in which the added part is deformed to "
+                      "meet the shape; 0: the exact image."),
       max_distance(), max_angle()};
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};

@@ -45,24 +45,25 @@ OperationImplementation correspondences_operation(HomologousMatcher homologous) 
   OperationImplementation operation;
   operation.name = "correspondences";
   operation.title = "Mirror correspondences";
-  operation.summary = "Gives for each point the point of the input that mirrors it.";
+  operation.summary = "Finds for each point the input point that mirrors it.";
   operation.parameters = {
       pairing(),
       Parameter::boolean("one_to_one", false,
-                         "Only pairs of points that are each other's mirror points."),
+                         "Keep only pairs of points that are each other's mirror points."),
       max_distance(), max_angle()};
   operation.arrays = {
       {"index", ParameterType::Integer, 1,
-       "The mirror point, the point itself on the mirror, -1 for none. Of a mesh the closest "
-       "corner of the face that the image comes closest to.",
+       "Index of the mirror point, of the point itself if it lies on the mirror, -1 for none. For "
+       "a mesh: of the face closest to the image, the corner closest to it.",
        false, true},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: the cosine between the normals, halved where the closest image is a spacing away; "
-       "with homologous pairing the share of the variance along the surface that the shape "
+       "0 to 1: the cosine between the normals, halved if the closest image is one point spacing "
+       "away; with homologous pairing the share of the variance along the surface that the shape "
        "explains."},
-      {"face", ParameterType::Integer, 1,
-       "Of a mesh, the face that the image comes closest to; -1 for none.", false, false, true},
-      {"weights", ParameterType::Real, 3, "Of a mesh, the barycentric coordinates on that face."},
+      {"face", ParameterType::Integer, 1, "For a mesh: the face closest to the image; -1 for none.",
+       false, false, true},
+      {"weights", ParameterType::Real, 3,
+       "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "confidence";
   operation.run = std::bind_front(run_correspondences, homologous);
@@ -122,17 +123,17 @@ OperationImplementation transfer_operation(HomologousMatcher homologous) {
   operation.name = "transfer";
   operation.title = "Mirror transfer";
   operation.summary =
-      "Carries what the points have, such as labels, weights and colours, from one side to the "
-      "other, or averages it.";
+      "Copies attributes of the points, such as labels, weights and colours, from one side to the "
+      "other, or averages them.";
   operation.parameters = {
-      Parameter::choice("side", "positive", {"positive", "negative", "average"},
-                        "Whose values both sides will have: those of the side where signed "
-                        "distances from the mirror are positive or negative, or their average; "
-                        "integers have none and stay as they are then."),
+      Parameter::choice(
+          "side", "positive", {"positive", "negative", "average"},
+          "Side whose values both sides get: where the signed distance from the mirror is positive "
+          "or negative, or their average, which leaves integers unchanged."),
       pairing(), max_distance(), max_angle()};
   operation.arrays = {
       {"failed", ParameterType::Boolean, 1,
-       "Whether the point has no counterpart to take values from: it keeps its own."}};
+       "Whether the point has no counterpart to take values from, and keeps its own."}};
   operation.shown = "";
   operation.carries_values = true;
   operation.run = std::bind_front(run_transfer, homologous);

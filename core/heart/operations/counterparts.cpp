@@ -34,10 +34,10 @@ constexpr double exact = 1e-6;        // diagonals between a point and an image:
 void require_images(const Points& images, std::string_view kind) {
   const Index count = images.rowwise().sum().array().isFinite().count();
   if (2 * count < images.rows())
-    throw InvalidInput("only " + std::to_string(count) + " of " + std::to_string(images.rows()) +
-                       " points have an image over this " + std::string(kind) +
-                       "; at least half are needed: the mirror is to be in the unit and the pose "
-                       "of the points");
+    throw InvalidInput(
+        "only " + std::to_string(count) + " of " + std::to_string(images.rows()) +
+        " points have an image over this " + std::string(kind) +
+        "; at least half are needed: the mirror must be in the unit and pose of the points");
 }
 
 // NaN where one is not known: of a vertex that no face uses.
@@ -348,22 +348,22 @@ void Counterparts::match_cloud(const OperationInput& input, const Context& conte
 }
 
 Parameter max_distance() {
-  return Parameter::real("max_distance", 0.1, 0, 1, "diagonal",
-                         "A point whose image is farther from the surface has no counterpart.");
+  return Parameter::real(
+      "max_distance", 0.1, 0, 1, "diagonal",
+      "A point whose image lies farther than this from the surface has no counterpart.");
 }
 
 Parameter max_angle() {
   return Parameter::real("max_angle", 60, 0, 90, "degrees",
-                         "A point whose mirrored normal differs by more from that of the surface "
-                         "has no counterpart.");
+                         "A point whose mirrored normal differs by more than this from the normal "
+                         "of the surface has no counterpart.");
 }
 
 Parameter pairing() {
-  return Parameter::choice(
-      "pairing", "closest", {"closest", "homologous"},
-      "What a point is compared with: the closest point of the mirrored surface, or the homologous "
-      "one: the vertex that mirrors it in one triangulation, else the estimate of a Gaussian "
-      "process.");
+  return Parameter::choice("pairing", "closest", {"closest", "homologous"},
+                           "Counterpart of a point: the closest point of the mirrored surface, or "
+                           "the homologous one, which is the vertex that mirrors it in a symmetric "
+                           "triangulation, otherwise an estimate by a Gaussian process.");
 }
 
 HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous) {

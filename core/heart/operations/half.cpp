@@ -215,9 +215,9 @@ MirroredHalf with_image(Half half, const Mirror& mirror, const Context& context)
 }
 
 Parameter kept_side() {
-  return Parameter::choice("side", "positive", {"positive", "negative"},
-                           "Which to keep: the side where signed distances from the mirror are "
-                           "positive or negative.");
+  return Parameter::choice(
+      "side", "positive", {"positive", "negative"},
+      "Side to keep: where the signed distance from the mirror is positive or negative.");
 }
 
 bool keeps_positive(const ParameterValues& values) { return values.choice("side") == "positive"; }

@@ -21,7 +21,7 @@ void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index
   if (!operation.takes_mask) throw InvalidInput(operation.name + " takes no mask");
   if (mask.size() != points)
     throw InvalidInput(std::to_string(mask.size()) + " mask values given for " +
-                       std::to_string(points) + " points; one a point is needed");
+                       std::to_string(points) + " points; one per point is needed");
   for (Index i = 0; i < mask.size(); ++i)
     if (!(mask[i] >= 0 && mask[i] <= 1))
       throw InvalidInput("mask value " + std::to_string(i) + " is " + to_string(Value(mask[i])) +
@@ -37,7 +37,7 @@ void require_near(PointsView points, const Mirror& mirror) {
   if (distance > farthest * diagonal)
     throw InvalidInput("the points lie " + to_string(Value(distance / diagonal)) +
                        " diagonals away from this " + std::string(mirror.kind()) +
-                       "; the mirror is to be in the unit and the pose of the points");
+                       "; the mirror must be in the unit and pose of the points");
 }
 
 }  // namespace

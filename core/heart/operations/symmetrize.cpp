@@ -148,8 +148,7 @@ void mirror_triangles(const Matchers& matchers, const OperationInput& input, con
                       OperationResult& result) {
   if (values.real("strength") != 1 || input.mask.size() > 0)
     throw InvalidParameter(
-        "a strength below 1 and a mask move the points that there are; "
-        "triangles has to be kept then, not mirrored");
+        "triangles is mirrored, with a strength below 1 or a mask; allowed with these is kept");
   const std::string& side = values.choice("side");
   Points points = input.points.matrix();
   if (side == "average") {
@@ -178,26 +177,27 @@ OperationImplementation symmetrize_operation(const Matchers& matchers) {
   operation.name = "symmetrize";
   operation.title = "Mirror symmetrization";
   operation.summary =
-      "Moves the points so that the mirror maps the shape onto itself: halfway between the sides, "
-      "or one side onto the image of the other.";
+      "Moves the points so that the shape becomes symmetric: both sides to their average, or one "
+      "side onto the image of the other.";
   operation.parameters = {
       Parameter::choice("side", "average", {"average", "positive", "negative"},
-                        "What both sides will be: their average, or the side where signed "
-                        "distances from the mirror are positive or negative."),
+                        "Shape of both sides: their average, or the side where the signed distance "
+                        "from the mirror is positive or negative."),
       Parameter::choice("triangles", "kept", {"kept", "mirrored"},
-                        "Whether the points and triangles stay those of the shape and move, or are "
-                        "those of one side and their images, cut along the mirror and exactly "
-                        "symmetric; of the average that is the positive side."),
+                        "kept: the points and triangles of the shape, moved; mirrored: those of "
+                        "one side, cut along the mirror, and their images, exactly symmetric. With "
+                        "the average that is the positive side."),
       Parameter::real("strength", 1, 0, 1, "",
                       "How far the points move: 0 not at all, 1 all the way."),
       pairing(),
       max_distance(),
       max_angle()};
   operation.arrays = {
-      {"paired", ParameterType::Boolean, 1, "Whether the point has a counterpart; else it stays."},
+      {"paired", ParameterType::Boolean, 1,
+       "Whether the point has a counterpart; otherwise it does not move."},
       {"partner", ParameterType::Integer, 1,
-       "Where triangles are mirrored the point that is its image, itself on the mirror.", false,
-       true}};
+       "With mirrored triangles: index of the point that is its image, its own on the mirror.",
+       false, true}};
   operation.moves_points = true;
   operation.makes_shape = true;
   operation.takes_mask = true;

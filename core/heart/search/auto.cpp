@@ -227,9 +227,9 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
   const bool pairs = values.boolean("pairs");
   Contest contest{pairs};
   contest.take(plane, run_usual(plane, cloud, pairs, context.stage(0, 0.2)), true, {});
-  std::string reason = "the plane maps " + text(explained(contest.best)) +
+  std::string reason = "the plane maps a share of " + text(explained(contest.best)) +
                        " of the shape onto it, and " + text(1 - covered(contest.best)) +
-                       " has no counterpart: nothing is left for freer mirrors to explain";
+                       " has no counterpart: a more general mirror cannot improve on it";
   if (is_exact(contest.best)) {
     reason = "every point has an exact partner over the plane";
   } else {
@@ -256,8 +256,8 @@ MethodImplementation auto_method() {
   method.name = "auto";
   method.title = "Mirror (best of all kinds)";
   method.summary =
-      "Finds the plane, and where that leaves something to explain tries freer kinds of mirror; of "
-      "those that fit alike the simplest is the result.";
+      "Finds the mirror plane and, if that leaves part of the shape unexplained, tries more "
+      "general mirrors; the result is the simplest of those that fit equally well.";
   method.run = run_auto;
   return method;
 }

@@ -40,37 +40,36 @@ const MethodImplementation& heart_method(std::string_view name) {
 }
 
 Parameter surfels_searched(Index usual, const std::string& kind) {
-  return Parameter::integer("sample_size", usual, 100, 100000, "points",
-                            "Patches of the cloud that the search for " + kind + " works on.");
+  return Parameter::integer(
+      "sample_size", usual, 100, 100000, "points",
+      "Number of surface patches (surfels) used by the search for " + kind + ".");
 }
 
 Parameter max_candidates(Index usual, Index most, const std::string& kinds) {
   return Parameter::integer("max_candidates", usual, 0, most, "",
-                            "Other " + kinds + " to report at the most, best first.");
+                            "Maximum number of other " + kinds + " to report, best first.");
 }
 
 Parameter pair_distance(double usual) {
-  return Parameter::real(
-      "pair_distance", usual, 0, 1, "diagonal",
-      "A point whose image has no point of the cloud nearer than this has no partner.");
+  return Parameter::real("pair_distance", usual, 0, 1, "diagonal",
+                         "Maximum distance between the image of a point and its partner.");
 }
 
 Parameter pairs() {
-  return Parameter::boolean("pairs", true,
-                            "Whether each point gets its partner over the mirror; without them "
-                            "the mirror and its score come sooner.");
+  return Parameter::boolean(
+      "pairs", true, "Whether to find the partner of each point; omitting the pairs is faster.");
 }
 
 Parameter minimum_score() {
   return Parameter::real("minimum_score", usual_minimum_score, 0, 1, "",
-                         "Below it the verdict is \"none\": what was found is no symmetry of the "
-                         "shape.");
+                         "Score below which the verdict is \"none\": the mirror that was found is "
+                         "no symmetry of the shape.");
 }
 
 Parameter tolerance() {
   return Parameter::real("tolerance", usual_tolerance, 1e-4, 0.1, "diagonal",
-                         "How unlike the two sides may be: where an image lies so far from the "
-                         "shape, across its surface, the score counts it half.");
+                         "How far the two sides may differ and still count as symmetric: a point "
+                         "whose image lies this far from the surface counts half in the score.");
 }
 
 }  // namespace symsurf

@@ -305,7 +305,7 @@ void fill(Result& result, const Cloud& cloud, const SearchCloud& searched,
 std::vector<Parameter> search_parameters() {
   return {
       Parameter::integer("sample_size", 12000, 200, 100000, "points",
-                         "Points that the search works on; larger clouds are thinned to it."),
+                         "Number of points used by the search; larger clouds are downsampled."),
       max_candidates(10, 1000, "mirrors"),
       pair_distance(),
   };

@@ -286,34 +286,33 @@ AnalysisImplementation symmetry_embedding_analysis() {
   analysis.name = "symmetry_embedding";
   analysis.title = "Symmetry factored embedding";
   analysis.summary =
-      "Gives points that symmetries map onto each other the same coordinates, finds their orbits "
-      "and what stays in its place.";
+      "Computes coordinates that are equal for points that symmetries map onto each other, the "
+      "orbits of these points, and the points that all symmetries fix.";
   analysis.parameters = {
       Parameter::real("localization", 0.02, 1e-4, 1, "",
                       "Deviation at which points hardly correspond: sigma of the correspondence "
                       "exp(-(S / sigma)^2)."),
       // An eigenvalue is at most the number of points, up to 2^30: the 30th power is finite.
-      Parameter::real(
-          "power", 1, 0, 30, "",
-          "t of the embedding, eigenvalue^t times eigenvector: the higher, the more the "
-          "largest orbits count."),
+      Parameter::real("power", 1, 0, 30, "",
+                      "t of the embedding, eigenvalue^t times eigenvector: higher values weigh "
+                      "large orbits more."),
       Parameter::real("tolerance", 0.03, 0, 1, "",
-                      "Root mean square deviation up to which a motion or reflection counts, where "
-                      "none maps points onto points."),
+                      "Root mean square deviation up to which a motion or reflection counts as a "
+                      "symmetry, if none maps points exactly onto points."),
       Parameter::real("resolution", 0.05, 1e-4, 1, "",
-                      "How near an image must come for two points to be of one orbit, where none "
-                      "maps points onto points."),
+                      "Maximum distance between an image and a point of the same orbit, if no "
+                      "symmetry maps points exactly onto points."),
   };
   analysis.arrays = {
-      {"orbit", ParameterType::Integer, 1, "The number of its orbit, from 0 on."},
-      {"orbit_size", ParameterType::Integer, 1, "How many points the orbit has."},
+      {"orbit", ParameterType::Integer, 1, "Index of the orbit of the point, from 0."},
+      {"orbit_size", ParameterType::Integer, 1, "Number of points in the orbit."},
       {"embedding", ParameterType::Real, shown_coordinates,
        "The first coordinates of the Symmetry Factored Embedding, those of the largest "
        "eigenvalues."},
       {"stationary", ParameterType::Real, 3,
        "The mean of the images of the point, input units: a point of the stationary set."},
       {"stationary_distance", ParameterType::Real, 1,
-       "How far that is from the point, input units: 0 where all symmetries keep it."},
+       "Distance from the point to that mean, input units: 0 if all symmetries fix it."},
   };
   analysis.shown = "orbit";
   analysis.finds_elements = true;

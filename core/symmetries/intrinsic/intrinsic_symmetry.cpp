@@ -49,10 +49,10 @@ std::string reason_against(const IntrinsicMap& map, double confidence) {
 void require_surface(const Cloud& cloud, const Context& context) {
   constexpr Index most = 100'000;
   if (cloud.faces.empty() && cloud.points.size() > most && is_volumetric(cloud, context))
-    throw InvalidInput(std::to_string(cloud.points.size()) +
-                       " points fill a body; intrinsic_symmetry takes those of its surface, or at "
-                       "most " +
-                       std::to_string(most));
+    throw InvalidInput(
+        std::to_string(cloud.points.size()) +
+        " points fill a body; intrinsic_symmetry takes those of its surface, or at most " +
+        std::to_string(most));
 }
 
 // Of each point of the cloud the one nearest to where a map of its surface sends it: of parts that
@@ -141,16 +141,17 @@ AnalysisImplementation intrinsic_symmetry_analysis() {
   analysis.name = "intrinsic_symmetry";
   analysis.title = "Intrinsic symmetry";
   analysis.summary =
-      "Gives for each point of a posed body the one on its other side, where no mirror maps left "
-      "to right.";
-  analysis.parameters = {Parameter::integer(
-      "functions", 40, 20, 60, "",
-      "Eigenfunctions that maps are searched by; more follow details, fewer noise less.")};
+      "Finds for each point of a posed body its counterpart on the other side, even if no mirror "
+      "maps left to right.";
+  analysis.parameters = {
+      Parameter::integer("functions", 40, 20, 60, "",
+                         "Number of eigenfunctions used by the search; more follow finer details, "
+                         "fewer are more robust to noise.")};
   analysis.arrays = {
-      {"image", ParameterType::Integer, 1, "The point on the other side, -1 for none.", false,
-       true},
+      {"image", ParameterType::Integer, 1, "Index of the point on the other side, -1 for none.",
+       false, true},
       {"confidence", ParameterType::Real, 1,
-       "0 to 1: halved where the image of the image lies 2 % of the diagonal away."},
+       "0 to 1: halved if the image of the image lies 2 % of the diagonal away from the point."},
   };
   analysis.shown = "confidence";
   analysis.maximum_points = 2'000'000;

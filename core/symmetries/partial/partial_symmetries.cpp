@@ -228,24 +228,25 @@ AnalysisImplementation partial_symmetries_analysis() {
   analysis.title = "Partial symmetries";
   analysis.summary =
       "Finds parts of a shape that a reflection, motion or similarity maps onto other parts, by "
-      "pairs of like points that vote for it (Mitra et al. 2006).";
+      "votes of pairs of similar points (Mitra et al. 2006).";
   analysis.parameters = {
-      Parameter::boolean("reflections", true, "Whether maps may reflect."),
-      Parameter::boolean("motions", true, "Whether maps may be rotations, translations, screws."),
-      Parameter::boolean("scales", false, "Whether maps may scale, from a half to double."),
+      Parameter::boolean("reflections", true, "Allow reflections."),
+      Parameter::boolean("motions", true, "Allow rotations, translations and screws."),
+      Parameter::boolean("scales", false, "Allow scaling, by 0.5 to 2."),
       Parameter::real("minimum_size", 0.03, 0.001, 1, "",
-                      "The least share of the surface that a patch covers."),
+                      "Minimum share of the surface that a patch covers."),
       Parameter::real("minimum_score", 0.8, 0, 1, "",
-                      "How close to the surface the images of a patch must come."),
-      Parameter::integer("count", 100, 1, 1000, "", "The most transformations that are found."),
+                      "Minimum score of a transformation: how closely the image of its patch "
+                      "matches the surface."),
+      Parameter::integer("count", 100, 1, 1000, "", "Maximum number of transformations to find."),
       Parameter::real("disc", 0.015, 0.001, 0.1, "",
-                      "The share of the surface in the disc that a point is known by."),
+                      "Share of the surface in the disc around a point by which it is described."),
       Parameter::integer("points", 10000, 500, 200000, "points",
-                         "What a larger cloud is thinned to."),
+                         "Number of points to which a larger cloud is downsampled."),
   };
   analysis.arrays = {
       {"transformation", ParameterType::Integer, 1,
-       "The first transformation with the point in a patch, -1: none."},
+       "Index of the first transformation with the point in a patch, -1: none."},
       {"side", ParameterType::Integer, 1,
        "0: in the patch that is mapped, 1: in the one it falls on, -1: in none."},
   };

@@ -412,7 +412,8 @@ void run_symmetries(const ColouredCloud& cloud, const ParameterValues& values,
   options.tolerance = values.real("tolerance");
   if (values.boolean("texture")) {
     if (cloud.colours.size() == 0)
-      throw InvalidInput("texture is true, but no colours are given; allowed is a colour a point");
+      throw InvalidInput(
+          "texture is true, but no colours are given; allowed is a colour per point");
     options.colours = cloud.colours;
   }
   Symmetries found = find_symmetries(cloud.points, options, context);
@@ -538,14 +539,14 @@ AnalysisImplementation symmetries_analysis() {
       "Finds all symmetries of a shape: mirror planes, rotation axes, inversion, and their point "
       "group.";
   analysis.parameters = {
-      Parameter::real("minimum_score", 0.7, 0, 1, "", "What the group must score for it to count."),
+      Parameter::real("minimum_score", 0.7, 0, 1, "", "Minimum score of a group that counts."),
       Parameter::real(
           "tolerance", 0, 0, infinity, "input units",
-          "No element may take a vertex farther off the surface, of a cloud a point off "
-          "its nearest one; 0: any may."),
+          "Maximum distance of the image of a vertex from the surface, or of the image of a "
+          "cloud's point from its nearest point, under any element of the group; 0: no limit."),
       Parameter::boolean("texture", false,
-                         "Only what keeps the colours of the points is a symmetry: a label breaks "
-                         "that of a bottle.")};
+                         "Symmetries must also preserve the colours of the points: a label breaks "
+                         "the symmetry of a bottle.")};
   analysis.takes_colours = true;
   analysis.finds_elements = true;
   analysis.finds_transforms = true;

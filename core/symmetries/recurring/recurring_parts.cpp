@@ -351,14 +351,17 @@ AnalysisImplementation recurring_parts_analysis() {
   analysis.parameters = {
       Parameter::real("feature_angle", 30, 1, 179, "degrees",
                       "Facets that meet at more than this angle have a feature line between them."),
-      Parameter::real("tolerance", 0.002, 1e-6, 0.1, "diagonal",
-                      "How far an instance may differ from another."),
-      Parameter::integer("minimum_instances", 2, 2, 1000000, "", "How often a part must occur."),
-      Parameter::integer("count", 20, 1, 1000, "", "The most parts that are found."),
+      Parameter::real(
+          "tolerance", 0.002, 1e-6, 0.1, "diagonal",
+          "Maximum distance between two instances of a part when they are superimposed."),
+      Parameter::integer("minimum_instances", 2, 2, 1000000, "",
+                         "Minimum number of instances of a part."),
+      Parameter::integer("count", 20, 1, 1000, "", "Maximum number of parts to find."),
   };
   analysis.arrays = {
-      {"part", ParameterType::Integer, 1, "The part that the point belongs to, -1: none."},
-      {"instance", ParameterType::Integer, 1, "Its instance of that part, -1: none."},
+      {"part", ParameterType::Integer, 1,
+       "Index of the part to which the point belongs, -1: none."},
+      {"instance", ParameterType::Integer, 1, "Index of the instance of that part, -1: none."},
   };
   analysis.shown = "instance";
   analysis.finds_transforms = true;

@@ -20,26 +20,26 @@ class Reading:
 
     threshold: float | None = _option(
         None,
-        "of a mask or an image: its points are the voxels whose value is above this number; a mask of "
-        "two values needs none",
+        "for masks and images: use the voxels whose value is above this number; not needed for a mask "
+        "of two values",
         "NUMBER",
     )
     label: int | str | None = _option(
         None,
-        "of a map of labels: its points are the voxels with this value, in place of a threshold; of a "
-        "segmentation of 3D Slicer (seg.nrrd) it may be the name of a segment",
+        "for label maps: use the voxels with this value, instead of a threshold; for a segmentation of "
+        "3D Slicer (seg.nrrd) also the name of a segment",
         "NUMBER",
     )
     scalars: str | None = _option(
         None,
-        "of an image with several values: the name of those that threshold and label are about; "
-        "without it the active ones",
+        "for images with several arrays: name of the array that threshold and label refer to; default "
+        "is the active one",
         "NAME",
     )
     external_files: bool = _option(
         False,
-        "let the files that a file names (of glTF, NRRD, PVTP and VTKHDF) lie anywhere; otherwise they "
-        "lie beside it or below, links followed, and of VTKHDF there are none",
+        "allow files that a file refers to (glTF, NRRD, PVTP, VTKHDF) to lie anywhere; otherwise only "
+        "beside it or below, links followed, and for VTKHDF none",
     )
 
     def of_image(self) -> dict[str, Any]:
@@ -55,12 +55,12 @@ class Reading:
 class Search:
     """How a mirror is found."""
 
-    method: str = _option("auto", f"what finds the mirror, one of {', '.join(methods())}", "M")
-    seed: int = _option(0, "random seed, of the randomized methods; [0, 2^64)", "N")
+    method: str = _option("auto", f"method of detection, one of {', '.join(methods())}", "M")
+    seed: int = _option(0, "random seed, for randomized methods; [0, 2^64)", "N")
     nonfinite: str = _option(
         "skip",
-        '"skip": points with a NaN or infinite coordinate are left out, and have no partners; '
-        '"refuse": they are an error',
+        '"skip": ignore points with a NaN or infinite coordinate, which get no partners; "refuse": '
+        "they are an error",
         "WORD",
     )
 

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 def plain(value: Any) -> Any:
@@ -20,3 +21,12 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
+
+
+def without_rounding(numbers: Any) -> NDArray[Any]:
+    """As an array, with 0 for what is a rounding error of the largest."""
+    values = np.asarray(numbers)
+    if values.dtype.kind != "f":
+        return values
+    size = np.abs(values)
+    return np.where(size < 1e-12 * np.nanmax(size, initial=0.0), 0.0, values)

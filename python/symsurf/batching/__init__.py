@@ -41,28 +41,28 @@ def batch(
     external_files: bool = False,
     **parameters: object,
 ) -> Iterator[dict[str, Any]]:
-    """Finds the mirror of each of many files, and does the operation with it.
+    """Processes many files: finds the mirror of each and applies an operation.
 
     >>> pandas.DataFrame(symsurf.batch(files, "asymmetry", jobs=8))
 
     Args:
-        files: those that ``read`` takes, or one; a folder stands for those in it.
+        files: names of files that ``read`` accepts, or a single one; a folder: all such files in
+            it.
         operation: "detect", or the name of one of ``operations()``.
         executor: of ``concurrent.futures``, or one that is like those, such as Dask's
             ``Client.get_executor()``. Its workers must see the files under the same names.
-        jobs: how many files are worked on at once, each in a process that imports nothing of the
-            caller's script; with 1 in this process.
+        jobs: number of files processed at once, each in a process of its own that imports nothing
+            of the caller's script; 1: in this process.
         {Search}
-        require_found: a mirror with the verdict "none" is an error of its file; otherwise an
-            operation uses it, and "verdict" of the row says so.
-        threads: for each file; 0: all there are, divided among the jobs, and one with an executor.
-            The results do not depend on it.
-        output: a folder for what the operation makes of each file, in the format of that file, or
-            in PLY where that cannot hold what the operation gives each point; of "detect" a small
-            JSON file each.
+        require_found: a mirror with the verdict "none" is an error of its file; otherwise the
+            operation uses it, and "verdict" of the row is "none".
+        threads: number of threads per file; 0: all of the machine, divided among the jobs; 1 with
+            an executor. The results do not depend on it.
+        output: folder for the results: the shapes, in the format of each file, or in PLY if that
+            format cannot hold the arrays of the operation; for "detect" a small JSON file per file.
         unit: of the coordinates, such as "mm": a label for the rows.
         {Reading}
-        **parameters: the operation's own, and of "detect" the method's.
+        **parameters: parameters of the operation, for "detect" of the method.
 
     Returns:
         One row per file, in the order of the files, each as soon as it and those before it are done.

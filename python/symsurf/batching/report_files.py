@@ -41,4 +41,4 @@ def write_report(page: Path, tasks: Sequence[FileTask], rows: Sequence[Mapping[s
     """
     if len(tasks) > 1:
         links = {str(task.file): f"{page.stem}_files/{task.outputs[0].name}" for task in tasks}
-        write_whole(page, files_page(page.stem, rows, links))
+        write_whole(page, files_page(f"{page.stem}: asymmetry of {len(tasks)} files", rows, links))

@@ -270,7 +270,7 @@ def worked_on(
                 keep(index, record)
             if done < len(tasks):
                 bar.title = _title(tasks, done)
-                bar(done / len(tasks))
+                bar(done / len(tasks), even=True)
             yield index, record
 
     with ProgressBar(_title(tasks, 0)) as bar:
@@ -285,7 +285,7 @@ def _one_by_one(tasks: Sequence[FileTask], bar: ProgressBar) -> Iterator[Ended]:
 
 
 def _within(bar: ProgressBar, done: int, files: int, fraction: float) -> None:
-    bar((done + fraction) / files)
+    bar((done + fraction) / files, even=done > 0)
 
 
 def _title(tasks: Sequence[FileTask], done: int) -> str:

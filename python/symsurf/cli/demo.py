@@ -100,7 +100,7 @@ def _show(findings: list[Finding], done: list[Deed], folder: Path) -> None:
     with ProgressBar("report") as bar:
         for record in records(tasks, jobs=jobs):
             rows.append(row_of(record))
-            bar(len(rows) / len(tasks))
+            bar(len(rows) / len(tasks), even=True)
     write_report(page, tasks, rows)
     say(f"report\n  {page}")
 

@@ -13,7 +13,7 @@ from ..batching.file_task import PAGE_SUFFIX, Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
 from ..results.operation_results import RESULTS, Asymmetry
-from ..results.summary import figures, of_the_diagonal
+from ..results.summary import figures, value_text
 from ..saving.same_format import REWRITERS
 from ..saving.shape_files import SHAPES, formats_of, makes_shape, output_suffix
 from .batch_options import (
@@ -29,7 +29,6 @@ from .batch_options import (
 from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .shared_options import given_options
-from .values import shown
 
 
 class OperationCommand:
@@ -111,11 +110,6 @@ def _text(record: Record) -> str:
     elif record["mirror"] is not None:
         lines.append(f"  mirror              {record['mirror']['kind']}, given")
     for name, value, share in figures(record["statistics"]):
-        if share is not None:
-            lines.append(f"  {name:<19} {value:<12.6g} {of_the_diagonal(share)}")
-        elif isinstance(value, list) and isinstance(value[0], list):
-            rows = ["  ".join(f"{number:12.6g}" for number in row) for row in value]
-            lines += [f"  {name}", *(f"    {row}" for row in rows)]
-        else:
-            lines.append(f"  {name:<19} {shown(value)}")
+        text = value_text(name, value, share).replace("\n", "\n" + 22 * " ")
+        lines.append(f"  {name.replace('_', ' '):<19} {text}")
     return "\n".join(lines)

@@ -8,25 +8,31 @@ import time
 from types import TracebackType
 
 WIDTH = 30
-# s before the first guess of what is left, which would be far off
-_FIRST_GUESS = 2.0
+# s before the first time is shown
+_FIRST_TIME = 2.0
 
 
 class ProgressBar:
-    """Shows the fraction done and the time left on standard error, where that is a terminal; gone
-    when it is left."""
+    """Shows the fraction done on standard error, if that is a terminal, with the time left or elapsed;
+    gone when it is left."""
 
     def __init__(self, title: str) -> None:
         self.title = title
         self._shown = sys.stderr.isatty()
         self._started = time.monotonic()
 
-    def __call__(self, fraction: float) -> None:
+    def __call__(self, fraction: float, even: bool = False) -> None:
+        """Draws the bar.
+
+        Args:
+            even: the fraction is that of files done, which tells the time left. Otherwise it is that of
+                steps, of which the last may take as long as all before it.
+        """
         if self._shown:
             done = round(WIDTH * fraction)
             bar = _mark(sys.stderr.encoding) * done + " " * (WIDTH - done)
-            left = time_left(time.monotonic() - self._started, fraction)
-            state = f" {bar} {fraction:4.0%}{left}"
+            elapsed = time.monotonic() - self._started
+            state = f" {bar} {fraction:4.0%}{time_shown(elapsed, fraction if even else None)}"
             title = self.title[: max(0, shutil.get_terminal_size().columns - 1 - len(state))]
             print(f"\r{title}{state}", end="\033[K", file=sys.stderr, flush=True)
 
@@ -46,20 +52,25 @@ class ProgressBar:
         self.clear()
 
 
-def time_left(elapsed: float, fraction: float) -> str:
-    """In words, where the rest takes as long as what is done did; nothing where that is a guess.
+def time_shown(elapsed: float, fraction: float | None) -> str:
+    """The time left if the rest takes as long per file as what is done, otherwise the time elapsed.
 
     Args:
         elapsed: s since the start.
-        fraction: that is done by now, in [0, 1].
+        fraction: of the files done by now, in [0, 1]; None if that is unknown.
     """
-    if elapsed < _FIRST_GUESS or not 0 < fraction < 1:
+    if elapsed < _FIRST_TIME or fraction == 1:
         return ""
-    seconds = round(elapsed * (1 - fraction) / fraction)
-    if seconds < 100:
-        return f", {seconds} s left"
+    if not fraction:
+        return f", {_in_words(elapsed)}"
+    return f", {_in_words(elapsed * (1 - fraction) / fraction)} left"
+
+
+def _in_words(seconds: float) -> str:
     minutes = round(seconds / 60)
-    return f", {minutes} min left" if minutes < 100 else f", {round(minutes / 60)} h left"
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 100 else f"{round(minutes / 60)} h"
 
 
 def _mark(encoding: str) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import Parameter
+from ..base.plain import without_rounding
 
 _NUMBER = re.compile(r"-\.?\d")
 
@@ -43,12 +44,10 @@ def shown(value: Any, digits: str = "g") -> str:
         return str(value).lower()
     if value is None:  # in a record, what is no number
         return "nan"
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, list):
-        if value and isinstance(value[0], list):
+    if isinstance(value, (list, np.ndarray)):
+        if np.ndim(value) > 1:
             return f"{len(value)} x {len(value[0])} numbers"
-        return ",".join(shown(number, digits) for number in value)
+        return ",".join(shown(number, digits) for number in without_rounding(value).tolist())
     return format(value, digits) if isinstance(value, float) else str(value)
 
 

@@ -41,32 +41,31 @@ def detect(
             ``Shape``, a mesh or a cloud of PyVista, VTK, trimesh, Open3D, ITK or meshio, a table of
             pandas or polars with the columns x, y and z or with three that hold numbers, or another
             object with ``points`` or ``vertices``, with the ``faces`` or ``triangles`` that it has. A
-            C-ordered float64 array is read in place. Of a regular grid of PyVista (``ImageData``, ``RectilinearGrid``, a
-            ``StructuredGrid`` with such points) the points, or the centres of the cells, that
-            ``threshold`` or ``label`` chooses: ``Result.points`` are then these, and pairs are indices into
-            them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
+            C-ordered float64 array is read in place. For a regular grid of PyVista (``ImageData``,
+            ``RectilinearGrid``, a ``StructuredGrid`` with such points): the points, or the centres of
+            the cells, chosen by ``threshold`` or ``label``, which become ``Result.points``; pairs are
+            indices into them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
         {Search}
-        faces: (m, 3) indices of points, where ``shape`` does not bring them. With faces, samples
-            spread evenly over the surface find the mirror; score and candidates are those of the
-            samples, pairs those of the points. The thesis's methods see the points only.
-        use_faces: False: the points alone find the mirror, whatever faces there are.
-        normals: (n, 3) directions, one a point; taken as lines, so their sign does not count. Those
-            of a file, a shape or a mesh are not used unless they are given here. ``perpendicular``
-            and ``quadric``, ``auto`` where it tries ``perpendicular``, ``separation_normals`` and
-            ``normals_only`` use them in place of their own estimates; the other methods do not.
+        faces: (m, 3) indices of points, if ``shape`` has none of its own. With faces the search, the
+            score and the candidates use samples spread evenly over the surface; pairs are those of
+            the points. The methods of the thesis use the points only.
+        use_faces: False: ignore the faces and search with the points alone.
+        normals: (n, 3) directions, one per point; their sign is ignored. Normals of a file, a shape
+            or a mesh are used only if they are given here, in place of estimates, by
+            ``perpendicular``, ``quadric``, ``separation_normals``, ``normals_only``, and ``auto``
+            if it tries one of these.
         {Reading}
-        absolute: True: parameters that are lengths (those of the unit "diagonal") are in input
-            units, in place of fractions of the diagonal of the bounding box. ``Result.parameters``
-            has them as fractions.
-        threads: 0 means as many as the machine has. The result does not depend on it.
-        progress: called with the fraction done, on this thread; returning False cancels.
-        **parameters: the method's own, by name: ``methods()[method].parameters``.
+        absolute: True: parameters that are lengths (unit "diagonal") are given in input units, not
+            as fractions of the diagonal of the bounding box. ``Result.parameters`` has fractions.
+        threads: number of threads; 0: all of the machine. The result does not depend on it.
+        progress: called with the fraction done, on this thread; return False to cancel.
+        **parameters: parameters of the method, as in ``methods()[method].parameters``.
 
     Raises:
         InvalidInput: too few finite points, not (n, 3), all on one point or line, an extent or a
-            coordinate beyond what is allowed; normals that are not one a point, not finite or zero;
-            a face that names a point which is not there; a grid whose scalars do not say which
-            points to take; a file that cannot be read.
+            coordinate beyond what is allowed; not one normal per point, a normal that is not finite
+            or zero; a face index out of range; a grid whose scalars do not choose points; a file
+            that cannot be read.
         InvalidParameter: an unknown method or parameter, or a value out of its range.
         Cancelled: the progress callback returned False.
 
@@ -109,15 +108,16 @@ def match(
 ) -> Result[_core.Mirror]:
     """Pairs every point with the input point nearest to its image over a known mirror.
 
-    How a mirror found elsewhere, or one of ``Result.candidates``, fits a point set. Points far off
-    the rest have no partners, as in ``detect``, and do not count for the diagonal.
+    Use it to see how a mirror found elsewhere, or one of ``Result.candidates``, fits a point set.
+    Outliers have no partners, as in ``detect``, and are ignored by the diagonal.
 
     Args:
         shape: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
         mirror: the known mirror, or a result that has one.
-        pair_distance: how far from the image a partner may be, as a fraction of the diagonal.
-        tolerance: how far the two sides may differ, as a fraction of the diagonal in [1e-4, 0.1]:
-            where an image lies so far from the shape, across its surface, the score counts it half.
+        pair_distance: maximum distance between image and partner, as a fraction of the diagonal.
+        tolerance: how far the two sides may differ and still count as symmetric, as a fraction of
+            the diagonal in [1e-4, 0.1]: a point whose image lies this far from the surface counts
+            half in the score.
         absolute: True: ``pair_distance`` is in input units.
         nonfinite, threshold, label, scalars, external_files, threads, progress: as for ``detect``.
 

@@ -33,10 +33,10 @@ def detect_chunks(
     progress: Progress | None = None,
     **parameters: Any,
 ) -> Result[Mirror]:
-    """Finds the mirror of points of which only some are in memory at any time, in one pass.
+    """Finds the mirror of points that do not fit into memory, in one pass over chunks of them.
 
-    The points are thinned as they pass to the means of at most ``cells`` cells of a grid
-    (``PointSummary``), of which ``detect`` finds the mirror. The result is the same, to the bit, for
+    The points are reduced to the means of at most ``cells`` cells of a grid (``PointSummary``), in
+    which ``detect`` finds the mirror. The result is the same, to the bit, for
     any chunks of the same points in any order, and for any number of processes and threads.
 
     Args:
@@ -45,16 +45,17 @@ def detect_chunks(
             with laspy LAZ and COPC, with pye57 E57, with PyVista PVTP and VTKHDF); an array of Dask,
             whose blocks its workers thin; or a ``PointSummary``.
         method: one of ``methods()``.
-        cells: the most cells that points are thinned to, in [64, 2^28]; 120 bytes each.
-        communicator: of mpi4py, or anything else with ``allgather``: each process passes its own
-            chunks, and gets the result of all.
+        cells: maximum number of cells, in [64, 2^28]; 120 bytes each.
+        communicator: a communicator of mpi4py, or another object with ``allgather``: each process
+            passes its own chunks and gets the result of all.
         external_files, nonfinite, seed, threads, progress: as for ``detect``.
-        **parameters: the method's own, as for ``detect``.
+        **parameters: parameters of the method, as for ``detect``.
 
     Returns:
-        What ``detect`` finds of the thinned points, which are ``Result.points``: pairs are indices into
-        them. ``statistics`` has "summarized_points", how many there were, "nonfinite_points" beside
-        them, "cells", and "cell_edge", of the grid, in input units.
+        The result of ``detect`` for the reduced points, which are ``Result.points``: pairs are
+        indices into them. ``statistics`` has "summarized_points", the number of points read,
+        "nonfinite_points" in addition to these, "cells", and "cell_edge" of the grid, in input
+        units.
 
     Raises:
         InvalidInput: a chunk of another shape, a coordinate beyond 1e50, a file that cannot be read in
@@ -93,14 +94,15 @@ def match_chunks(
     external_files: bool = False,
     threads: int = 0,
 ) -> Iterator[ChunkMatches]:
-    """How the mirror of ``detect_chunks`` fits each point, in a second pass over the same points.
+    """Finds partners and residuals of all points over the mirror of ``detect_chunks``, in a second
+    pass.
 
     Args:
         chunks: as for ``detect_chunks``, but for summaries; what can be had once alone, such as a
             generator, is an error. Blocks of Dask are computed one after the other.
         result: of ``detect_chunks``.
-        pair_distance: how far from the image a partner may be, as a fraction of the diagonal of the
-            thinned points.
+        pair_distance: maximum distance between image and partner, as a fraction of the diagonal of
+            the downsampled points.
         external_files, threads: as for ``detect``.
 
     Yields:

@@ -10,7 +10,8 @@ from ..base.progress import Progress
 
 
 def downsample(points: ArrayLike, count: int) -> NDArray[np.float64]:
-    """Evenly spread points (m, 3), at least ``count`` where the input has as many distinct ones.
+    """Downsamples to evenly spread points (m, 3), at least ``count`` if the input has as many
+    distinct ones.
 
     The simplification of Hruda et al. (2022): a grid of cells l_avg / k, l_avg being the mean
     distance from the centroid and k = 1, 2, 3, ... until ``count`` cells are occupied; the mean of
@@ -28,7 +29,8 @@ def estimate_normals(
     threads: int = 0,
     progress: Progress | None = None,
 ) -> NDArray[np.float64]:
-    """Unit normals (n, 3), each from a point's nearest ``neighbours``, itself among them.
+    """Estimates unit normals (n, 3) from the ``neighbours`` nearest points, including the point
+    itself.
 
     Args:
         points: (n, 3).

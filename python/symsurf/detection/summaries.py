@@ -23,7 +23,7 @@ def summarize(
     external_files: bool = False,
     progress: Progress | None = None,
 ) -> PointSummary:
-    """Thins points of any number, of which only some are in memory at any time.
+    """Reduces points that do not fit into memory to the means of grid cells.
 
     Args:
         chunks, cells, communicator, external_files: as for ``detect_chunks``.

@@ -16,34 +16,32 @@ from .operate import operate, with_values
 _ARGUMENTS = inspect.signature(operate).parameters
 
 _VALUES = (
-    "values: (n,) or (n, k), what the points have, or a dictionary of such arrays; None: "
-    "``carried`` of the result takes them later."
+    "values: (n,) or (n, k) attributes of the points, or a dictionary of such arrays; None: pass "
+    "them to ``carried`` of the result later."
 )
 
 _DOCUMENTED = {
-    "shape": "points, a mesh or a file, as ``detect`` takes them; points that are not finite keep their "
-    'places and have no counterpart: ``statistics`` counts them as "nonfinite_points".',
-    "mirror": "what ``detect`` found, or a mirror of any kind, in the unit and pose of the points; "
-    "without it the mirror is found first.",
+    "shape": "points, a mesh or a file, as for ``detect``; points that are not finite do not move and "
+    'have no counterpart: ``statistics["nonfinite_points"]`` is their number.',
+    "mirror": "a result of ``detect``, or a mirror of any kind, in the unit and pose of the points; "
+    "None: the mirror is found first.",
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
-    "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
-    "absolute": "True: lengths are in input units, in place of fractions of the diagonal of the "
-    "bounding box; ``parameters`` of what is given back has them as fractions.",
-    "require_found": f"{require_found_parameter().doc} A result that is given is refused likewise.",
+    "faces": "(m, 3) indices of points, if ``shape`` has none of its own.",
+    "absolute": "True: lengths are given in input units, not as fractions of the diagonal of the "
+    "bounding box; ``parameters`` of the result has fractions.",
+    "require_found": f"{require_found_parameter().doc} A given result is refused likewise.",
     **{name: f"{text}." for name, text in documentation(Search).items()},
     **{name: f"{text}." for name, text in documentation(Reading).items()},
     "threads, progress": "as for ``detect``.",
 }
 
-_OR_AXIS = (
-    " Or an ``Axis`` in its place. Either may be given as ``symmetry``, too, in place of a name."
-)
+_OR_AXIS = " Or an ``Axis``. Both may also be passed as ``symmetry``."
 
 _ERRORS = """
 Raises:
-    InvalidInput: no mirror is found, or, with ``require_found``, one with the verdict "none"; it
-        has images for less than half of the points; {mask}else as ``detect`` does.
-    InvalidParameter, Cancelled: as ``detect`` does."""
+    InvalidInput: no mirror is found, or, with ``require_found``, one with the verdict "none"; less
+        than half of the points have an image; {mask}otherwise as ``detect``.
+    InvalidParameter, Cancelled: as ``detect``."""
 
 
 def _takes_axis(operation: Operation) -> bool:
@@ -78,7 +76,7 @@ def _documentation(operation: Operation) -> list[str]:
     if not operation.takes_mask:
         del texts["mask"]
     shared = [argument_text(f"{name}: {text}") for name, text in texts.items()]
-    mask = "a mask that is not one number in [0, 1] a point;\n        "
+    mask = "a mask that is not one number in [0, 1] per point;\n        "
     return [
         textwrap.fill(operation.summary, 96),
         "",

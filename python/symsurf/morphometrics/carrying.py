@@ -22,7 +22,7 @@ def carry_landmarks(
     pairing: str = "homologous",
     **options: Any,
 ) -> NDArray[np.float64]:
-    """Landmarks carried to the other side of the shape that they lie on, (k, 3).
+    """Transfers landmarks (k, 3) to the other side of the shape on which they lie.
 
     A landmark goes with the vertex v next to it, to where ``correspondences`` finds v on the other
     side, v': to ``v' + reflect(x) - reflect(v)``, the way from the vertex being mirrored.

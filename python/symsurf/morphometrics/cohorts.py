@@ -22,7 +22,8 @@ _MOST_PERMUTATIONS = 1_000_000
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cohort(Summarised):
-    """What individuals and sides make of the shape of landmarks, at unit centroid size, superimposed."""
+    """Effects of individuals and sides on the shape of landmarks, superimposed at unit centroid
+    size."""
 
     table: dict[str, AnovaRow]
     """The rows "individual": variation among individuals; "side": directional asymmetry;
@@ -64,8 +65,8 @@ class Cohort(Summarised):
         return np.linalg.norm(self.asymmetric, axis=2)
 
     def percentile(self, individual: int) -> NDArray[np.float64]:
-        """The share (k,) in % of the others whose asymmetry is less than that of an individual, at
-        each landmark or vertex; those that equal it count one half.
+        """Percentile (k,) of the asymmetry of an individual among the others, at each landmark or
+        vertex: the share in % with a smaller asymmetry; equal ones count one half.
 
         Raises InvalidParameter for an individual that there is none of.
         """
@@ -102,7 +103,7 @@ def cohort(
     permutations: int = 999,
     seed: int = 0,
 ) -> Cohort:
-    """Directional and fluctuating asymmetry of individuals, by Procrustes ANOVA.
+    """Computes directional and fluctuating asymmetry of individuals by Procrustes ANOVA.
 
     Object symmetry (Klingenberg, Barluenga and Meyer 2002): every configuration and its copy,
     reflected and with left and right relabelled, are superimposed, and projected into the tangent
@@ -125,7 +126,7 @@ def cohort(
     Raises:
         InvalidInput: fewer than two individuals; numbers of landmarks or of replicates that differ; a
             landmark that is missing (not finite), out of range, in two pairs, or neither in a pair
-            nor on the midline; an odd one in ``pairs``; landmarks that all coincide.
+            nor on the midline; an odd landmark in ``pairs``; landmarks that all coincide.
         InvalidParameter: permutations or a seed out of range; pairs and other_side both or neither.
     """
     _require_whole("permutations", permutations, _MOST_PERMUTATIONS)

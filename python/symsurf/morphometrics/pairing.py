@@ -30,7 +30,7 @@ Side = tuple[tuple[str, ...], str]
 
 @dataclass(frozen=True, eq=False)
 class LandmarkPairs:
-    """Which landmark mirrors which."""
+    """Pairs of landmarks that mirror each other."""
 
     pairs: NDArray[np.int64]
     """(p, 2) indices: where the names tell, left and right; else the lower one first."""

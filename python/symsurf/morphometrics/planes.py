@@ -19,7 +19,7 @@ def plane_of_landmarks(
     pairs: ArrayLike | LandmarkPairs,
     midline: ArrayLike = (),
 ) -> Plane:
-    """The mirror plane that fits pairs of landmarks, and landmarks on it, best by least squares.
+    """The least-squares mirror plane of pairs of landmarks and of landmarks on the midline.
 
     With x' the landmark that mirrors x, itself on the midline, it minimises the sum of
     ``|reflect(x) - x'|**2``: the landmarks, relabelled and reflected, are superimposed on themselves

@@ -19,8 +19,8 @@ from . import read
 
 
 class InputWarning(UserWarning):
-    """Some of the input was left out, reads differently from what was perhaps meant, is not what the
-    method is for, or has no mirror but one with the verdict "none"."""
+    """Part of the input was ignored or may be interpreted differently than intended, the method is
+    not suited to it, or the verdict on its mirror is "none"."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,9 @@ from urllib.parse import quote
 
 import numpy as np
 
+from ..results.summary import fixed
 from .charts import histogram
-from .html import Html, fixed, heading, page, paragraph, ranks_of, table
+from .html import Html, heading, page, paragraph, ranks_of, table
 
 PERCENTILES = (0, 5, 25, 50, 75, 95, 100)
 # Of the columns of a batch: their names here, what they are multiplied by, and the digits behind
@@ -20,12 +21,12 @@ PERCENTILES = (0, 5, 25, 50, 75, 95, 100)
 _FIGURES = {
     "score": ("score", 1, 2),
     "paired_share": ("paired, %", 100, 1),
-    "mean_of_diagonal": ("mean, % of the diagonal", 100, 3),
-    "rms_of_diagonal": ("rms, % of the diagonal", 100, 3),
-    "median_of_diagonal": ("median, % of the diagonal", 100, 3),
-    "p95_of_diagonal": ("95th percentile, % of the diagonal", 100, 3),
-    "maximum_of_diagonal": ("maximum, % of the diagonal", 100, 3),
-    "signed_mean_of_diagonal": ("signed mean, % of the diagonal", 100, 3),
+    "mean_of_diagonal": ("mean", 100, 3),
+    "rms_of_diagonal": ("rms", 100, 3),
+    "median_of_diagonal": ("median", 100, 3),
+    "p95_of_diagonal": ("95th percentile", 100, 3),
+    "maximum_of_diagonal": ("maximum", 100, 3),
+    "signed_mean_of_diagonal": ("signed mean", 100, 3),
     "area_index": ("area index", 1, 3),
     "volume_index": ("volume index", 1, 3),
 }
@@ -48,6 +49,7 @@ def files_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str
     sentence = f"{len(good) - doubtful} of {len(rows)} files have a mirror."
     if doubtful:
         sentence += f' {doubtful} more, with the verdict "none", are among the figures.'
+    sentence += " Lengths of the asymmetry are in % of the diagonal of the bounding box."
     parts = [paragraph(sentence)]
     if good:
         rms = 100 * _column(good, "rms_of_diagonal")
@@ -57,15 +59,9 @@ def files_page(title: str, rows: Sequence[Mapping[str, Any]], links: Mapping[str
             table(_percentile_rows(good), ("", *(_name(p) for p in PERCENTILES), "files")),
             histogram(rms, label, "files", symmetric=False),
         ]
-        names = (
-            "",
-            "file",
-            "mirror",
-            "verdict",
-            *(_FIGURES[name][0] for name in _SHOWN),
-            "rank by rms",
-        )
-        parts += [heading("Files"), table(_file_rows(good, links), names)]
+        words = ("", "file", "mirror", "verdict")
+        names = (*words, *(_FIGURES[name][0] for name in _SHOWN), "rank by rms")
+        parts += [heading("Files"), table(_file_rows(good, links), names, texts=len(words))]
     if errors := [(Path(row["file"]).name, row["error"]) for row in rows if row["error"]]:
         parts += [heading("Files that failed"), table(errors, ("file", "reason"), numbers=False)]
     return page(title, parts)
@@ -92,7 +88,7 @@ def _file_rows(good: Sequence[Mapping[str, Any]], links: Mapping[str, str]) -> l
             for path in (page, str(PurePosixPath(page).with_suffix(".png")))
         )
         image = (
-            f'<a href="{target}"><img class="thumbnail" loading="lazy" src="{picture}" alt=""></a>'
+            f'<a class="thumbnail" href="{target}"><img loading="lazy" src="{picture}" alt=""></a>'
         )
         link = f'<a href="{target}">{escape(Path(row["file"]).name)}</a>'
         if row["rms_of_diagonal"] > limit:

@@ -19,7 +19,9 @@ h1 { font-size: 1.5rem; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.1rem; margin: 1.6rem 0 .4rem; }
 p { margin: .3rem 0; }
 .none, .error, .outlier { color: #a83244; }
-img.thumbnail { width: 128px; height: 96px; object-fit: cover; border-radius: 4px; }
+/* The title and the legend of a picture, which nobody can read so small, lie outside. */
+.thumbnail { display: block; width: 128px; height: 88px; overflow: hidden; border-radius: 4px; }
+.thumbnail img { width: 148px; margin: -10px; }
 iframe { width: 100%; height: min(620px, 80vh); border: 1px solid #ddd; border-radius: 4px; }
 table { border-collapse: collapse; }
 th, td { text-align: left; padding: .2rem .9rem .2rem 0; border-bottom: 1px solid #eee;
@@ -84,17 +86,20 @@ def paragraph(text: str, kind: str = "") -> str:
     return f'<p class="{kind}">{escape(text)}</p>'
 
 
-def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: bool = True) -> str:
-    """Rows of texts, those behind the first column to the right where they are numbers. What of them
-    is ``Html`` stands as it is."""
+def table(
+    rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: bool = True, texts: int = 1
+) -> str:
+    """Rows of texts: the first columns to the left, those behind to the right if they are numbers.
+    ``Html`` is not escaped."""
     kind = ' class="number"' if numbers else ""
     head = "".join(
-        f"<th{kind if column else ''}>{escape(name)}</th>" for column, name in enumerate(names)
+        f"<th{kind if column >= texts else ''}>{escape(name)}</th>"
+        for column, name in enumerate(names)
     )
     body = "".join(
         "<tr>"
         + "".join(
-            f"<td{kind if column else ''}>{text if isinstance(text, Html) else escape(text)}</td>"
+            f"<td{kind if column >= texts else ''}>{text if isinstance(text, Html) else escape(text)}</td>"
             for column, text in enumerate(row)
         )
         + "</tr>"
@@ -102,11 +107,6 @@ def table(rows: Iterable[Sequence[str]], names: Sequence[str] = (), numbers: boo
     )
     thead = f"<thead><tr>{head}</tr></thead>" if names else ""
     return f'<div class="wide"><table>{thead}<tbody>{body}</tbody></table></div>'
-
-
-def fixed(value: float, digits: int) -> str:
-    """With so many digits behind the point; what rounds to nothing is 0, not -0."""
-    return f"{round(value, digits) + 0:.{digits}f}"
 
 
 def ranks_of(values: NDArray[np.float64]) -> list[str]:

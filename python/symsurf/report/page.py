@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..base.plain import without_rounding
 from ..plotting.drawing import new_plotter
 from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
-from ..results.summary import figures, of_the_diagonal, percent
+from ..results.summary import figures, fixed, of_the_diagonal, percent, value_text
 from .charts import histogram
-from .html import columns, fixed, framed, heading, page, paragraph, table
+from .html import columns, framed, heading, page, paragraph, table
 from .scene import scripts_of, viewer_page
 
 Record = Mapping[str, Any]
@@ -43,8 +45,8 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
             paragraph(_sentence(record, kind)),
             framed(scene, f"{name} in 3D"),
             paragraph(
-                "Drag to turn, roll the wheel to come closer. Blue lies further out than the other "
-                "side says, red further in; grey has no counterpart."
+                "Drag to turn, roll the wheel to zoom. Blue: further out than the mirrored other side; "
+                "red: further in; grey: no counterpart."
             ),
             columns(
                 heading("Signed asymmetry")
@@ -81,9 +83,9 @@ def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
     diagonal = record["statistics"]["diagonal"]
     digits = max(0, 4 - math.floor(math.log10(diagonal))) if diagonal > 0 else 0
     return [
-        (name.replace("_", " "), _text(value), "")
+        (_title(name), value_text(name, value), "")
         if share is None
-        else (name.replace("_", " "), fixed(value, digits), fixed(100 * share, 3))
+        else (_title(name), fixed(value, digits), fixed(100 * share, 3))
         for name, value, share in figures(record["statistics"])
     ]
 
@@ -92,9 +94,14 @@ def _parameter_rows(record: Record) -> list[tuple[str, str]]:
     return [(name.replace("_", " "), _text(value)) for name, value in record["parameters"].items()]
 
 
+def _title(name: str) -> str:
+    """Of a statistic, in words: "95th percentile" of p95."""
+    return re.sub(r"^p(\d\d)$", r"\1th percentile", name).replace("_", " ")
+
+
 def _text(value: Any) -> str:
     if isinstance(value, list):
         if value and isinstance(value[0], list):
             return f"{len(value)} x {len(value[0])} numbers"
-        return ", ".join(map(_text, value))
+        return ", ".join(map(_text, without_rounding(value).tolist()))
     return f"{value:.6g}" if isinstance(value, float) else str(value)

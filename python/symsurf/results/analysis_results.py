@@ -25,26 +25,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AnalysisResult(BaseResult):
-    """What an analysis finds."""
+    """The result of an analysis."""
 
     analysis: ClassVar[str]
     """Its name in ``analyses()``."""
 
     shape: Shape
-    """The shape as it was given."""
+    """The input."""
     arrays: dict[str, NDArray[Any]]
-    """What the analysis gives each point of ``shape``, by the names in its description; of points
-    that are not finite NaN, -1 or False."""
+    """Arrays of the analysis at the points of ``shape``, by the names in its description; NaN, -1
+    or False at points that are not finite."""
     planes: list[Plane]
     """Mirror planes."""
     axes: list[Axis]
     """Axes of rotation."""
     transformations: list[Transformation]
-    """What maps the shape, or a part of it, onto another part."""
+    """Maps of the shape, or of a part of it, onto another part."""
     parameters: dict[str, Any]
     """Every parameter of the analysis, as used."""
     statistics: dict[str, Any]
-    """Whatever else the analysis reports."""
+    """Other figures of the analysis."""
     seconds: float
     """Run time in seconds."""
 
@@ -64,7 +64,7 @@ class AnalysisResult(BaseResult):
 
     @property
     def summary(self) -> dict[str, str]:
-        """What it says in a few words, by name: the analysis, how much was found, statistics."""
+        """A short text per name: the analysis, numbers of elements found, statistics."""
         words = {"analysis": self.analysis}
         for name in ("planes", "axes", "transformations"):
             if found := getattr(self, name):
@@ -117,19 +117,20 @@ class AnalysisResult(BaseResult):
         camera: Any = None,
         title: bool = True,
     ) -> Plotter:
-        """Draws the shape, coloured by what the analysis says, with planes and axes; needs PyVista.
+        """Draws the shape, coloured by the main array of the analysis, with planes and axes; needs
+        PyVista.
 
         Args:
-            path: a PNG to write off-screen, whole or not at all; without it a window opens.
+            path: a PNG file to write, off-screen; None: opens a window.
             camera: as for ``Result.plot``.
-            title: False: without the sentence above.
+            title: False: omit the title.
         """
         return plot(self, path, camera=camera, title=title)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Symmetries(AnalysisResult):
-    """What maps a shape onto itself: its point group.
+    """The symmetries of a shape: its point group.
 
     ``planes`` has all mirror planes; of a continuous group one that holds the axis and the one
     across it, where there is one; of K none. ``axes`` has all rotation axes, the highest order first,
@@ -147,7 +148,7 @@ class Symmetries(AnalysisResult):
 
     @property
     def centre(self) -> NDArray[np.float64]:
-        """(3,) in input units: all elements keep it in its place."""
+        """(3,) in input units: the fixed point of all elements."""
         return self.statistics["centre"]
 
     @property
@@ -157,19 +158,21 @@ class Symmetries(AnalysisResult):
 
     @property
     def score(self) -> float:
-        """How well the images under all elements lie on the shape where it has points, 0 to 1."""
+        """How well the images under all elements match the shape, 0 to 1; images in missing parts
+        are ignored."""
         return self.statistics["score"]
 
     @property
     def missing(self) -> float:
-        """The share of the images that fall where the shape has no points: what is cut away."""
+        """Share of the images that lie where the shape has no points, in parts that are cut
+        away."""
         return self.statistics["missing"]
 
     @property
     def max_deviation(self) -> NDArray[np.float64]:
-        """(n,) of each element how far it takes the shape off itself, in input units: the greatest
-        distance from the image of a vertex to the surface, of a cloud from that of a point to the
-        nearest point."""
+        """(n,) maximum deviation of each element, in input units: the greatest distance of the
+        image of a vertex from the surface, for a cloud of the image of a point from the nearest
+        point."""
         return self.statistics["max_deviations"].ravel()
 
     @property
@@ -179,7 +182,7 @@ class Symmetries(AnalysisResult):
 
     @property
     def order(self) -> int | None:
-        """How many elements the group has; None for a continuous (infinite) group."""
+        """Number of elements of the group; None for a continuous (infinite) group."""
         is_continuous = any(axis.continuous for axis in self.axes)
         return None if is_continuous else len(self.transformations)
 
@@ -204,11 +207,11 @@ class Symmetries(AnalysisResult):
 
     @property
     def axis_max_deviation(self) -> NDArray[np.float64]:
-        """(k,) of each continuous axis, in the order of ``axes``: the same of the turns about it."""
+        """(k,) the same for the rotations about each continuous axis, in the order of ``axes``."""
         return np.ravel(self.statistics.get("axis_max_deviations", ()))
 
     def nearest(self, pose: ArrayLike, to: ArrayLike | None = None) -> NDArray[np.float64]:
-        """Of all poses in which the shape looks the same, the one nearest to another pose.
+        """Finds the pose nearest to another one among all poses in which the shape looks the same.
 
         A pose maps the shape's coordinates to those of a camera or the world. Equivalent ones are
         ``pose @ S`` for each rotation S of the group; about a continuous axis the best angle is

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """A line about which a shape may be turned: found, or made by hand."""
+    """An axis of rotation: found, or made by hand."""
 
     point: NDArray[np.float64]
     """(3,) on the axis, in input units: the centre of the group."""

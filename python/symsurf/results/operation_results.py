@@ -26,36 +26,35 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OperationResult(BaseResult):
-    """What an operation gives."""
+    """The result of an operation."""
 
     operation: ClassVar[str]
     """Its name in ``operations()``."""
 
     given: Shape
-    """The shape before: the caller's own points where they could be read in place."""
+    """The input: the caller's own array if it could be read in place."""
     shape: Shape
     """The shape, moved or not: points and faces in the order of the input, then those added."""
     mirror: Mirror | None
-    """The mirror that was used; one made by hand with the shape for its footprint. None of what is
-    done about an axis."""
+    """The mirror that was used; one made by hand gets the shape as its footprint. None for a
+    completion about an axis."""
     found: Result | None
-    """The detection that the mirror is of; None where it was given, or none was needed."""
+    """The detection that found the mirror; None if the mirror was given or not needed."""
     parameters: dict[str, Any]
     """Every parameter of the operation, as used."""
     statistics: dict[str, Any]
-    """Whatever else the operation reports."""
+    """Figures of the operation."""
     seconds: float
     """Run time in seconds, without that of finding the mirror."""
     sources: NDArray[np.int64]
-    """(n,) of each point of ``shape``, the one of the input that its attributes come from."""
+    """(n,) for each point of ``shape``: the input point from which its attributes come."""
     face_sources: NDArray[np.int64]
     """(m,) the same of each face."""
     parents: NDArray[np.int64] | None
-    """(n, k) where points and faces are other ones altogether, as of ``symmetrize`` with
-    ``triangles="mirrored"``, and where values are carried: the points of the input that the values of
-    each lie between."""
+    """(n, k) input points whose values are interpolated for each point; None unless the result is a
+    new mesh, as of ``symmetrize`` with ``triangles="mirrored"``, or values are transferred."""
     shares: NDArray[np.float64] | None
-    """(n, k) what each of these counts; they sum to 1."""
+    """(n, k) interpolation weights of these points; each row sums to 1."""
 
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
@@ -104,14 +103,14 @@ class OperationResult(BaseResult):
 
     @property
     def is_other(self) -> bool:
-        """Whether points and faces are other ones than those of the input altogether."""
+        """True if the result is a new mesh that shares no vertices or faces with the input."""
         return self.parents is not None and not operations()[self.operation].carries_values
 
     def carried(self, values: NDArray[Any]) -> NDArray[Any]:
-        """What the points of ``shape`` have of values of the input's points, such as colours or
-        texture coordinates: real numbers, and colours of three or four bytes, between those of a
-        point's ``parents``, others those of its source. (n, ...) of ``shape`` from (k, ...) of the
-        input. Raises InvalidInput for another number of values."""
+        """Values at the points of ``shape`` from values at the input points, such as colours or
+        texture coordinates: (n, ...) from (k, ...). Real numbers and colours of three or four bytes
+        are interpolated between a point's ``parents``; others are those of its source. Raises
+        InvalidInput for another number of values."""
         require_one_a_point(values, self.given, "values")
         if self.parents is None or self.shares is None:
             return values[self.sources]
@@ -119,14 +118,14 @@ class OperationResult(BaseResult):
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """What the operation gives each point of ``shape``, by name."""
+        """Arrays of the operation at the points of ``shape``, by name."""
         described = operations()[self.operation].arrays
         own = {array.name: getattr(self, array.name) for array in described}
         return {name: values for name, values in own.items() if values is not None}
 
     @property
     def face_arrays(self) -> dict[str, NDArray[Any]]:
-        """The same of each face."""
+        """The same for each face."""
         described = operations()[self.operation].face_arrays
         return {array.name: getattr(self, array.name) for array in described}
 
@@ -149,8 +148,8 @@ class OperationResult(BaseResult):
 
     @property
     def summary(self) -> dict[str, str]:
-        """What it says in a few words, by name: operation, mirror and statistics, lengths with their
-        share of the diagonal, unmatched shares where there are some."""
+        """A short text per name: operation, mirror and statistics; lengths with their share of the
+        diagonal, unmatched shares if they are not 0."""
         words = {"operation": self.operation, "mirror": self._kind}
         for name, value, share in figures(self.statistics):
             words[name.replace("_", " ")] = value_text(name, value, share)
@@ -171,15 +170,16 @@ class OperationResult(BaseResult):
         camera: Any = None,
         score: bool = True,
     ) -> Plotter:
-        """Draws the shape over its mirror, coloured by what the operation says; needs PyVista.
+        """Draws the shape and its mirror, coloured by the main array of the operation; needs
+        PyVista.
 
         Args:
-            path: a PNG to write off-screen, whole or not at all; without it a window opens.
-            clim: what the colours end at, above 0 and in % of the diagonal (of ``confidence`` and
-                ``irradiance``, a number); without it what 98 % of the points stay below, of lengths at
-                least 0.1.
+            path: a PNG file to write, off-screen; None: opens a window.
+            clim: upper end of the colour scale, above 0 and in % of the diagonal (for
+                ``confidence`` and ``irradiance`` a plain number); None: the 98th percentile, for
+                lengths at least 0.1.
             camera: as for ``Result.plot``.
-            score: False: without the sentence above.
+            score: False: omit the title.
         """
         return plot(self, path, clim=clim, camera=camera, score=score)
 
@@ -194,12 +194,12 @@ class OperationResult(BaseResult):
 @dataclass(frozen=True, eq=False, repr=False)
 class _OverMirror(OperationResult):
     mirror: Mirror
-    """The mirror that was used; one made by hand with the shape for its footprint."""
+    """The mirror that was used; one made by hand gets the shape as its footprint."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Asymmetry(_OverMirror):
-    """How far each point is from where the other side says it should be.
+    """The distance of each point from its counterpart on the other side.
 
     ``statistics``: "matched_share" and "unmatched_share", of that "unmatched_without_image",
     "unmatched_past_rim", "unmatched_too_far" and "unmatched_turned", all as shares of the points;
@@ -216,21 +216,22 @@ class Asymmetry(_OverMirror):
     FIRST = ("rms", "mean", "maximum", "matched_share")
 
     vector: NDArray[np.float64]
-    """(n, 3) from the point to its place, input units; NaN without a counterpart."""
+    """(n, 3) vector from the point to its counterpart, input units; NaN without one."""
     distance: NDArray[np.float64]
-    """(n,) its length."""
+    """(n,) length of the vector."""
     signed: NDArray[np.float64]
-    """(n,) its part along the outward normal: positive where the point lies too far in."""
+    """(n,) component of the vector along the outward normal: positive if the point lies too far
+    in."""
     tangential: NDArray[np.float64]
-    """(n,) its part along the surface."""
+    """(n,) component of the vector along the surface."""
     lateral: NDArray[np.float64]
-    """(n,) its part away from the mirror."""
+    """(n,) component of the vector away from the mirror."""
     matched: NDArray[np.bool_]
-    """(n,) whether the point has a counterpart: none past a rim, too far away, or with another
-    normal."""
+    """(n,) whether the point has a counterpart: none beyond a boundary of the surface, too far
+    away, or with a different normal."""
     confidence: NDArray[np.float64]
-    """(n,) 0 to 1: the cosine between the normals, halved where the closest image is a spacing away;
-    with homologous pairing what is ``known``."""
+    """(n,) 0 to 1: the cosine between the normals, halved if the closest image is one point spacing
+    away; with homologous pairing ``known``."""
     vector_sd: NDArray[np.float64] | None = None
     """(n,) with homologous pairing the standard deviation of ``vector`` along the surface, input
     units; 0 where both sides have one triangulation, NaN without a counterpart."""
@@ -238,9 +239,9 @@ class Asymmetry(_OverMirror):
     """(n,) with homologous pairing the share of the variance along the surface that the shape
     explains, 0 to 1; NaN without a counterpart."""
     face: NDArray[np.int64] | None = None
-    """(n,) of a mesh, the face whose image the place lies on; -1 for none."""
+    """(n,) for a mesh: the face on whose image the counterpart lies; -1 for none."""
     weights: NDArray[np.float64] | None = None
-    """(n, 3) of a mesh, the barycentric coordinates on that face."""
+    """(n, 3) for a mesh: barycentric coordinates on that face."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -252,25 +253,26 @@ class Correspondences(_OverMirror):
     operation = "correspondences"
 
     index: NDArray[np.int64]
-    """(n,) the mirror point, the point itself on the mirror, -1 for none."""
+    """(n,) index of the mirror point, of the point itself if it lies on the mirror, -1 for none."""
     confidence: NDArray[np.float64]
-    """(n,) 0 to 1: the cosine between the normals, halved where the closest image is a spacing away;
-    with homologous pairing the share of the variance along the surface that the shape explains."""
+    """(n,) 0 to 1: the cosine between the normals, halved if the closest image is one point spacing
+    away; with homologous pairing the share of the variance along the surface that the shape
+    explains."""
     face: NDArray[np.int64] | None = None
-    """(n,) of a mesh, the face that the image comes closest to; -1 for none."""
+    """(n,) for a mesh: the face closest to the image; -1 for none."""
     weights: NDArray[np.float64] | None = None
-    """(n, 3) of a mesh, the barycentric coordinates on that face."""
+    """(n, 3) for a mesh: barycentric coordinates on that face."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Alignment(_OverMirror):
-    """The shape laid so that its mirror plane is a coordinate plane."""
+    """The shape, moved so that its mirror plane is a coordinate plane."""
 
     operation = "align"
 
     @property
     def matrix(self) -> NDArray[np.float64]:
-        """(4, 4), a rotation and a shift, never a reflection: ``matrix @ (x, y, z, 1)``."""
+        """(4, 4) rigid motion, never a reflection: ``matrix @ (x, y, z, 1)``."""
         return self.statistics["matrix"]
 
 
@@ -283,9 +285,9 @@ class Symmetrized(_OverMirror):
     operation = "symmetrize"
 
     paired: NDArray[np.bool_]
-    """(n,) whether the point has a counterpart; else it stays."""
+    """(n,) whether the point has a counterpart; otherwise it did not move."""
     partner: NDArray[np.int64] | None = None
-    """(n,) with mirrored triangles the point that is its image, itself on the mirror."""
+    """(n,) with mirrored triangles: index of the point that is its image, its own on the mirror."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -296,7 +298,7 @@ class Remeshed(_OverMirror):
     operation = "remesh"
 
     partner: NDArray[np.int64]
-    """(n,) the point that is its image, itself on the mirror."""
+    """(n,) index of the point that is its image, its own on the mirror."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -345,17 +347,19 @@ class Illuminated(_OverMirror):
     operation = "illuminate"
 
     paths: NDArray[np.int64]
-    """(n,) how many reflected paths lead to the point."""
+    """(n,) number of reflected paths from the light to the point."""
     irradiance: NDArray[np.float64]
-    """(n,) their sum for a light of unit intensity, per square input unit: on the surface of a mesh,
+    """(n,) irradiance over all paths for a light of unit intensity, per square input unit: on the
+    surface of a mesh,
     across each path for a cloud; infinite in a focus."""
     reflection: NDArray[np.float64]
-    """(n, 3) where the shortest path meets the mirror, input units; NaN without one."""
+    """(n, 3) point where the shortest path meets the mirror, input units; NaN without one."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Straightened(_OverMirror):
-    """The shape with its mirror laid flat. ``statistics``: "normal" and "offset" of the plane that
+    """The shape, deformed so that its mirror is flat. ``statistics``: "normal" and "offset" of the
+    plane that
     the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
     nearest that has one."""
 
@@ -363,14 +367,14 @@ class Straightened(_OverMirror):
 
     @property
     def plane(self) -> Plane:
-        """The plane that the mirror is laid into."""
+        """The plane into which the mirror was flattened."""
         return Plane(self.statistics["normal"], self.statistics["offset"])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Completed(OperationResult):
-    """The shape with what is missing on one side filled in from the other, or what is missing of a turn
-    from the rest of it.
+    """The shape with missing parts added: images of the other side, or rotated copies about an
+    axis.
 
     ``statistics``: "added_points", "added_faces" and "seam_faces"; over a mirror why points are
     unmatched, as those of an asymmetry; about an axis how many "turns" were made and "axis_point",
@@ -382,7 +386,8 @@ class Completed(OperationResult):
     origin: NDArray[np.int64]
     """(n,) of each point: 0 original, 1 mirrored, 2 of the seam between them."""
     patch: Shape
-    """What was added, with the points of the rim that its faces touch; its own numbering."""
+    """The added part, with the boundary points of the shape that its faces use; it has its own
+    numbering."""
 
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
@@ -393,7 +398,7 @@ class Completed(OperationResult):
 
     @property
     def axis(self) -> Axis | None:
-        """The axis that it was turned about; None where a mirror was used."""
+        """The axis of the rotations; None if a mirror was used."""
         given = self.statistics
         if "axis_direction" not in given:
             return None

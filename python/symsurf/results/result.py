@@ -31,7 +31,7 @@ else:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Result(BaseResult, Generic[Kind_co]):
-    """What a detection found. No symmetry is a result too: one with a low score.
+    """The result of a detection. "No symmetry" is a result, too: one with a low score.
 
     ``detect_plane`` gives a ``Result[Plane]``, and so on.
     """
@@ -39,8 +39,9 @@ class Result(BaseResult, Generic[Kind_co]):
     method: str
     """The method that found it."""
     mirror: Kind_co | Any
-    """A ``Mirror``; None where none is found, and for methods that find surface points only. Of a
-    ``Plane`` the points x with ``normal @ x + offset == 0``: ``offset`` is minus the distance from the
+    """A ``Mirror``; None if none is found, and for methods that find surface points only. A
+    ``Plane`` has the points x with ``normal @ x + offset == 0``: ``offset`` is minus the distance
+    from the
     origin along the unit normal. ``signed_distance`` is positive on the side that the normal points to."""
     surface_points: NDArray[np.float64]
     """(m, 3) midpoints of the pairs, at most half a residual off the mirror; ``perpendicular``,
@@ -60,7 +61,7 @@ class Result(BaseResult, Generic[Kind_co]):
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
-    """Whatever else the method reports, such as "mapped_share", "missing_share" and
+    """Other figures of the method, such as "mapped_share", "missing_share" and
     "contradicted_share" of the points that the mirror moves (0 to 1, their sum is 1), "exact_share",
     those whose image is a point of the shape, "deviation", the median distance of mapped images from
     the shape's surface (input units), "evidence", whether the mirror maps the
@@ -82,15 +83,15 @@ class Result(BaseResult, Generic[Kind_co]):
 
     @property
     def shape(self) -> Shape:
-        """The shape as it was given. Raises InvalidInput of a candidate and of what ``load`` has read."""
+        """The input. Raises InvalidInput for a candidate and for a result that ``load`` has read."""
         if self.points is None:
             raise InvalidInput("the result has no points; those of the detection are needed")
         return Shape(self.points, self.faces, space=self.space)
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Of each point (n,) its "partner", the point that its image falls on, -1 for none, and the
-        "residual", the distance between them in input units, NaN for none."""
+        """For each point (n,): "partner", index of the point at its image, -1 for none; "residual",
+        the distance between both in input units, NaN for none."""
         partner = np.full(len(self.shape.points), -1)
         residual = np.full(len(partner), np.nan)
         partner[self.pairs[:, 0]] = self.pairs[:, 1]
@@ -99,7 +100,8 @@ class Result(BaseResult, Generic[Kind_co]):
 
     @property
     def point_count(self) -> int:
-        """How many points were given, those that are not finite and those that were thinned too."""
+        """Number of input points, including points that are not finite and points lost by
+        downsampling."""
         if "summarized_points" not in self.statistics:
             return len(self.points)
         return self.statistics["summarized_points"] + self.statistics.get("nonfinite_points", 0)
@@ -111,12 +113,12 @@ class Result(BaseResult, Generic[Kind_co]):
 
     @property
     def reason(self) -> str:
-        """Why, in a sentence; "" if no verdict was computed."""
+        """Reason of the verdict, in a sentence; "" if no verdict was computed."""
         return self.statistics.get("reason", "")
 
     @property
     def summary(self) -> dict[str, str]:
-        """What it says in a few words, by name: mirror, score, verdict, paired, median residual."""
+        """A short text per name: mirror, score, verdict, paired, median residual."""
         words = {"mirror": self.mirror.kind if self.mirror is not None else "none"}
         if "verdict" in self.statistics:
             words |= {"verdict": self.verdict, "reason": self.reason}
@@ -134,7 +136,7 @@ class Result(BaseResult, Generic[Kind_co]):
         return f"Result({', '.join(words)})"
 
     def to_json(self) -> dict[str, Any]:
-        """What the result says without its points: a few lines, however large the input."""
+        """The result without its points: a few lines, however large the input."""
         return self._outline() | {
             **super().to_json(),
             "candidates": [candidate._outline() for candidate in self.candidates],
@@ -181,7 +183,8 @@ class Result(BaseResult, Generic[Kind_co]):
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Result[Mirror]:
-        """What ``save`` has written as ``.json``, to the last digit, without ``points`` and ``faces``.
+        """Reads what ``save`` wrote as ``.json``, to the last digit, without ``points`` and
+        ``faces``.
 
         Raises InvalidParameter for another suffix, InvalidInput, naming the file, for one that is
         missing, broken or no result.
@@ -198,17 +201,18 @@ class Result(BaseResult, Generic[Kind_co]):
         camera: Sequence[float] | Any = None,
         score: bool = True,
     ) -> Plotter:
-        """Draws the object coloured by its asymmetry, how far each point lies from the other side's
-        surface, its mirror translucent, and the verdict above; needs PyVista.
+        """Draws the shape, coloured by the distance of each point from the mirrored other side,
+        with a translucent mirror and the verdict as title; needs PyVista.
 
         Args:
-            path: a PNG to write off-screen, whole or not at all; without it a window opens.
+            path: a PNG file to write, off-screen; None: opens a window.
             shape: another object with as many points, with its faces.
             points: its points (n, 3) alone; without both, the points and faces of the detection.
-            clim: the asymmetry, above 0 and in % of the diagonal, that the colours end at; without
-                it what 98 % of the points stay below, at least 0.1.
-            camera: a direction (3,) to look from, so that all is seen, or what PyVista takes for
-                ``Plotter.camera_position``, such as "xy"; without it across the mirror, from above.
-            score: False: without verdict and score above.
+            clim: upper end of the colour scale, above 0 and in % of the diagonal; None: the 98th
+                percentile, at least 0.1.
+            camera: a direction (3,) to look from, with all of the shape in view, or a value of
+                PyVista's ``Plotter.camera_position``, such as "xy"; None: across the mirror, from
+                above.
+            score: False: omit the title.
         """
         return plot(self, path, shape=shape, points=points, clim=clim, camera=camera, score=score)

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from ..base.plain import without_rounding
+
 _OF_DIAGONAL = "_of_diagonal"
 _UNMATCHED = "unmatched_"
 
@@ -38,8 +40,13 @@ def percent(share: float) -> str:
 
 
 def of_the_diagonal(share: float) -> str:
-    """In digits that a reader compares: what is nothing reads 0.000 %, not 4.3e-05 %."""
-    return f"{100 * share:.3f} % of the diagonal"
+    """In digits that a reader compares: rounding errors read 0.000 %, not 4.3e-05 % or -0.000 %."""
+    return f"{fixed(100 * share, 3)} % of the diagonal"
+
+
+def fixed(value: float, digits: int) -> str:
+    """With so many digits behind the point; what rounds to nothing is 0, not -0."""
+    return f"{round(value, digits) + 0:.{digits}f}"
 
 
 def figures(statistics: Mapping[str, Any]) -> Iterator[tuple[str, Any, float | None]]:
@@ -56,7 +63,12 @@ def value_text(name: str, value: Any, of_diagonal: float | None = None) -> str:
         return f"{value:.4g} ({of_the_diagonal(of_diagonal)})"
     if name.endswith("_share") or name.startswith(_UNMATCHED):
         return percent(value)
-    if isinstance(value, np.ndarray):
-        rows = ["  ".join(f"{number:.6g}" for number in row) for row in np.atleast_2d(value)]
+    if isinstance(value, (list, np.ndarray)):
+        numbers = np.atleast_2d(without_rounding(value))
+        rows = ["  ".join(f"{number:.6g}" for number in row) for row in numbers]
         return "\n".join(rows)
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    if value is None:  # in a record, what is no number
+        return "nan"
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1e4 else f"{value:.6g}"
+    return str(value)

@@ -26,7 +26,8 @@ def save_matches(
     external_files: bool = False,
     threads: int = 0,
 ) -> None:
-    """Writes what ``match_chunks`` gives to a file of NumPy, one row per point: "partner" and "residual".
+    """Writes the output of ``match_chunks`` to a NumPy file, one row per point: "partner" and
+    "residual".
 
     ``numpy.load(path, mmap_mode="r")`` reads it in place. Little is in memory at any time, and the
     file is written whole or not at all.

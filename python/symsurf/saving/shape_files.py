@@ -230,9 +230,9 @@ def _left_out(given: Shape, suffix: str) -> list[str]:
         return []
     name = suffix[1:].upper()
     kept = (
-        f"{name} is written anew: of the {described.name} file points and faces are kept, none of "
+        f"converted from {described.name} to {name}: points and faces are kept; normals, colours, "
     )
-    return [kept + "its normals, colours, textures, materials and other attributes"]
+    return [kept + "textures, materials and other attributes are not"]
 
 
 def _reached(source: SourceFile, output: Path, name: str) -> str | None:

@@ -20,7 +20,7 @@ _COLOURS = (
     "brings: a Shape, a file (PLY, OBJ, OFF, columns, VTK's), a mesh of PyVista, trimesh or Open3D."
 )
 _DOCUMENTED = {
-    "faces": "(m, 3) indices of points, where ``shape`` does not bring them.",
+    "faces": "(m, 3) indices of points, if ``shape`` has none of its own.",
     "colours": _COLOURS,
     "nonfinite": f"{documentation(Search)['nonfinite']}.",
     **{name: f"{text}." for name, text in documentation(Reading).items()},

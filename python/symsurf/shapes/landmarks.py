@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Landmarks:
-    """The landmarks of one specimen, as its file has them."""
+    """The landmarks of one specimen, as in its file."""
 
     points: NDArray[np.float64]
     """(k, 3) in the unit and the axes of the file, (k, 2) of flat ones; NaN where one is missing."""

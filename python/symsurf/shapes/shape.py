@@ -28,7 +28,7 @@ class SourceFile:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """What a file holds, in its own units and order."""
+    """A mesh or point cloud, in the units and order of its file."""
 
     points: NDArray[np.float64]
     """(n, 3), as they stand in the file: some may not be finite."""
@@ -59,9 +59,8 @@ class Shape:
     @classmethod
     def from_pyvista(cls, mesh: pyvista.DataSet) -> Shape:
         """The points of a data set, the faces of its flat cells as triangles, its point normals and
-        colours: the active point scalars, where these are whole numbers of 3 or 4 channels.
-
-        Raises InvalidInput for what is no data set of PyVista; ImportError without PyVista.
+        colours: the active point scalars, if they are integers with 3 or 4 channels. Raises
+        InvalidInput for other objects than data sets of PyVista; ImportError without PyVista.
         """
         require("PyVista's meshes", "pyvista")
         from .grids import colours_of, shape_of

@@ -152,7 +152,7 @@ LOST_NORMALS = "the normals are left out, which are not those of the new shape"
 
 
 def lost_arrays(format_name: str, names: Iterable[str]) -> str:
-    return f"{format_name} holds no {', '.join(names)}; PLY and VTP do"
+    return f"{format_name} cannot hold the arrays {', '.join(names)}; PLY and VTP can"
 
 
 def texts(values: NDArray[Any]) -> list[bytes]:
