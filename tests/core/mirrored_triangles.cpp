@@ -208,7 +208,7 @@ TEST(MirroredTriangles, RefuseWhatCannotBeMirrored) {
   expect_error<InvalidInput>("have no image over this sphere", [&] {
     symmetrized(b.points, b.faces, Sphere(Vector3(-1.2, 0, 0), 0.5));
   });
-  expect_error<InvalidParameter>("kept then, not mirrored", [&] {
+  expect_error<InvalidParameter>("allowed with these is kept", [&] {
     symmetrized(b.points, b.faces, middle, {{"triangles", "mirrored"}, {"strength", 0.5}});
   });
 }
