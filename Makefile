@@ -42,7 +42,7 @@ docs:
 paraview:
 	@.ci/setup paraview
 	@echo "The plugin: $$(ls -d $(CURDIR)/build/paraview/lib/paraview-*/plugins/SymsurfPlugin)/SymsurfPlugin.so"
-	@echo "In ParaView: Tools > Manage Plugins > Load New; in pvpython: LoadPlugin(\"...\", remote=False)"
+	@echo "In ParaView: Tools > Manage Plugins > Load New; in pvpython: LoadPlugin(\"...\", remote=False, ns=globals())"
 	@echo "Loaded at every start: PV_PLUGIN_PATH=$$(ls -d $(CURDIR)/build/paraview/lib/paraview-*/plugins/SymsurfPlugin) paraview"
 
 test:
