@@ -49,8 +49,7 @@ std::vector<UnitPlane> half_way_planes() {
 std::vector<UnitPlane> candidate_mirrors(const Cloud& cloud, const Context& context) {
   const Surfels& surfels = cloud.patches(patches, context);
   const SurfelMap map(surfels);
-  std::vector<PlaneCandidate> candidates =
-      candidate_planes(surfels, map, usual_search, 2 * best_planes);
+  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, 2 * best_planes);
   suppress_non_maxima(candidates, alike, best_planes);
   for (int axis = 0; axis < 3; ++axis) candidates.push_back({{Vector3::Unit(axis), 0}, 0});
   suppress_non_maxima(candidates, alike, best_planes + 3);

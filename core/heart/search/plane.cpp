@@ -25,7 +25,10 @@ namespace symsurf {
 namespace {
 
 constexpr double shortest_chord = 0.04;
-constexpr double facing_cosine = 0.88;                           // 28 degrees
+constexpr double facing_cosine = 0.88;  // 28 degrees
+constexpr Index seeds = 200;            // surfels that pairs are made of
+constexpr double glanced_at = 3000;     // planes of these, on average
+constexpr double looked_at = 800, looked_at_closely = 150;
 constexpr Index glance = 8, first_look = 24, second_look = 100;  // surfels a candidate is tried on
 constexpr double search_tolerance = 0.015;
 constexpr double least_explained = 0.1;
@@ -52,8 +55,8 @@ void keep_best(std::vector<PlaneCandidate>& candidates, double count) {
 }  // namespace
 
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
-                                             const Search& search, Index count) {
-  const Index step = std::max<Index>(1, surfels.size() / search.seeds);
+                                             Index count) {
+  const Index step = std::max<Index>(1, surfels.size() / seeds);
   const Index glancing = std::max<Index>(1, surfels.size() / glance);
   const Index coarse = std::max<Index>(1, surfels.size() / first_look);
   struct Pair {
@@ -77,7 +80,7 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
     }
 
   std::vector<PlaneCandidate> found;
-  const double last_ticket = search.pairs / informative * std::numeric_limits<std::uint32_t>::max();
+  const double last_ticket = glanced_at / informative * std::numeric_limits<std::uint32_t>::max();
   for (const auto& [ticket, i, j] : pairs) {
     if (ticket > last_ticket) continue;
     const UnitPlane plane = plane_between(surfels[i].position, surfels[j].position);
@@ -85,13 +88,13 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
         support_share(surfels, map, plane, search_tolerance, glancing, contradiction);
     if (support > least_explained) found.push_back({plane, support});
   }
-  keep_best(found, search.promising);
+  keep_best(found, looked_at);
 
   for (PlaneCandidate& candidate : found)
     candidate.support =
         support_share(surfels, map, candidate.shape, search_tolerance, coarse, contradiction);
   std::erase_if(found, [](const PlaneCandidate& c) { return c.support <= least_explained; });
-  keep_best(found, search.closer);
+  keep_best(found, looked_at_closely);
   const Index fine = std::max<Index>(1, surfels.size() / second_look);
   for (PlaneCandidate& candidate : found)
     candidate.support =
@@ -115,19 +118,10 @@ constexpr double thin = 2;  // patches: the standard deviation of a body whose s
 constexpr double alike_planes = 0.05;  // planes closer than this are one
 constexpr double beside_exact = 0.3;   // of the best support, below which none is a candidate then
 
-struct Effort {
-  Search search;
-  Index started;          // candidates that are refined on the surfels, roughly
-  Index fitted;           // of these, are fitted to the full cloud
-  Index finalists;        // of these, are fitted carefully
-  double far_below_best;  // below the best by this share of it: not worth fitting
-};
-
-constexpr Effort usual{usual_search, 20, 10, 6, 0.6};
-// For clouds of which the usual search finds no plane that maps more: where most of one side is
-// missing, few pairs define the mirror, and patches distinguish it badly from others.
-constexpr double unexplained = 0.4;
-constexpr Effort thorough{{400, 12000, 3200, 600}, 60, 30, 12, 0.7};
+constexpr Index started = 20;   // candidates that are refined on the surfels, roughly
+constexpr Index fitted = 10;    // of these, are fitted to the full cloud
+constexpr Index finalists = 6;  // of these, are fitted carefully
+constexpr double far_below_best_on_surfels = 0.6;  // by this share of it: not worth fitting
 
 double below(double best, double share) { return best - share * std::max(best, least_best); }
 
@@ -138,16 +132,15 @@ void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) 
 
 // On the thinned cloud alone.
 std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const SurfelMap& map,
-                                             const Effort& effort, const Context& context) {
-  std::vector<PlaneCandidate> candidates =
-      candidate_planes(surfels, map, effort.search, effort.started);
+                                             const Context& context) {
+  std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
   if (candidates.empty()) candidates.push_back({UnitPlane{}, 0});
   for (PlaneCandidate& candidate : candidates)
     candidate = refined_on_surfels(surfels, map, candidate, 0.04, 0.02, 3, 3, contradiction);
-  suppress_non_maxima(candidates, alike_planes, effort.started);
+  suppress_non_maxima(candidates, alike_planes, started);
   context.report(0.5);
-  drop_far_below_best(candidates, effort.far_below_best);
-  suppress_non_maxima(candidates, alike_planes, effort.fitted);
+  drop_far_below_best(candidates, far_below_best_on_surfels);
+  suppress_non_maxima(candidates, alike_planes, fitted);
   context.report(1);
   return candidates;
 }
@@ -162,9 +155,8 @@ void improve(std::vector<PlaneCandidate>& candidates, const Context& context, co
 }
 
 // Fitted to the full cloud, and ranked by the share of it that they map.
-void fit_to_all(const Effort& effort, std::vector<PlaneCandidate>& candidates,
-                const Refinement& refinement, const MirrorScore& score, const PrincipalFrame& frame,
-                const Context& context) {
+void fit_to_all(std::vector<PlaneCandidate>& candidates, const Refinement& refinement,
+                const MirrorScore& score, const PrincipalFrame& frame, const Context& context) {
   struct Look {
     Fit fit;
     Index stride;      // of the score's samples
@@ -176,7 +168,7 @@ void fit_to_all(const Effort& effort, std::vector<PlaneCandidate>& candidates,
       const UnitPlane plane = refinement.fitted(c, look.fit).shape;
       return PlaneCandidate{plane, score.fit(in_input_units(plane, frame), look.stride).share};
     });
-    suppress_non_maxima(candidates, alike_planes, effort.finalists);
+    suppress_non_maxima(candidates, alike_planes, finalists);
     drop_far_below_best(candidates, look.far_below);
     done += 0.5;
   }
@@ -184,17 +176,10 @@ void fit_to_all(const Effort& effort, std::vector<PlaneCandidate>& candidates,
 
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
-                                       const SurfelMap& map, const Refinement& refinement,
-                                       const MirrorScore& score,
+                                       const Refinement& refinement, const MirrorScore& score,
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
-  fit_to_all(usual, candidates, refinement, score, cloud.frame, context.stage(0, 0.4));
-  if (candidates.front().support < unexplained) {
-    std::vector<PlaneCandidate> more =
-        promising_planes(surfels, map, thorough, context.stage(0.4, 0.6));
-    fit_to_all(thorough, more, refinement, score, cloud.frame, context.stage(0.6, 0.7));
-    candidates.insert(candidates.end(), more.begin(), more.end());
-  }
+  fit_to_all(candidates, refinement, score, cloud.frame, context.stage(0, 0.7));
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)
@@ -236,7 +221,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   const Surfels& fine = cloud.finer_patches(sample_size, context.stage(0.1, 0.2));
   const SurfelMap map(coarse);
   const std::vector<PlaneCandidate> promising =
-      promising_planes(coarse, map, usual, context.stage(0.2, 0.25));
+      promising_planes(coarse, map, context.stage(0.2, 0.25));
 
   const NearestPoints points(cloud, context.stage(0.25, 0.4));
   const Refinement refinement(cloud, points, coarse, fine);
@@ -268,8 +253,7 @@ Result run_plane(const Cloud& cloud, const ParameterValues& values, const Contex
   }
   std::vector<UnitPlane> more;
   if (!others.empty()) {
-    more =
-        searched_planes(cloud, coarse, map, refinement, score, others, context.stage(0.46, 0.55));
+    more = searched_planes(cloud, coarse, refinement, score, others, context.stage(0.46, 0.55));
     if (is_mesh) fit_to_vertices(more, cloud, context.stage(0.55, 0.55));
     std::erase_if(more, [&](const UnitPlane& plane) {
       return is_one_of(plane, planes) || (is_exact && is_flat && std::abs(plane.normal.z()) > 0.5);

@@ -13,19 +13,10 @@ using PlaneCandidate = Candidate<UnitPlane>;
 /// How much a surfel's image beside the cloud counts against a plane: for support_share().
 inline constexpr double contradiction = 0.9;
 
-/// How much to try.
-struct Search {
-  Index seeds;       ///< surfels that pairs are made of
-  double pairs;      ///< whose planes are glanced at
-  double promising;  ///< of these, that are looked at
-  double closer;     ///< of these, that are looked at more closely
-};
-inline constexpr Search usual_search{200, 3000, 800, 150};
-
 /// Planes between pairs of surfels whose normals mirror each other, the best `count` that
 /// differ first.
 std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const SurfelMap& map,
-                                             const Search& search, Index count);
+                                             Index count);
 
 /// Drops planes that mirror the cloud nearly as a better one does; best first.
 void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count);

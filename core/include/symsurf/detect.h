@@ -57,7 +57,8 @@ struct Result {
   /// "missing_share" and "contradicted_share" of the points that the mirror moves, 0 to 1, which
   /// sum to 1; "exact_share": those whose image is a point of the shape; "deviation": the median
   /// distance of mapped images from the shape's surface, input units; "evidence", 0 to 1: whether
-  /// the mirror maps the shape better than the same mirror turned and shifted; of any shape
+  /// the mirror maps the shape better than the same mirror turned and shifted;
+  /// "deciding_share", the share of the points that tell it from those; of any shape
   /// "log_odds" that chance did not make it, in nats, by the smoothness of its middle; "angle_sd"
   /// and "offset_sd": standard deviations of the mirror's orientation about its middle, degrees,
   /// and along its normal, input units; "explained_share" and "covered_share", older names of the

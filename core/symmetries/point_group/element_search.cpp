@@ -346,7 +346,7 @@ std::vector<FoundDirection> find_planes(const SymmetryTest& test) {
   std::vector<GroupPose> starts;
   for (int axis = 0; axis < 3; ++axis)
     starts.push_back(GroupPose::along(Vector3::Unit(axis), Vector3::Zero()));
-  for (const PlaneCandidate& candidate : candidate_planes(test.coarse(), map, usual_search, 40))
+  for (const PlaneCandidate& candidate : candidate_planes(test.coarse(), map, 40))
     starts.push_back(
         GroupPose::along(candidate.shape.normal, -candidate.shape.offset * candidate.shape.normal));
   std::vector<std::pair<double, GroupPose>> rough;

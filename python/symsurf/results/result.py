@@ -65,8 +65,8 @@ class Result(BaseResult, Generic[Kind_co]):
     "contradicted_share" of the points that the mirror moves (0 to 1, their sum is 1), "exact_share",
     those whose image is a point of the shape, "deviation", the median distance of mapped images from
     the shape's surface (input units), "evidence", whether the mirror maps the
-    shape better than the same mirror turned and shifted (0 to 1), and, where there are some, how many
-    "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
+    shape better than the same mirror turned and shifted (0 to 1), "deciding_share", the share of the
+    points that tell it from those, and, where there are some, how many "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
     have no partners.
     "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
     cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
