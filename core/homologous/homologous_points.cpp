@@ -37,18 +37,22 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
     return normalised(map.images(own, context));
   };
   std::vector<Index> table(positions.rows(), -1);
-  const auto look_up = [&](const Points& displacements, const Context& stage) {
+  const auto look_up = [&](const Displacements& displacements, const Context& stage) {
     if (!faces.empty())
       table = vertex_table(positions, mirrored, mesh.manifold_faces(), displacements, stage);
   };
-  look_up(Points::Zero(positions.rows(), 3), first);
+  // Where nothing is to be estimated the table may slide as far as it ever may without.
+  look_up({Points::Zero(positions.rows(), 3),
+           Eigen::VectorXd::Constant(positions.rows(), estimates ? 0 : usual_slide / 2),
+           {}},
+          first);
   if (estimates && *std::min_element(table.begin(), table.end()) < 0) {
     const Displacements moved = displacement_process(positions, mirrored, triangles, mesh, image_of,
                                                      context.stage(0.2, 0.9));
     found.deviations = unit * moved.deviations(distinct.number);
     found.known = moved.known(distinct.number);
     found.displacements = unit * moved.mean(distinct.number, Eigen::indexing::all);
-    look_up(moved.mean, context.stage(0.9, 1));
+    look_up(moved, context.stage(0.9, 1));
   }
   for (Index i = 0; i < points.size(); ++i)
     if (const Index partner = table[distinct.number[i]]; partner >= 0) {

@@ -16,12 +16,8 @@ namespace symsurf {
 /// this; and that distance is the same in any pose.
 constexpr double box_of_radii = 4;
 
-/// Of each vertex the one that mirrors it, where both sides have one triangulation: of the maps of
-/// each connected part onto itself or another the one that is nearest to displacements; -1 where
-/// faces differ, and for parts that have no map of at least half of their vertices.
-/// Lengths are in diagonals.
-std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
-                                const Points& displacements, const Context& context);
+/// Of vertices at the most, diagonals.
+constexpr double usual_slide = 0.01;
 
 /// The displacements of points to their homologous points, across the surface and along it.
 struct Displacements {
@@ -29,6 +25,14 @@ struct Displacements {
   Eigen::VectorXd deviations;  ///< standard, of the part along the surface
   Eigen::VectorXd known;       ///< share of its variance that the shape explains, 0 to 1
 };
+
+/// Of each vertex the one that mirrors it, where both sides have one triangulation: of the maps of
+/// each connected part onto itself or another the one that is nearest to displacements, as far as
+/// these are certain; -1 where faces differ, and for parts that have no map of at least half of
+/// their vertices.
+/// Lengths are in diagonals.
+std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
+                                const Displacements& displacements, const Context& context);
 
 /// Of points, their images; NaN where there are none.
 using ImageOf = std::function<Points(const Points&)>;

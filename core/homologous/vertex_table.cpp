@@ -72,8 +72,7 @@ SurfaceGraph::SurfaceGraph(Index vertices, TrianglesView faces) : begin_(vertice
 }
 
 constexpr Index table_grain = 1024;
-constexpr int most_starts = 40;       // a connected part: one in fifteen may be right
-constexpr double usual_slide = 0.01;  // of the displacements, diagonals
+constexpr int most_starts = 40;  // a connected part: one in fifteen may be right
 // Shares of the vertices of a part. An icosphere turned at random was taken to one of its own
 // mirrors with 0.40 of it close; where a side moved by 0.04 diagonals 0.47 and more are.
 constexpr double least_close = 0.45;
@@ -88,13 +87,19 @@ using Corner = std::array<std::int32_t, 3>;  // a vertex and the two others of a
 class MirrorMap {
  public:
   MirrorMap(PointsView points, PointsView images, const SurfaceGraph& graph,
-            const Points& displacements, const Context& context)
+            const Displacements& displacements, const Context& context)
       : images_(images),
         graph_(graph),
-        targets_(points.matrix() + displacements.matrix()),
+        targets_(points.matrix() + displacements.mean),
+        slides_(2 * displacements.deviations),
         nearest_(points.size()),
         table_(points.size(), -1),
         best_(table_) {
+    for (Index i = 0; i < points.size(); ++i) {
+      for (const Index j : graph.neighbours(i))
+        slides_[i] = std::max(slides_[i], (points[i] - points[j]).norm() / 2);
+      slides_[i] = std::min(slides_[i], usual_slide);
+    }
     const PointTree tree(images, context.stage(0, 0.3));
     parallel_for(context.stage(0.3, 1), points.size(), table_grain, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i)
@@ -274,7 +279,7 @@ class MirrorMap {
       edges += static_cast<double>(graph_.neighbours(i).size());
       if (!is_sound(i)) continue;
       kept += static_cast<double>(kept_edges(i));
-      const double off = (images_[table_[i]].transpose() - targets_.row(i)).norm() / usual_slide;
+      const double off = (images_[table_[i]].transpose() - targets_.row(i)).norm() / slides_[i];
       ++sound;
       close += 1 / (1 + off * off);
       nearest += table_[i] == nearest_[i];
@@ -288,13 +293,14 @@ class MirrorMap {
   PointsView images_;
   const SurfaceGraph& graph_;
   Points targets_;
+  Eigen::VectorXd slides_;  // that are as likely as not, diagonals
   std::vector<Index> nearest_, table_, best_, joined_;
 };
 
 }  // namespace
 
 std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
-                                const Points& displacements, const Context& context) {
+                                const Displacements& displacements, const Context& context) {
   const SurfaceGraph graph(points.size(), faces);
   MirrorMap map(points, images, graph, displacements, context);
   std::vector<bool> is_known(points.size(), false);
