@@ -24,16 +24,11 @@ colours.ApplyPreset("Cool to Warm", True)
 colours.RescaleTransferFunction(0, 0.14)
 head.SetScalarBarVisibility(view, True)
 bar = simple.GetScalarBar(colours, view)
-bar.Title, bar.ComponentTitle = "Distance from the image to its partner", ""
 bar.TitleColor = bar.LabelColor = [0, 0, 0]
 bar.WindowLocation = "Lower Center"
 bar.Orientation = "Horizontal"
 
-mirror = simple.Show(detection[1], view)
-mirror.ColorArrayName = ["POINTS", ""]
-mirror.DiffuseColor = mirror.AmbientColor = [0.2, 0.55, 0.3]
-mirror.Opacity = 0.45
-mirror.Representation = "Surface"
+simple.Show(detection[1], view)
 
 view.CameraPosition = [3.4, -5.2, 2.4]
 view.CameraFocalPoint = [0, 0, -0.15]

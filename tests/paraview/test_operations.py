@@ -120,3 +120,16 @@ def test_colours_of_the_asymmetry_lie_about_0(
     assert answer["legend"] == "Signed asymmetry"
     assert np.ptp(answer["nan"]) == 0  # grey
     assert answer["own"]["colours"] == [0, 1]
+
+
+def test_mirrors_are_translucent_and_legends_name_what_was_found(
+    run_host: Callable[..., Any], environment: dict[str, str]
+) -> None:
+    with screen(environment) as seen:
+        answer = run_host(f"env DISPLAY={seen['DISPLAY']} pvpython", "display.py")
+    assert answer["several"]["opacity"] == 0.4 and answer["elements"]["opacity"] == 0.5
+    assert answer["several"]["array"] == ["CELLS", "Rank"] and "Rank" not in answer["one"]
+    assert answer["elements"]["array"] == ["CELLS", "ElementOrder"]
+    assert answer["own"] == 0.9  # what is shown again stays as it was made
+    assert answer["shape"]["legend"].startswith("plane, score 1.00, found\n")
+    assert answer["elements"]["legend"].startswith("D6h, score ")

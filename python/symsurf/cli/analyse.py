@@ -55,15 +55,14 @@ class AnalysisCommand:
         add_output(
             group,
             metavar="PATH",
-            help="of one file: write what is found to this file, in the format of its suffix; else to "
-            "this folder, one file for each",
+            help="with one file: write the result to this file, in the format of its suffix; otherwise "
+            "to this folder, one file per input",
         )
         group.add_argument(
             "--format",
             metavar="WORD",
-            help=f"in a folder: {' or '.join(name[1:] for name in self._formats)}; json holds all "
-            "that is found, ply, vtp and glb the shape with what the analysis gives each point; default "
-            "json",
+            help=f"in a folder: {' or '.join(name[1:] for name in self._formats)}; json holds the whole "
+            "result, ply, vtp and glb the shape with the arrays of the analysis; default json",
         )
         for name, content in self._tables.items():
             group.add_argument(

@@ -45,7 +45,7 @@ def add_files(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--input-format",
         metavar="WORD",
-        help="of the files, such as ply or ply.gz, in place of their suffixes; standard input needs it",
+        help="read the files as this format, such as ply or ply.gz; standard input needs it",
     )
     add_options(group, Reading)
 
@@ -81,8 +81,8 @@ def add_batch_options(parser: argparse.ArgumentParser, output: Group) -> None:
     group.add_argument(
         "--shard",
         metavar="I/N",
-        help="work on every N-th file from the I-th on, I from 1 to N, as a job of an array that is "
-        "given the same files in each; `symsurf table merge` makes one table of theirs",
+        help="process every N-th file, from the I-th on (I from 1 to N): for a job array in which all jobs "
+        "get the same files; `symsurf table merge` merges their tables",
     )
     add_table_options(group)
 
@@ -92,25 +92,31 @@ def add_table_options(parser: Group) -> None:
         "--table",
         type=Path,
         metavar="FILE",
-        help="write a CSV with one row per file, failed ones too",
+        help="write a CSV with one row per file, also for failed files",
     )
     parser.add_argument(
         "--resume",
         action="store_true",
-        help="keep what the table has, and do the other files and those that failed; without a table "
-        "begin one",
+        help="keep the rows of the table and process the other files and those that failed; without a "
+        "table start one",
     )
     parser.add_argument(
         "--json", action="store_true", help="print one JSON object per file, each on a line"
     )
     parser.add_argument(
-        "--jobs", default="1", metavar="N", help="files worked on at once; default %(default)s"
+        "--jobs",
+        default="1",
+        metavar="N",
+        help="number of files processed at once; default %(default)s",
     )
     parser.add_argument(
-        "--threads", default="0", metavar="N", help="of each job; 0: all there are, divided"
+        "--threads",
+        default="0",
+        metavar="N",
+        help="number of threads per job; 0: all, divided among the jobs",
     )
     parser.add_argument(
-        "--unit", default="", metavar="WORD", help="of the coordinates, such as mm: a label"
+        "--unit", default="", metavar="WORD", help="unit of the coordinates, such as mm: a label"
     )
 
 

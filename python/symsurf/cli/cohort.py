@@ -39,21 +39,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         type=Path,
         metavar="FILE",
-        help="landmarks, .mrk.json, .fcsv, .tps, .pts or .csv, of one individual each, of a TPS as many "
-        "as it holds; or meshes of one topology",
+        help="landmarks, .mrk.json, .fcsv, .tps, .pts or .csv, of one individual per file, a TPS also of "
+        "several; or meshes of one topology",
     )
     parser.add_argument(
         "--pairs",
         type=Path,
         metavar="FILE",
-        help="a CSV of landmarks that mirror each other, two a row, by name or by number from 0 on; "
-        "without it their names tell, as l_eye and r_eye, else the mirror of their mean, which is found",
+        help="a CSV of landmarks that mirror each other, two per row, by name or by number from 0; "
+        "default: by names such as l_eye and r_eye, otherwise by the mirror found for their mean",
     )
     parser.add_argument(
         "--replicates",
         default="1",
         metavar="N",
-        help="measurements of each individual, one behind the other among the files; default %(default)s",
+        help="number of measurements per individual, in consecutive files; default %(default)s",
     )
     parser.add_argument("--table", type=Path, metavar="FILE", help="write the ANOVA, CSV")
     parser.add_argument(
@@ -63,8 +63,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--report",
         type=Path,
         metavar="FILE",
-        help="write a page, HTML, with the ANOVA, mean and deviation of the asymmetry at each landmark or, "
-        "of meshes, in 3D, and the individuals",
+        help="write an HTML page with the ANOVA, the individuals, and mean and standard deviation of the "
+        "asymmetry at each landmark, for meshes in 3D",
     )
     parser.add_argument(
         "--compare",
@@ -73,9 +73,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "individuals; default: the most asymmetric",
     )
     parser.add_argument(
-        "--permutations", default="999", metavar="N", help="for p; default %(default)s"
+        "--permutations",
+        default="999",
+        metavar="N",
+        help="number of permutations for p; default %(default)s",
     )
-    parser.add_argument("--seed", default="0", metavar="N", help="of the permutations")
+    parser.add_argument("--seed", default="0", metavar="N", help="random seed of the permutations")
     parser.add_argument("--json", action="store_true", help="print a JSON object")
 
 

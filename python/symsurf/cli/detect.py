@@ -38,8 +38,8 @@ def add_arguments(parser: Parser) -> None:
     add_output(
         group,
         metavar="PATH",
-        help="of one file: write the result to this file, in the format of its suffix, such as "
-        "mirror.stl; else to this folder, under the name of each file and the suffixes of --formats",
+        help="with one file: write the result to this file, in the format of its suffix, such as "
+        "mirror.stl; otherwise to this folder, under the name of each file and the suffixes of --formats",
     )
     group.add_argument(
         "--formats",
@@ -55,21 +55,22 @@ def add_arguments(parser: Parser) -> None:
         "--in-chunks",
         action="store_const",
         const=True,
-        help=f"read LAS, LAZ, E57, NPY, PLY, PVTP and VTKHDF in chunks and thin them as they pass; files of "
-        f"more than {LARGE / 1e6:.0f} million points are read so anyway",
+        help=f"read LAS, LAZ, E57, NPY, PLY, PVTP and VTKHDF in chunks and downsample them; default for "
+        f"files of more than {LARGE / 1e6:.0f} million points",
     )
     group.add_argument(
         "--use-normals",
         action="store_true",
-        help="hand the normals in the files to the method, as lines; a file without any is an error",
+        help="pass the normals in the files to the method; their sign is ignored; a file without normals is "
+        "an error",
     )
     group.add_argument(
-        "--ignore-faces", action="store_true", help="let the points alone find the mirror of a mesh"
+        "--ignore-faces", action="store_true", help="search with the points of a mesh alone"
     )
     group.add_argument(
         "--downsample",
         metavar="DIVISOR",
-        help="work on about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
+        help="downsample to about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
         "are then pairs of these",
     )
     add_absolute(parser)

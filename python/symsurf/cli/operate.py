@@ -44,16 +44,16 @@ class OperationCommand:
         add_output(
             group,
             metavar="PATH",
-            help="of one file: write the shape to this file, in the format of its suffix, such as x.stl; "
-            "else write the shapes to this folder; either with what the operation gives each point",
+            help="with one file: write the shape to this file, in the format of its suffix, such as x.stl; "
+            "otherwise write the shapes to this folder; with the arrays of the operation if possible",
         )
         is_in_arrays = not makes_shape(self._operation)
-        other = ", PLY for files in other formats: these hold no arrays" if is_in_arrays else ""
+        other = ", or PLY, since other formats hold no arrays" if is_in_arrays else ""
         group.add_argument(
             "--format",
             metavar="WORD",
-            help=f"in a folder: input, that of the file, which is kept but for what changes{other}; "
-            f"or one of {', '.join(name[1:] for name in SHAPES)}: points and faces, in the first three "
+            help=f"in a folder: input, the format of the file, of which all else is kept{other}; "
+            f"or one of {', '.join(name[1:] for name in SHAPES)}: points and faces, the first three "
             "with arrays; default input",
         )
         add_batch_options(parser, group)
@@ -61,7 +61,7 @@ class OperationCommand:
             "--mirror",
             type=Path,
             metavar="FILE",
-            help="use this mirror for all files, and find none: JSON that detect has written, or "
+            help="use this mirror for all files instead of finding one: JSON written by detect, or "
             '{"mirror": {"kind": "sphere", "centre": [0, 0, 0], "radius": 1}}',
         )
         add_absolute(parser)

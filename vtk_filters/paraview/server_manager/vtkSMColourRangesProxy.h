@@ -1,6 +1,7 @@
 /**
  * @class vtkSMColourRangesProxy
- * @brief A filter's proxy that chooses the range of the colours of its arrays.
+ * @brief A filter's proxy that chooses the colours of its arrays and how its outputs are shown at
+ * first.
  *
  * Each hint of the proxy, `<ColourRange array="..." port="..." limit="..." signed="..."
  * title="..."/>`, gives a point array of an output port a colour map from 0 to m, or one from -m to
@@ -10,9 +11,16 @@
  * are grey, and the legend in the active view has the title. ParaView does not rescale the map to
  * the data's range by itself; where the user has changed that, or the range, it stays as the user
  * wants it.
+ *
+ * `<Display port="..." opacity="..." array="..." least_different="..." title="..."/>` makes an
+ * output translucent when it is first shown, and colours it by a cell array if that has so many
+ * different values, 1 or 2, otherwise blue. `<Summary fields="Kind Score Verdict"/>` names field
+ * data of the first output that titles of legends have in front.
  */
 #ifndef vtkSMColourRangesProxy_h
 #define vtkSMColourRangesProxy_h
+
+#include <string>
 
 #include "vtkSMSourceProxy.h"
 #include "vtkSymsurfServerManagerModule.h"  // for the export macro
@@ -35,6 +43,11 @@ class VTKSYMSURFSERVERMANAGER_EXPORT vtkSMColourRangesProxy : public vtkSMSource
   void operator=(const vtkSMColourRangesProxy&) = delete;
 
   void SetColours(vtkPVXMLElement* hint);
+  void SetDisplay(vtkPVXMLElement* hint, vtkSMProxy* representation);
+  void ShowAtFirst(vtkObject* manager, unsigned long event, void* registered);
+  std::string Summary();
+
+  bool IsObserving = false;
 };
 
 #endif
