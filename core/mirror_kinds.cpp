@@ -102,6 +102,8 @@ struct Kind {
 
 const std::array kinds{
     Kind{"plane", [](const Values& v) { return made<Plane>(v, "normal", "offset"); }},
+    Kind{"oblique plane",
+         [](const Values& v) { return made<ObliquePlane>(v, "normal", "offset", "direction"); }},
     Kind{"sphere", [](const Values& v) { return made<Sphere>(v, "centre", "radius"); }},
     Kind{"cylinder", [](const Values& v) { return made<Cylinder>(v, "point", "axis", "radius"); }},
     Kind{"quadric",

@@ -35,7 +35,7 @@ def detectors_stub() -> str:
         detectors,
         "from numpy.typing import ArrayLike",
         "",
-        "from .._core import Cylinder, FreeForm, HeightField, Mirror, Plane, Quadric, Sphere",
+        "from .._core import Cylinder, FreeForm, HeightField, Mirror, ObliquePlane, Plane, Quadric, Sphere",
         "from ..results import Result",
         "from . import Progress",
     )

@@ -130,6 +130,16 @@ def main(folder):
               straight.faces, 3),
     )  # fmt: skip
 
+    slanted = straight.points + np.tan(np.radians(30)) * straight.points[:, :1] * (0, 0, 1)
+    oblique = symsurf.detect(slanted, method="auto").mirror
+    picture(
+        folder / "sheared_ant.png",
+        Panel("sheared by 30 degrees", slanted, "plane", above, straight.faces, 3),
+        Panel("the same", slanted, "auto", above, straight.faces, 3),
+        Panel("straightened over that plane", symsurf.bend(slanted, oblique), "plane", above,
+              straight.faces, 3),
+    )  # fmt: skip
+
     def wavy(x):
         return 0.25 + 0.12 * (1 + np.sin(3 * x))
 

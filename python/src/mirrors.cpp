@@ -3,6 +3,7 @@
 #include <symsurf/mirrors.h>
 
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "arrays.h"
@@ -193,6 +194,25 @@ void bind_mirrors(py::module_& module) {
           "A right-handed frame (3, 3), a unit vector a row: two within the plane, then the\n"
           "normal. The first is orthogonal to the coordinate axis that the normal leans towards\n"
           "least; of equal ones to the first.");
+
+  bind_kind<ObliquePlane>(
+      module, "ObliquePlane",
+      "The plane normal . x + offset = 0 that mirrors along a direction of its own:\n"
+      "x' = x - 2 (normal . x + offset) / (normal . direction) direction.",
+      {{"normal", "Unit normal (3,)."},
+       {"offset", "In input units."},
+       {"direction", "Unit vector (3,), to the side that the normal points to."}})
+      .def(py::init(
+               [](const VectorArgument& normal, double offset, const VectorArgument& direction) {
+                 return std::make_shared<ObliquePlane>(normal.vector, offset, direction.vector);
+               }),
+           py::arg("normal"), py::arg("offset"), py::arg("direction"))
+      .def_property_readonly(
+          "obliquity", [](const ObliquePlane& p) { return p.obliquity() * 180 / std::numbers::pi; },
+          "The angle between direction and normal, degrees, 0 to less than 90.")
+      .def_property_readonly(
+          "matrix", [](const ObliquePlane& p) { return owned_array(RowMajor4(p.matrix())); },
+          "The reflection (4, 4) on homogeneous columns (x, y, z, 1).");
 
   bind_kind<Sphere>(
       module, "Sphere",

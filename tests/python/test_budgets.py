@@ -13,8 +13,8 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (125, 171414, 1128, 2, 2),
-    "symmetries": (30, 77787, 514, 3, 0),
+    "heart": (126, 173675, 1156, 2, 3),
+    "symmetries": (30, 77788, 514, 3, 0),
     "synthetic": (8, 17577, 283, 0, 1),
     "io": (7, 12886, 40, 0, 0),
     "published": (5, 11786, 128, 0, 0),

@@ -203,6 +203,8 @@ template UnitPlane Refinement::exact(const UnitPlane&) const;
 template Candidate<UnitPlane> Refinement::fitted(const Candidate<UnitPlane>&, const Fit&) const;
 template double Refinement::support(const UnitPlane&, Index) const;
 
+template UnitObliquePlane Refinement::refined(const UnitObliquePlane&) const;
+
 template UnitSphere Refinement::exact(const UnitSphere&) const;
 template Candidate<UnitSphere> Refinement::fitted(const Candidate<UnitSphere>&, const Fit&) const;
 template double Refinement::support(const UnitSphere&, Index) const;

@@ -98,6 +98,55 @@ struct UnitCylinder {
   }
 };
 
+/// A plane with a direction of its own while it is searched for, in the principal frame: |normal| =
+/// 1, normal . direction = 1.
+struct UnitObliquePlane {
+  /// Two tilts of the normal, along unit vectors across it, what is added to the offset, and to the
+  /// direction along the same vectors.
+  using Change = Eigen::Vector<double, 5>;
+
+  Vector3 normal = Vector3::UnitX();
+  double offset = 0;
+  Vector3 direction = Vector3::UnitX();
+
+  double height(const Vector3& x) const { return normal.dot(x) + offset; }
+  double distance(const Vector3& x) const { return height(x) * direction.norm(); }
+  Vector3 reflect(const Vector3& x) const { return x - 2 * height(x) * direction; }
+  Vector3 reflect_direction(const Vector3& /*x*/, const Vector3& n) const {
+    return (n - 2 * direction.dot(n) * normal).normalized();
+  }
+
+  /// By how much each number moves the image of x.
+  Eigen::Matrix<double, 3, 5> slopes(const Vector3& x) const {
+    Eigen::Matrix<double, 3, 5> slopes;
+    for (int k = 0; k < 2; ++k) {
+      const Vector3 s = side(k);
+      slopes.col(k) = -2 * (s.dot(x) - height(x) * s.dot(direction)) * direction;
+      slopes.col(3 + k) = -2 * height(x) * s;
+    }
+    slopes.col(2) = -2 * direction;
+    return slopes;
+  }
+
+  /// Changed, and by how much.
+  std::pair<UnitObliquePlane, double> stepped(const Change& by) const {
+    const Vector3 tilted = normal + by[0] * side(0) + by[1] * side(1);
+    const Vector3 turned = direction + by[3] * side(0) + by[4] * side(1);
+    const double length = tilted.norm();
+    return {{tilted / length, (offset + by[2]) / length, length / tilted.dot(turned) * turned},
+            by.norm()};
+  }
+  void follow(const UnitObliquePlane& moved) { *this = moved; }
+  static constexpr double ridge = 1e-13;  // rounding
+  static constexpr bool is_rigid = false;
+
+  /// Unit vectors across the normal.
+  Vector3 side(int k) const {
+    const Vector3 first = normal.unitOrthogonal();
+    return k == 0 ? first : normal.cross(first);
+  }
+};
+
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:
 /// F(x) = k/2 |x - p|^2 + n . (x - p) = 0 through the point p with the unit normal n there. The
 /// sign of k is the side it bends to (Pratt, Direct least-squares fitting of algebraic surfaces,
@@ -189,6 +238,12 @@ struct UnitSphere {
 
 inline Sphere in_input_units(const UnitSphere& sphere, const PrincipalFrame& frame) {
   return {frame.from_frame(sphere.centre()), frame.size * sphere.radius()};
+}
+
+inline ObliquePlane in_input_units(const UnitObliquePlane& plane, const PrincipalFrame& frame) {
+  const Vector3 normal = frame.axes * plane.normal;
+  return {normal, frame.size * plane.offset - normal.dot(frame.centroid),
+          frame.axes * plane.direction};
 }
 
 inline Cylinder in_input_units(const UnitCylinder& cylinder, const PrincipalFrame& frame) {

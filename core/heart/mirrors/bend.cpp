@@ -39,6 +39,7 @@ struct Chart {
   std::function<Eigen::Vector2d(const Vector3& foot)> flatten;
   // The mirror's foot at the coordinates; none beyond the mirror.
   std::function<std::optional<Foot>(const Eigen::Vector2d& at)> lift;
+  double rise = 1;  // heights over distances from the mirror
 };
 
 // Columns: the directions, laid along the mirror with this normal, and the normal.
@@ -91,6 +92,20 @@ Chart unrolled(const Cylinder& cylinder, const Layout& layout) {
             const Vector3 normal = axes * Vector3(std::sin(angle), 0, std::cos(angle));
             return Foot{centre + radius * normal + at.y() * axes.col(1), normal, 0};
           }};
+}
+
+// Heights over an oblique plane become upright: what sheared the shape is undone.
+Chart unsheared(const ObliquePlane& plane, const Layout& layout) {
+  const Vector3 origin = layout.middle;
+  const Matrix3 axes = along_mirror(plane.direction(), plane.normal());
+  return {origin, axes,
+          [=](const Vector3& foot) -> Eigen::Vector2d {
+            return axes.leftCols<2>().transpose() * (foot - origin);
+          },
+          [=, direction = plane.direction()](const Eigen::Vector2d& at) {
+            return Foot{origin + axes.leftCols<2>() * at, direction, 0};
+          },
+          plane.normal().dot(plane.direction())};
 }
 
 // The value at a key, between the two nearest ones; of at least two.
@@ -194,7 +209,10 @@ struct Workplace {
     const Layout l =
         layout(*mirror, Points((finite.rowwise() - centre.transpose()) / extent), context);
     const auto* cylinder = dynamic_cast<const Cylinder*>(mirror.get());
-    chart = cylinder ? unrolled(*cylinder, l) : spread(*mirror, l, context);
+    const auto* oblique = dynamic_cast<const ObliquePlane*>(mirror.get());
+    chart = cylinder  ? unrolled(*cylinder, l)
+            : oblique ? unsheared(*oblique, l)
+                      : spread(*mirror, l, context);
   }
 
   Vector3 to_frame(const Vector3& x) const { return (x - centre) / extent; }
@@ -205,13 +223,14 @@ struct Workplace {
     const std::optional<Foot> foot = mirror->at(x);
     if (!foot) return Vector3::Constant(NAN);
     const Eigen::Vector2d at = chart.flatten(foot->point);
-    return chart.origin + chart.axes * Vector3(at.x(), at.y(), foot->distance);
+    return chart.origin + chart.axes * Vector3(at.x(), at.y(), chart.rise * foot->distance);
   }
 
   Vector3 restored(const Vector3& x) const {
     const Vector3 at = chart.axes.transpose() * (x - chart.origin);
     const std::optional<Foot> foot = chart.lift(at.head<2>());
-    return foot ? Vector3(foot->point + at.z() * foot->normal) : Vector3::Constant(NAN);
+    return foot ? Vector3(foot->point + at.z() / chart.rise * foot->normal)
+                : Vector3::Constant(NAN);
   }
 
   Vector3 centre = Vector3::Zero();

@@ -57,6 +57,46 @@ Mesh Plane::mesh_over(const std::vector<Foot>& feet, int resolution, const Conte
   });
 }
 
+ObliquePlane::ObliquePlane(const Vector3& normal, double offset, const Vector3& direction)
+    : plane_(normal, offset) {
+  constexpr double least_rise = 1.7e-4;  // sine of the angle with the plane
+  const double length = length_of(direction);
+  direction_ = direction / length;
+  const double rise = plane_.normal().dot(direction_);
+  if (!(std::abs(rise) > least_rise) || !direction_.allFinite())
+    throw InvalidInput("an oblique plane needs a direction that leaves it; given the normal " +
+                       to_string(Value(normal)) + " and the direction " +
+                       to_string(Value(direction)));
+  if (rise < 0) direction_ = -direction_;
+}
+
+double ObliquePlane::obliquity() const {
+  return std::atan2(normal().cross(direction_).norm(), normal().dot(direction_));
+}
+
+Matrix4 ObliquePlane::matrix() const {
+  const Vector3 stretched = 2 / normal().dot(direction_) * direction_;
+  Matrix4 m = Matrix4::Identity();
+  m.topLeftCorner<3, 3>() -= stretched * normal().transpose();
+  m.topRightCorner<3, 1>() = -offset() * stretched;
+  return m;
+}
+
+Values ObliquePlane::numbers() const {
+  return {{"normal", normal()}, {"offset", offset()}, {"direction", direction_}};
+}
+
+std::unique_ptr<Mirror> ObliquePlane::moved(const Motion& by) const {
+  const Vector3 normal = by.rotation * plane_.normal();
+  return std::make_unique<ObliquePlane>(normal, by.scale * offset() - normal.dot(by.translation),
+                                        by.rotation * direction_);
+}
+
+Mesh ObliquePlane::mesh_over(const std::vector<Foot>& feet, int resolution,
+                             const Context& context) const {
+  return plane_.mesh(points_of(feet), resolution, context);
+}
+
 namespace {
 
 // From the unit square to the unit disc as (radius, angle), squares to circles (Shirley and Chiu,

@@ -26,7 +26,8 @@ namespace {
 constexpr double enough = 0.95;
 // For a mirror with so many numbers more (MirrorScore::nats): below it straight skulls bend.
 constexpr double decisive = 20;
-constexpr double numbers_of_sphere = 1, numbers_of_others = 3, numbers_of_free_form = 12;
+constexpr double numbers_of_oblique_plane = 2, numbers_of_sphere = 1, numbers_of_others = 3,
+                 numbers_of_free_form = 12;
 constexpr std::size_t planes_bent = 3;  // the best ones
 constexpr double another_shape = 0.01;  // diagonals between mirrors, root mean square
 constexpr Index thinned_size = 20000;   // points that freer kinds are tried on
@@ -81,10 +82,11 @@ class Comparison {
  private:
   static double numbers_of(const Result& result) {
     const std::string_view kind = result.mirror->kind();
-    return kind == "plane"       ? 0
-           : kind == "sphere"    ? numbers_of_sphere
-           : kind == "free-form" ? numbers_of_free_form
-                                 : numbers_of_others;
+    return kind == "plane"           ? 0
+           : kind == "oblique plane" ? numbers_of_oblique_plane
+           : kind == "sphere"        ? numbers_of_sphere
+           : kind == "free-form"     ? numbers_of_free_form
+                                     : numbers_of_others;
   }
 
   MirrorScore score_;
@@ -199,6 +201,17 @@ void try_freer_kinds(const Cloud& cloud, bool content, const Comparison& compari
                bends_all ? Contest::Run() : anew(bending, contest.pairs));
 }
 
+void try_oblique_plane(const Cloud& cloud, const Comparison& comparison, Contest& contest,
+                       const Context& context) {
+  const MethodImplementation& oblique = heart_method("oblique_plane");
+  if (cloud.points.size() < oblique.minimum_points) return;
+  const Cloud& some = cloud.thinned(thinned_size, context.stage(0, 0));
+  Result result = run_usual(oblique, some, contest.pairs, context);
+  const bool wins = comparison.explains_more(result, contest.best);
+  contest.take(oblique, std::move(result), wins,
+               &some == &cloud ? Contest::Run() : anew(oblique, contest.pairs));
+}
+
 // What the planes are bent into, on no more points than tell.
 void try_bent_planes(const Cloud& cloud, const Comparison& comparison, Contest& contest,
                      const Context& context) {
@@ -234,6 +247,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     reason = "every point has an exact partner over the plane";
   } else {
     const Comparison comparison(cloud, context.stage(0.2, 0.2));
+    if (!contest.content) try_oblique_plane(cloud, comparison, contest, context.stage(0.2, 0.2));
     if (!contest.content) try_bent_planes(cloud, comparison, contest, context.stage(0.2, 0.3));
     const bool content = contest.content && is_found(contest.best);
     if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))

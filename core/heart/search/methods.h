@@ -34,6 +34,7 @@ struct MethodImplementation : Method {
 
 MethodImplementation auto_method();
 MethodImplementation plane_method();
+MethodImplementation oblique_plane_method();
 MethodImplementation sphere_method();
 MethodImplementation fixed_direction_method();
 MethodImplementation perpendicular_method();

@@ -49,6 +49,42 @@ class Plane final : public Mirror {
   double offset_;
 };
 
+/// The plane normal . x + offset = 0 with a direction of its own: x' = x - 2 (normal . x + offset)
+/// / (normal . direction) direction. A body that is sheared after it was symmetric has this mirror.
+class ObliquePlane final : public Mirror {
+ public:
+  /// Normal and direction may have any length but zero; the normal and the offset are divided by
+  /// that of the normal, and the direction points to its side.
+  /// Throws InvalidInput for a zero or non-finite normal or direction, a non-finite offset, and a
+  /// direction less than 0.01 degrees off the plane.
+  ObliquePlane(const Vector3& normal, double offset, const Vector3& direction);
+
+  const Vector3& normal() const { return plane_.normal(); }
+  double offset() const { return plane_.offset(); }
+  const Vector3& direction() const { return direction_; }
+  Vector3 direction(const Foot&) const override { return direction_; }
+  /// The angle between direction and normal, radians, from 0 on to less than a right angle.
+  double obliquity() const;
+
+  /// The reflection as a 4 x 4 matrix on homogeneous columns (x, y, z, 1).
+  Matrix4 matrix() const;
+
+  std::string_view kind() const override { return "oblique plane"; }
+  std::optional<Foot> at(const Vector3& x) const override {
+    const double distance = (normal().dot(x) + offset()) / normal().dot(direction_);
+    return Foot{x - distance * direction_, normal(), distance};
+  }
+  Values numbers() const override;
+
+ private:
+  std::unique_ptr<Mirror> moved(const Motion& by) const override;
+  Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
+                 const Context& context) const override;
+
+  Plane plane_;
+  Vector3 direction_;
+};
+
 /// The sphere |x - centre| = radius. A point is mirrored along the radius, |x' - c| = 2r - |x - c|
 /// (not inversion), so the centre and points farther than 2r from it have no image.
 class Sphere final : public Mirror {

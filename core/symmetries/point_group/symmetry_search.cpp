@@ -313,7 +313,7 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
   found.centre = frame.from_frame(pose.centre);
   for (const Vector3& normal : group.plane_normals()) {
     const Vector3 unit = pose.axes * normal;
-    found.planes.push_back(in_input_units({unit, -unit.dot(pose.centre)}, frame));
+    found.planes.push_back(in_input_units(UnitPlane{unit, -unit.dot(pose.centre)}, frame));
   }
   for (const PointGroup::Axis& axis : group.axes())
     found.axes.push_back({found.centre, axes * axis.direction, axis.order});

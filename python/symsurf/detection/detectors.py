@@ -22,6 +22,7 @@ _OPTIONS = {
 # The class of the mirrors that a method finds, where that is always the same.
 _MIRRORS = {
     "plane": "Plane",
+    "oblique_plane": "ObliquePlane",
     "sphere": "Sphere",
     "cylinder": "Cylinder",
     "quadric": "Quadric",
