@@ -243,6 +243,26 @@ def test_asymmetry_is_red_and_blue_alike(tmp_path):
         assert asymmetry.signed[np.abs(asymmetry.signed).argmax()] != 0
 
 
+def test_homologous_asymmetry_is_grey_along_the_surface_where_it_may_be_none(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Icosphere(nsub=3)
+    points = np.array(mesh.points, dtype=float) * (1, 0.8, 1.2)
+    twisted = points + 0.1 * np.clip(points[:, :1], 0, None) * np.cross(points, (1, 0, 0))
+    found = symsurf.asymmetry(
+        symsurf.Shape(twisted, mesh.regular_faces),
+        symsurf.Plane((1, 0, 0), 0),
+        pairing="homologous",
+    )
+    greys = []
+    for deviations in (0.0, found.tangential.max()):
+        made = dataclasses.replace(found, vector_sd=np.full(len(points), deviations))
+        made.plot(tmp_path / "both.png", score=False)
+        picture = pixels(tmp_path / "both.png").reshape(900, 1200, 3)[:, 600:].reshape(-1, 3)
+        greys.append((np.ptp(picture, axis=1) < 25) & (picture.max(axis=1) < 250))
+    assert greys[0].mean() < 0.05
+    assert greys[1].mean() > 0.2
+
+
 def test_straightening_shows_before_and_after(tmp_path):
     pytest.importorskip("pyvista")
     points, _ = mirrored_surface(900, 0)

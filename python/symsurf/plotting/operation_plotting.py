@@ -69,11 +69,10 @@ def plot(
 ) -> pyvista.Plotter:
     """Draws what an operation gives; see ``OperationResult.plot``."""
     require_positive(clim)
-    panels = (1, 2) if isinstance(result, Straightened) else (1, 1)
     return show_or_write(
         path,
         lambda plotter: draw(plotter, result, clim=clim, camera=camera, score=score),
-        shape=panels,
+        shape=(1, 2 if isinstance(result, Straightened) or _is_homologous(result) else 1),
         border=False,
     )
 
@@ -87,7 +86,8 @@ def draw(
     score: bool = True,
 ) -> None:
     """Adds an operation's result to a plotter and looks at it; arguments as for ``plot``. What is
-    straightened takes two panels: before and after."""
+    straightened takes two panels: before and after. Homologous asymmetry may have a second one, for its
+    part along the surface."""
     title = _title(result) if score else ""
     if isinstance(result, Straightened):
         flat: Mirror = result.plane
@@ -99,6 +99,13 @@ def draw(
             _draw_panel(plotter, result, shape, mirror, title if column else "", clim, camera)
         return
     _draw_panel(plotter, result, result.shape, result.mirror, title, clim, camera)
+    if _is_homologous(result) and plotter.shape == (1, 2):
+        plotter.subplot(0, 1)
+        _draw_panel(plotter, result, result.shape, result.mirror, "", clim, camera, along=True)
+
+
+def _is_homologous(result: OperationResult) -> bool:
+    return isinstance(result, Asymmetry) and result.vector_sd is not None
 
 
 def _draw_panel(
@@ -109,10 +116,14 @@ def _draw_panel(
     title: str,
     clim: float | None,
     camera: Any,
+    along: bool = False,
 ) -> None:
     prepare(plotter)
     object_, rows = finite_object(shape)
-    _draw_object(plotter, result, object_, rows, clim)
+    if along:
+        _draw_along_surface(plotter, result, object_, rows, clim)
+    else:
+        _draw_object(plotter, result, object_, rows, clim)
     if mirror is None:
         vertices = _drawn_axis(plotter, result, object_)
     else:
@@ -178,6 +189,22 @@ def _draw_object(
         draw_scalars(plotter, object_, values, "values", ends, colour_map(COLOURS))
     else:
         plotter.add_mesh(object_, color=OBJECT, **style_of(object_))
+
+
+def _draw_along_surface(
+    plotter: pyvista.Plotter,
+    result: Any,
+    object_: pyvista.PolyData,
+    rows: NDArray[np.int64],
+    clim: float | None,
+) -> None:
+    """The object in the colours of its asymmetry along the surface: grey below two deviations, where
+    it may be none."""
+    is_sure = result.tangential >= 2 * result.vector_sd
+    values = 100 / object_.length * np.where(is_sure, result.tangential, np.nan)[rows]
+    end = clim or range_of(values)
+    title = "along the surface, % of the diagonal"
+    draw_scalars(plotter, object_, values, title, (0, end), colour_map(COLOURS))
 
 
 def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
