@@ -17,10 +17,10 @@ namespace symsurf {
 /// A mirror is found where it maps half of what it moves onto the shape, and chance does not.
 inline constexpr double usual_minimum_score = 0.5;
 
-/// The evidence of MirrorScore from which on a mirror is found. Of 40 shapes without a mirror planes
-/// had at most 0.55 but for tetrahedra and tetracubes, spheres and cylinders at most 0.68. Of 170
-/// planes of cut and asymmetric shapes 11 had less than 0.56, of 60 bent bodies 3 less than 0.7: but
-/// for two all of one ant.
+/// The evidence of MirrorScore from which on a mirror is found. Of 40 shapes without a mirror
+/// planes had at most 0.55 but for tetrahedra and tetracubes, spheres and cylinders at most 0.68.
+/// Of 170 planes of cut and asymmetric shapes 11 had less than 0.56, of 60 bent bodies 3 less than
+/// 0.7: but for two all of one ant.
 inline double least_evidence(const Mirror& mirror) {
   const std::string_view kind = mirror.kind();
   return kind == "plane" ? 0.56 : kind == "sphere" || kind == "cylinder" ? 0.7 : 0.6;

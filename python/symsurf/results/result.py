@@ -61,16 +61,18 @@ class Result(BaseResult, Generic[Kind_co]):
     parameters: dict[str, Any]
     """Every parameter of the method, as used."""
     statistics: dict[str, Any]
-    """Other figures of the method, such as "mapped_share", "missing_share" and
-    "contradicted_share" of the points that the mirror moves (0 to 1, their sum is 1), "exact_share",
-    those whose image is a point of the shape, "deviation", the median distance of mapped images from
-    the shape's surface (input units), "evidence", whether the mirror maps the
-    shape better than the same mirror turned and shifted (0 to 1), "deciding_share", the share of the
-    points that tell it from those, and, where there are some, how many "nonfinite_points" were left out as not finite and how many "outliers" as lying far off: they
-    have no partners.
-    "surface_samples": how many points were sampled on the faces. "boundary_points" of a volumetric
-    cloud, where the mirror and the score are those of its boundary: how many it has. "warning": what
-    the method is not for, which was an ``InputWarning``."""
+    """Other figures of the method, among them:
+
+    - "mapped_share", "missing_share" and "contradicted_share" of the points that the mirror moves, 0 to 1;
+      their sum is 1;
+    - "exact_share": points whose image is a point of the shape, 0 to 1;
+    - "deviation": median distance of mapped images from the surface of the shape, input units;
+    - "evidence": whether the mirror maps the shape better than the same mirror turned and shifted, 0 to 1;
+      "deciding_share": points that distinguish the mirror from these, 0 to 1;
+    - "nonfinite_points" and "outliers": numbers of points that were ignored and have no partners;
+    - "surface_samples": number of points sampled on the faces; "boundary_points": number of points on the
+      boundary of a volumetric cloud; mirror and score are then those of the samples or of the boundary;
+    - "warning": why the method is not suited to the input, which was an ``InputWarning``."""
     seconds: float
     """Run time in seconds."""
     points: NDArray[np.float64] | Any = None
