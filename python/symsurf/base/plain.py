@@ -30,3 +30,16 @@ def without_rounding(numbers: Any) -> NDArray[Any]:
         return values
     size = np.abs(values)
     return np.where(size < 1e-12 * np.nanmax(size, initial=0.0), 0.0, values)
+
+
+def shown(value: Any, digits: str = "g") -> str:
+    """The value as on the command line; of a table only its size."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if value is None:  # in a record, what is no number
+        return "nan"
+    if isinstance(value, (list, np.ndarray)):
+        if np.ndim(value) > 1:
+            return f"{len(value)} x {len(value[0])} numbers"
+        return ",".join(shown(number, digits) for number in without_rounding(value).tolist())
+    return format(value, digits) if isinstance(value, float) else str(value)

@@ -10,6 +10,7 @@ from typing import Any
 
 from .._core import Analysis, InvalidParameter
 from ..base.options import Search
+from ..base.plain import shown
 from ..base.printable import printable
 from ..batching.file_task import FileTask, Record
 from ..results import Symmetries
@@ -30,7 +31,7 @@ from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .shared_options import add_options
 from .terminal import say
-from .values import duration, shown
+from .values import duration
 
 # What pose estimators read, by the record's name for it.
 _TABLES = {

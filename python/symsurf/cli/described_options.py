@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 from .._core import Analysis, Damage, Generator, Operation, Parameter
-from .values import shown, value_from
+from ..base.plain import shown
+from .values import value_from
 
 Description: TypeAlias = Generator | Damage | Operation | Analysis
 

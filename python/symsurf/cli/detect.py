@@ -9,6 +9,7 @@ from typing import Any
 
 from .._core import InvalidParameter
 from ..base.options import Search
+from ..base.plain import shown
 from ..base.printable import printable
 from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
@@ -25,7 +26,7 @@ from .method_options import add_method_options, given_parameters
 from .output_paths import add_output
 from .shared_options import add_options
 from .terminal import Parser
-from .values import duration, shown
+from .values import duration
 
 SUMMARY = "Finds the mirror of each file."
 

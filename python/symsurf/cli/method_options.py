@@ -7,9 +7,10 @@ from typing import Any
 
 from .._core import Method, Parameter
 from .._core import methods as all_methods
+from ..base.plain import shown
 from .described_options import metavar_of
 from .terminal import Parser
-from .values import shown, value_from
+from .values import value_from
 
 _PREFIX = "parameter:"
 

@@ -9,9 +9,8 @@ from typing import Any
 
 from .._core import Method, Parameter
 from .._core import methods as all_methods
-from ..base.plain import plain
+from ..base.plain import plain, shown
 from .terminal import say
-from .values import shown
 
 SUMMARY = "Lists the methods and their parameters."
 

@@ -6,10 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from .._core import Parameter
-from ..base.plain import without_rounding
 
 _NUMBER = re.compile(r"-\.?\d")
 
@@ -36,19 +33,6 @@ def number(text: str) -> Any:
         return float(text)
     except ValueError:
         return text
-
-
-def shown(value: Any, digits: str = "g") -> str:
-    """The value as it would be written on the command line; of a table only its size."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if value is None:  # in a record, what is no number
-        return "nan"
-    if isinstance(value, (list, np.ndarray)):
-        if np.ndim(value) > 1:
-            return f"{len(value)} x {len(value[0])} numbers"
-        return ",".join(shown(number, digits) for number in without_rounding(value).tolist())
-    return format(value, digits) if isinstance(value, float) else str(value)
 
 
 def duration(seconds: float) -> str:

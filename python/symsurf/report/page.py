@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..base.plain import without_rounding
+from ..base.plain import shown
 from ..plotting.drawing import new_plotter
 from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
@@ -76,7 +76,7 @@ def _sentence(record: Record, kind: str) -> str:
 def _mirror_rows(record: Record) -> list[tuple[str, str]]:
     mirror: dict[str, Any] = record["mirror"]
     rows = [("method", record["method"]), ("score", fixed(record["score"], 2))]
-    return rows + [(name, _text(value)) for name, value in mirror.items()]
+    return rows + [(name, _spaced(value)) for name, value in mirror.items()]
 
 
 def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
@@ -91,7 +91,9 @@ def _statistics_rows(record: Record) -> list[tuple[str, str, str]]:
 
 
 def _parameter_rows(record: Record) -> list[tuple[str, str]]:
-    return [(name.replace("_", " "), _text(value)) for name, value in record["parameters"].items()]
+    return [
+        (name.replace("_", " "), _spaced(value)) for name, value in record["parameters"].items()
+    ]
 
 
 def _title(name: str) -> str:
@@ -99,9 +101,5 @@ def _title(name: str) -> str:
     return re.sub(r"^p(\d\d)$", r"\1th percentile", name).replace("_", " ")
 
 
-def _text(value: Any) -> str:
-    if isinstance(value, list):
-        if value and isinstance(value[0], list):
-            return f"{len(value)} x {len(value[0])} numbers"
-        return ", ".join(map(_text, without_rounding(value).tolist()))
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+def _spaced(value: Any) -> str:
+    return shown(value).replace(",", ", ")
