@@ -29,9 +29,9 @@ std::vector<MethodImplementation> with_shared_parameters(
 }
 
 const std::vector<MethodImplementation>& heart_methods() {
-  static const std::vector<MethodImplementation> all =
-      with_shared_parameters({auto_method(), plane_method(), oblique_plane_method(), sphere_method(), cylinder_method(),
-                              quadric_method(), fixed_direction_method(), perpendicular_method()});
+  static const std::vector<MethodImplementation> all = with_shared_parameters(
+      {auto_method(), plane_method(), oblique_plane_method(), sphere_method(), cylinder_method(),
+       quadric_method(), fixed_direction_method(), perpendicular_method()});
   return all;
 }
 
