@@ -12,7 +12,7 @@ namespace {
 
 HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, PointsView images,
                           bool estimates, const Context& context) {
-  const auto& [points, faces, mask] = input;
+  const auto& [points, faces, mask, pairs] = input;
   const DistinctPoints distinct = distinct_points(points, context.stage(0, 0.05));
   const Eigen::RowVector3d origin = points.matrix().colwise().mean();
   const double unit = box_of_radii * std::sqrt((points.matrix().rowwise() - origin).squaredNorm() /
@@ -36,6 +36,16 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
     const Points own = (unit * all).rowwise() + origin;
     return normalised(map.images(own, context));
   };
+  // Of either landmark of a pair the other's image says where it should be.
+  Points places(2 * pairs.rows(), 3), others = places;
+  Eigen::VectorXd deviations(places.rows());
+  if (pairs.rows() > 0) {
+    places << pairs.leftCols(3), pairs.middleCols(3, 3);
+    others << pairs.middleCols(3, 3), pairs.leftCols(3);
+    deviations << pairs.col(6), pairs.col(6);
+  }
+  places = normalised(places);
+  const Landmarks landmarks{places, image_of(normalised(others)) - places, deviations / unit};
   std::vector<Index> table(positions.rows(), -1);
   const auto look_up = [&](const Displacements& displacements, const Context& stage) {
     if (!faces.empty())
@@ -48,7 +58,7 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
           first);
   if (estimates && *std::min_element(table.begin(), table.end()) < 0) {
     const Displacements moved = displacement_process(positions, mirrored, triangles, mesh, image_of,
-                                                     context.stage(0.2, 0.9));
+                                                     landmarks, context.stage(0.2, 0.9));
     found.deviations = unit * moved.deviations(distinct.number);
     found.known = moved.known(distinct.number);
     found.displacements = unit * moved.mean(distinct.number, Eigen::indexing::all);

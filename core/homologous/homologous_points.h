@@ -34,15 +34,21 @@ struct Displacements {
 std::vector<Index> vertex_table(PointsView points, PointsView images, TrianglesView faces,
                                 const Displacements& displacements, const Context& context);
 
+/// Places whose displacements are given, with their standard deviations in each direction.
+struct Landmarks {
+  Points places, moves;
+  Eigen::VectorXd deviations;
+};
+
 /// Of points, their images; NaN where there are none.
 using ImageOf = std::function<Points(const Points&)>;
 
 /// The posterior of a Gaussian process (Rasmussen and Williams 2006) of which surface and image
-/// show the part along their normals: Matern 3/2 of length 0.12 diagonals, and an affine field.
-/// Lengths are in diagonals; `images`: NaN where there are none.
+/// show the part along their normals, and landmarks all of it: Matern 3/2 of length 0.12 diagonals,
+/// and an affine field. Lengths are in diagonals; `images`: NaN where there are none.
 Displacements displacement_process(PointsView points, PointsView images, TrianglesView faces,
                                    const TriangleMesh& mesh, const ImageOf& image_of,
-                                   const Context& context);
+                                   const Landmarks& landmarks, const Context& context);
 
 /// The homologous points of a shape: vertices where both sides have one triangulation, else by
 /// displacement_process(). `images`: of the points, NaN where there are none. Without faces the

@@ -20,10 +20,12 @@ namespace {
 py::dict operate_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, const std::optional<const Mirror*>& mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
-                        const py::object& progress, const py::dict& parameters) {
+                        const py::object& progress, const py::dict& parameters,
+                        const std::optional<Eigen::MatrixXd>& landmark_pairs) {
   const Operation& described = operation(name);
   OperationInput input{points, view_of(faces)};
   if (mask) input.mask = *mask;
+  if (landmark_pairs) input.landmark_pairs = *landmark_pairs;
   const Values values = values_from(parameters, described.parameters);
   const Context context = context_from(progress, threads);
   OperationResult result =
@@ -106,7 +108,8 @@ void bind_operations(py::module_& module) {
       "Whether the operation takes a mirror with these parameters: not about an axis.");
   module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
              py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
-             py::arg("parameters"), "The fields of an operation's result.");
+             py::arg("parameters"), py::arg("landmark_pairs") = py::none(),
+             "The fields of an operation's result.");
 }
 
 }  // namespace symsurf::python

@@ -428,6 +428,34 @@ TEST(HomologousPoints, SayHowSureTheyAre) {
     }
 }
 
+TEST(HomologousPoints, FollowLandmarksAsFarAsTheseAreCertain) {
+  Ball body = resampled_body(0);
+  for (Index i = 0; i < body.points.rows(); ++i) body.points.row(i).normalize();
+  const double diagonal = diagonal_of(body.points);
+  const Deformed d = deformed(body, SideMap(0, share_of_diagonal * diagonal), false);
+  OperationInput input{d.points, d.faces};
+  const double without = median_error(operate("asymmetry", input, middle, homologous), d);
+  constexpr Index pairs = 40;
+  input.landmark_pairs = Eigen::MatrixXd::Zero(pairs, 7);
+  for (Index k = 0; k < pairs; ++k) {
+    const Index i = k * d.points.rows() / pairs;
+    input.landmark_pairs.row(k).head(3) = d.points.row(i);
+    input.landmark_pairs.row(k).segment(3, 3) =
+        middle.reflect(Vector3(d.places.row(i).transpose())).transpose();
+  }
+  EXPECT_LT(median_error(operate("asymmetry", input, middle, homologous), d), 0.7 * without);
+  input.landmark_pairs.col(6).setConstant(1e3 * diagonal);
+  EXPECT_NEAR(median_error(operate("asymmetry", input, middle, homologous), d), without,
+              1e-3 * without);
+  expect_error<InvalidInput>("they need the pairing homologous",
+                             [&] { operate("asymmetry", input, middle); });
+  expect_error<InvalidInput>("they need the pairing homologous",
+                             [&] { operate("align", input, middle); });
+  input.landmark_pairs(0, 6) = -1;
+  expect_error<InvalidInput>("standard deviation, 0 or more",
+                             [&] { operate("asymmetry", input, middle, homologous); });
+}
+
 // A point of no face has none; those of the others are the same with it.
 TEST(HomologousPoints, PassOverPointsOfNoFace) {
   const Ball body = resampled_body(0);

@@ -400,6 +400,33 @@ def test_a_sculpted_side_is_carried_vertex_to_vertex():
         np.testing.assert_allclose(points[rest[:, 0] > 0], sculpted[rest[:, 0] > 0])
 
 
+def test_landmark_pairs_are_indices_or_places():
+    body = pyvista.Icosphere(nsub=3).rotate_vector((1, 2, 3), 40)  # no vertex has a twin
+    points = np.asarray(body.points, dtype=float) * (1, 0.8, 1.2)
+    twisted = points + 0.05 * np.clip(points[:, :1], 0, None) * np.cross(points, (1, 0, 0))
+    shape = symsurf.Shape(twisted, body.regular_faces)
+    plane = symsurf.Plane((1, 0, 0), 0)
+    pairs = np.array([[3, 50], [120, 7]])
+
+    def vectors(**options):
+        return symsurf.asymmetry(shape, plane, pairing="homologous", **options).vector
+
+    by_index = vectors(pairs=pairs, pairs_sd=0.01)
+    np.testing.assert_array_equal(by_index, vectors(pairs=twisted[pairs], pairs_sd=[0.01, 0.01]))
+    assert np.abs(by_index - vectors()).max() > 1e-3
+    for bad, says in [
+        ({"pairs": [[0, len(points)]]}, "pairs name the points 0 to"),
+        ({"pairs": [[0.5, 1]]}, r"pairs have shape \(1, 2\) and type float64"),
+        ({"pairs": pairs, "pairs_sd": [1, 2, 3]}, "one for each of the 2 pairs"),
+        ({"pairs": pairs, "pairs_sd": -1}, "0 or more"),
+    ]:
+        with pytest.raises(symsurf.InvalidInput, match=says):
+            vectors(**bad)
+    for operation in (symsurf.asymmetry, symsurf.align):
+        with pytest.raises(symsurf.InvalidInput, match="they need the pairing homologous"):
+            operation(shape, plane, pairs=pairs)
+
+
 def test_completed_shapes_have_three_corners_a_face():
     points, faces = icosphere()
     faces = np.vstack([faces, [(3, 3, 5), (7, 9, 9)]])

@@ -28,6 +28,21 @@ void require_mask(const Operation& operation, const Eigen::VectorXd& mask, Index
                          "; allowed is 0 to 1");
 }
 
+void require_pairs(const Operation& operation, const ParameterValues& values,
+                   const Eigen::MatrixXd& pairs) {
+  if (pairs.rows() == 0) return;
+  const bool has_pairing =
+      std::any_of(operation.parameters.begin(), operation.parameters.end(),
+                  [](const Parameter& parameter) { return parameter.name == "pairing"; });
+  if (!has_pairing || values.choice("pairing") != "homologous")
+    throw InvalidInput("landmark pairs are given to " + operation.name +
+                       "; they need the pairing homologous");
+  if (pairs.cols() != 7 || !pairs.allFinite() || pairs.col(6).minCoeff() < 0)
+    throw InvalidInput(
+        "landmark pairs must be rows of 7 finite numbers, the last, their standard "
+        "deviation, 0 or more");
+}
+
 // Whether the mirror is that of another unit or pose. Where one point is farther from it than this,
 // none is near.
 void require_near(PointsView points, const Mirror& mirror) {
@@ -56,6 +71,7 @@ OperationResult run_operation(const OperationImplementation& operation, const Op
   require_coordinates(given.points);
   require_corners(given.faces, given.points.size());
   require_mask(operation, given.mask, given.points.size());
+  require_pairs(operation, values, given.landmark_pairs);
   const FinitePart finite(given, operation);
   const OperationInput& input = finite.input();
   if (operation.needs_faces && input.faces.empty())

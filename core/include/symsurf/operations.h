@@ -57,6 +57,9 @@ struct OperationInput {
   PointsView points;
   TrianglesView faces = {};   ///< none: a bare cloud
   Eigen::VectorXd mask = {};  ///< optional, one a point, in [0, 1]: how far it may move
+  /// Optional, with homologous pairing: landmarks that mirror each other. A row per pair: x, y, z
+  /// of both and the standard deviation of placing them, 0 or more; input units.
+  Eigen::MatrixXd landmark_pairs = {};
 };
 
 struct OperationResult {
@@ -86,8 +89,9 @@ struct OperationResult {
 /// places, without values: NaN, -1 of an index, else 0.
 /// Throws InvalidParameter for an unknown name, parameter or value; InvalidInput where no point is
 /// finite or one has a coordinate beyond 1e50, a face names no point, the mask is not one value in
-/// [0, 1] a point or the operation takes none, the mirror has images for less than half of the
-/// points, or, but where it takes any, lies more than ten diagonals away from them; Cancelled.
+/// [0, 1] a point or the operation takes none, landmark pairs are not as said above, the mirror has
+/// images for less than half of the points, or, but where it takes any, lies more than ten
+/// diagonals away from them; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 

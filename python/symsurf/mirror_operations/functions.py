@@ -26,6 +26,10 @@ _DOCUMENTED = {
     "mirror": "a result of ``detect``, or a mirror of any kind, in the unit and pose of the points; "
     "None: the mirror is found first.",
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
+    "pairs": 'landmarks that mirror each other, with ``pairing="homologous"``: (k, 2) indices of '
+    "points, or (k, 2, 3) places in input units. Without effect where both sides have one "
+    "triangulation.",
+    "pairs_sd": "standard deviation of placing each landmark, input units: a number, or (k,).",
     "faces": "(m, 3) indices of points, if ``shape`` has none of its own.",
     "absolute": "True: lengths are given in input units, not as fractions of the diagonal of the "
     "bounding box; ``parameters`` of the result has fractions.",
@@ -48,10 +52,19 @@ def _takes_axis(operation: Operation) -> bool:
     return any(parameter.name == "symmetry" for parameter in operation.parameters)
 
 
+def _lacking(operation: Operation) -> list[str]:
+    """The arguments that the operation does not take."""
+    is_paired = any(parameter.name == "pairing" for parameter in operation.parameters)
+    return [
+        *([] if operation.takes_mask else ["mask"]),
+        *([] if is_paired else ["pairs", "pairs_sd"]),
+    ]
+
+
 def _signature(operation: Operation) -> inspect.Signature:
     shared = {name: word for name, word in _ARGUMENTS.items() if name not in ("name", "parameters")}
-    if not operation.takes_mask:
-        del shared["mask"]
+    for name in _lacking(operation):
+        del shared[name]
     own = {parameter.name: keyword(parameter) for parameter in operation.parameters}
     if _takes_axis(operation):
         own["symmetry"] = own["symmetry"].replace(
@@ -73,8 +86,8 @@ def _documentation(operation: Operation) -> list[str]:
     texts = dict(_DOCUMENTED)
     if _takes_axis(operation):
         texts["mirror"] += _OR_AXIS
-    if not operation.takes_mask:
-        del texts["mask"]
+    for name in _lacking(operation):
+        del texts[name]
     shared = [argument_text(f"{name}: {text}") for name, text in texts.items()]
     mask = "a mask that is not one number in [0, 1] per point;\n        "
     return [

@@ -30,6 +30,8 @@ def operate(
     mirror: Result | Mirror | Axis | None = None,
     *,
     mask: ArrayLike | None = None,
+    pairs: ArrayLike | None = None,
+    pairs_sd: ArrayLike = 0,
     faces: ArrayLike | None = None,
     absolute: bool = False,
     require_found: bool = False,
@@ -77,7 +79,15 @@ def operate(
             used = _core.make_mirror(used.kind, used.numbers, given.points)
     started = time.perf_counter()
     made = _core.operate(
-        name, given.points, given.faces, used, _mask_of(mask), threads, own, parameters
+        name,
+        given.points,
+        given.faces,
+        used,
+        _mask_of(mask),
+        threads,
+        own,
+        parameters,
+        _landmark_pairs(pairs, pairs_sd, given.points),
     )
     if "warning" in made["statistics"]:
         warn_of([made["statistics"]["warning"]])
@@ -163,6 +173,36 @@ def _mask_of(mask: ArrayLike | None) -> NDArray[np.float64] | None:
     if values.ndim != 1:
         raise InvalidInput(f"mask has shape {values.shape}; allowed is (n,)")
     return values
+
+
+def _landmark_pairs(
+    pairs: ArrayLike | None, deviations: ArrayLike, points: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Rows of both places and their standard deviation, as the core takes them."""
+    if pairs is None:
+        return None
+    places = np.asarray(pairs)
+    if places.dtype.kind in "iu" and places.ndim == 2 and places.shape[1] == 2:
+        if places.size and not (0 <= places.min() and places.max() < len(points)):
+            raise InvalidInput(
+                f"pairs name the points {places.min()} to {places.max()}; allowed is 0 to "
+                f"{len(points) - 1}"
+            )
+        places = points[places]
+    if places.dtype.kind not in "fiu" or places.ndim != 3 or places.shape[1:] != (2, 3):
+        raise InvalidInput(
+            f"pairs have shape {places.shape} and type {places.dtype}; allowed is (k, 2), whole "
+            "numbers, and (k, 2, 3)"
+        )
+    rows = np.empty((len(places), 7))
+    rows[:, :6] = places.reshape(-1, 6)
+    try:
+        rows[:, 6] = deviations
+    except (TypeError, ValueError):
+        raise InvalidInput(
+            f"pairs_sd must be a number or one for each of the {len(places)} pairs"
+        ) from None
+    return rows
 
 
 def require_no_search(search: Search) -> None:
