@@ -20,7 +20,7 @@ namespace symsurf {
 namespace {
 
 constexpr double most_triangles = 1e7;   // of one side: some 4 GB
-constexpr double usual_triangles = 5e5;  // of one side: more are made where they are asked for
+constexpr double usual_triangles = 1e5;  // of one side: more are made where they are asked for
 constexpr double usual_sagitta = 1e-3;   // diagonals
 constexpr double bent_edges = 0.95;      // share of the edges that the usual length suits
 constexpr double noticeable = 5e-3;      // diagonals
