@@ -30,11 +30,9 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
   Triangles triangles(faces.size(), 3);
   for (Index f = 0; f < faces.size(); ++f)
     for (int c = 0; c < 3; ++c) triangles(f, c) = distinct.number[faces[f][c]];
-  if (faces.empty()) triangles = cloud_laplacian(positions, first).triangles;
-  const TriangleMesh mesh(positions, triangles, context);
-  const auto image_of = [&](const Points& all) -> Points {
+  const auto images_of = [&](const Points& all, const Context& stage) -> Points {
     const Points own = (unit * all).rowwise() + origin;
-    return normalised(map.images(own, context));
+    return normalised(map.images(own, stage));
   };
   // Of either landmark of a pair the other's image says where it should be.
   Points places(2 * pairs.rows(), 3), others = places;
@@ -45,7 +43,10 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
     deviations << pairs.col(6), pairs.col(6);
   }
   places = normalised(places);
-  const Landmarks landmarks{places, image_of(normalised(others)) - places, deviations / unit};
+  const Landmarks landmarks{places, images_of(normalised(others), first.stage(0, 0)) - places,
+                            deviations / unit};
+  if (faces.empty()) triangles = cloud_laplacian(positions, first).triangles;
+  const TriangleMesh mesh(positions, triangles, context);
   std::vector<Index> table(positions.rows(), -1);
   const auto look_up = [&](const Displacements& displacements, const Context& stage) {
     if (!faces.empty())
@@ -57,8 +58,10 @@ HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, P
            {}},
           first);
   if (estimates && *std::min_element(table.begin(), table.end()) < 0) {
-    const Displacements moved = displacement_process(positions, mirrored, triangles, mesh, image_of,
-                                                     landmarks, context.stage(0.2, 0.9));
+    const Displacements moved = displacement_process(
+        positions, mirrored, triangles, mesh,
+        [&](const Points& all) { return images_of(all, context.stage(0.9, 0.9)); }, landmarks,
+        context.stage(0.2, 0.9));
     found.deviations = unit * moved.deviations(distinct.number);
     found.known = moved.known(distinct.number);
     found.displacements = unit * moved.mean(distinct.number, Eigen::indexing::all);

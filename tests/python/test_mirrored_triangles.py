@@ -151,7 +151,7 @@ def test_other_files_say_what_they_lose(mesh, tmp_path):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ({"strength": 0.5}, "triangles has to be kept then"),
+        ({"strength": 0.5}, "allowed with these is kept"),
         ({"triangles": "both"}, r"triangles is both; allowed is choice kept \| mirrored"),
     ],
 )

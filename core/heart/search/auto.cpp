@@ -63,7 +63,8 @@ bool maps_enough(const Result& result) {
 
 bool is_found(const Result& result) {
   return result.score >= usual_minimum_score && result.mirror &&
-         statistic(result, "evidence") >= least_evidence(*result.mirror);
+         statistic(result, "evidence") >=
+             least_evidence(*result.mirror, statistic(result, "missing_share"));
 }
 
 // Which of two mirrors is meant.
@@ -249,7 +250,7 @@ Result run_auto(const Cloud& cloud, const ParameterValues& values, const Context
     const Comparison comparison(cloud, context.stage(0.2, 0.2));
     if (!contest.content) try_oblique_plane(cloud, comparison, contest, context.stage(0.2, 0.2));
     if (!contest.content) try_bent_planes(cloud, comparison, contest, context.stage(0.2, 0.3));
-    const bool content = contest.content && is_found(contest.best);
+    const bool content = maps_enough(contest.best) || (contest.content && is_found(contest.best));
     if (!content || may_hide_exact_one(cloud, context.stage(0.3, 0.3)))
       try_freer_kinds(cloud, content, comparison, contest, context.stage(0.3, 0.9));
     if (contest.of_all) contest.best = contest.of_all(cloud, context.stage(0.9, 1));
