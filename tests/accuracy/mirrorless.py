@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .icp import best_plane
 from .pieces import Mesh, box, joined, loft
-from .poses import Points, diagonal
+from .poses import Points
 from .solids import ASYMMETRIC, asymmetric, sampled
 from .without_mirror import handed
 
 Rng = np.random.Generator
-UNLIKE = 0.15  # of the diagonal: how far a tetrahedron's corners are from any images, at least
 
 
 def _room(rng: Rng) -> Mesh:
@@ -62,19 +59,6 @@ def _helix(rng: Rng, sides: int = 24) -> Mesh:
     return loft(
         path[:, None] + section[:, :1] * outward[:, None] + section[:, 1:] * across[:, None]
     )
-
-
-def _tetrahedron(rng: Rng) -> Mesh:
-    """A mirror would exchange two corners, or two pairs of them, or none."""
-    exchanges = [p for p in permutations(range(4)) if all(p[p[k]] == k for k in range(4))]
-    while True:
-        corners = rng.normal(size=(4, 3))
-        planes = [(best_plane(corners, corners[list(p)]), list(p)) for p in exchanges]
-        off = min(
-            np.linalg.norm(plane.reflect(corners) - corners[p], axis=1).max() for plane, p in planes
-        )
-        if off > UNLIKE * diagonal(corners):
-            return corners, np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)])
 
 
 def _tetracube(rng: Rng) -> Mesh:
@@ -135,13 +119,12 @@ MESHES: dict[str, Callable[[Rng], Mesh]] = {
     "room": _room,
     "table top": _tops,
     "helix": _helix,
-    "tetrahedron": _tetrahedron,
     "tetracube": _tetracube,
     "screw": _screw,
 }
 
 HANDED = ("helical gear", "propeller", "screw")
-BODIES = (*ASYMMETRIC, "half blob", "helix", "tetrahedron", "tetracube")
+BODIES = (*ASYMMETRIC, "half blob", "helix", "tetracube")
 
 
 def mirrorless(subject: str, count: int, rng: Rng) -> NDArray[np.float64]:

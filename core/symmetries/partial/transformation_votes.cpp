@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "base/linear_algebra.h"
@@ -68,13 +67,14 @@ SurfaceDiscs::SurfaceDiscs(const SurfacePoints& surface, double radius)
 std::vector<SurfaceDiscs::Oriented> SurfaceDiscs::connected(Index i) const {
   constexpr double facing_away = -0.3;  // cosine: the sides of a square bar stand upright
   const Vector3 x = surface_.point(i), own = surface_.normal(i);
-  std::unordered_set<Index> seen{i};
+  std::vector<char> seen(surface_.size(), 0);
+  seen[i] = 1;
   std::vector<Oriented> reached{{i, own}};
   for (std::size_t k = 0; k < reached.size(); ++k)
     for (int n = 0; n < SurfacePoints::ring; ++n) {
       const Index other = surface_.neighbours(reached[k].point, n);
+      if (std::exchange(seen[other], 1)) continue;
       if (!((surface_.point(other) - x).squaredNorm() < radius_ * radius_)) continue;
-      if (!seen.insert(other).second) continue;
       Vector3 normal = surface_.normal(other);
       if (normal.dot(reached[k].normal) < 0) normal = -normal;
       if (normal.dot(own) > facing_away) reached.push_back({other, normal});
