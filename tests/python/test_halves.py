@@ -319,3 +319,22 @@ def test_values_of_another_mesh_are_an_error():
             says = f"has shape \\({count}, 3\\); allowed is one value per point: \\({len(mesh.points)}, "
             with pytest.raises(symsurf.InvalidInput, match=says):
                 carry(np.zeros((count, 3)))
+
+
+def test_a_rim_without_an_image_has_no_counterpart():
+    """The centre of a disc within a sphere, at the rim as a sector is missing."""
+    angle = 2 * np.pi * np.arange(12) / 12
+    ring = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    points = np.vstack([np.zeros(3), 0.5 * ring, ring])
+    inner, after = 1 + np.arange(12), 1 + (np.arange(12) + 1) % 12
+    faces = np.vstack(
+        [
+            np.column_stack([0 * inner, inner, after])[:-1],
+            np.column_stack([inner, inner + 12, after + 12]),
+            np.column_stack([inner, after + 12, after]),
+        ]
+    )
+    half = symsurf.Shape(points, faces)
+    found = symsurf.asymmetry(half, symsurf.Sphere((0, 0, 0), 1))
+    assert not found.matched[0]
+    assert np.isfinite(found.confidence).all()

@@ -184,10 +184,12 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const auto side = [&](Index i) {
     return distances_[i] > on_mirror ? 1 : distances_[i] < -on_mirror ? -1 : 0;
   };
-  const auto ends_at_mirror = [&](Index i) { return is_boundary[i] && side(i) == 0; };
+  const auto ends_at_mirror = [&](Index i) {
+    return is_boundary[i] && side(i) == 0 && image(i).allFinite();
+  };
   std::array<bool, 3> seen{};  // sides, and an end at the mirror
   for (Index i = 0; i < points.size(); ++i)
-    if (side(i) != 0 || is_boundary[i]) seen[1 + side(i)] = true;
+    if (side(i) != 0 || ends_at_mirror(i)) seen[1 + side(i)] = true;
   is_half_ = map_.is_reflection() && seen[1] && seen[0] != seen[2];
   // The images of the faces that reach beyond the mirror, as the points of a side look for them.
   const auto surface_for = [&](int own, const Context& part) {
