@@ -121,9 +121,14 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
   const Half half = half_of(surface.points, surface.faces, mirror, keeps_positive(values),
                             context.stage(0.05, 0.15));
   const double area = surface_area(half.points, half.faces);
-  if (!(area > 0))
+  if (!(area > double_rounding * diagonal * diagonal))
     throw InvalidInput("the faces on the " + values.choice("side") +
                        " side of the mirror have no area; remesh needs a surface");
+  // Faces without width have hardly any area, and still a triangle for each piece of their edges.
+  const double edges = mean_edge(half.points, half.faces) * static_cast<double>(half.faces.rows());
+  const auto shortest = [&](double triangles) {
+    return std::max(edge_length_of(area, triangles), edges / triangles);
+  };
   Remeshing remeshing;
   remeshing.edge_length = values.real("edge_length") * diagonal;
   remeshing.feature_angle = values.real("feature_angle");
@@ -132,9 +137,9 @@ void run_remesh(const OperationInput& input, const Mirror& mirror, const Paramet
         edge_length_for(usual_sagitta * diagonal, remeshing.feature_angle * std::numbers::pi / 180,
                         half.points, half.faces);
     remeshing.edge_length = std::min(mean_edge(surface.points, surface.faces),
-                                     std::max(suited, edge_length_of(area, usual_triangles)));
+                                     std::max(suited, shortest(usual_triangles)));
   }
-  const double least = edge_length_of(area, most_triangles);
+  const double least = shortest(most_triangles);
   if (remeshing.edge_length < least)
     throw InvalidParameter("edge_length is " + to_string(Value(remeshing.edge_length / diagonal)) +
                            " of the diagonal, which makes more than " +

@@ -20,7 +20,7 @@ BUDGETS = {
     "published": (5, 11786, 128, 0, 0),
     "light": (4, 8707, 44, 0, 4),
     "homologous": (4, 7243, 47, 1, 0),
-    "remeshing": (7, 8860, 47, 0, 0),
+    "remeshing": (7, 8921, 47, 0, 0),
     "processes": (5, 11326, 28, 0, 0),
 }
 # A budget above this multiple of its figure has not followed it down.
