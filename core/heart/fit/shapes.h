@@ -18,6 +18,12 @@
 
 namespace symsurf {
 
+/// Unit vectors across one.
+inline Vector3 across(const Vector3& unit, int k) {
+  const Vector3 first = unit.unitOrthogonal();
+  return k == 0 ? first : unit.cross(first);
+}
+
 /// A circular cylinder while it is searched for, in the principal frame; |axis| = 1.
 struct UnitCylinder {
   /// What is added to the point and to the axis, along either side each, and to the radius.
@@ -91,11 +97,7 @@ struct UnitCylinder {
             std::max(radius + by[4], 1e-3)};
   }
 
-  /// Unit vectors across the axis.
-  Vector3 side(int k) const {
-    const Vector3 first = axis.unitOrthogonal();
-    return k == 0 ? first : axis.cross(first);
-  }
+  Vector3 side(int k) const { return across(axis, k); }
 };
 
 /// A plane with a direction of its own while it is searched for, in the principal frame: |normal| =
@@ -140,11 +142,7 @@ struct UnitObliquePlane {
   static constexpr double ridge = 1e-13;  // rounding
   static constexpr bool is_rigid = false;
 
-  /// Unit vectors across the normal.
-  Vector3 side(int k) const {
-    const Vector3 first = normal.unitOrthogonal();
-    return k == 0 ? first : normal.cross(first);
-  }
+  Vector3 side(int k) const { return across(normal, k); }
 };
 
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:

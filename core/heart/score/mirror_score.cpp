@@ -519,11 +519,6 @@ double score_of(const MirrorFit& fit, std::string_view kind) {
   return fit.share * std::max(fit.exact, likely);
 }
 
-double statistic(const Result& result, const char* name) {
-  const auto found = result.statistics.find(name);
-  return found == result.statistics.end() ? 0 : std::get<double>(found->second);
-}
-
 bool is_exact(const Result& result) { return statistic(result, "exact_share") >= 1; }
 
 }  // namespace symsurf

@@ -113,9 +113,6 @@ class MirrorScore {
 /// chance did not make it.
 double score_of(const MirrorFit& fit, std::string_view kind);
 
-/// One of the statistics that a score fills in; 0 where it has none of that name.
-double statistic(const Result& result, const char* name);
-
 /// Whether every point that the result's mirror moves has an exact partner: no mirror is better.
 bool is_exact(const Result& result);
 

@@ -28,19 +28,21 @@ inline double least_evidence(const Mirror& mirror, double missing_share) {
   return kind == "plane" ? 0.56 : 0.6;
 }
 
+/// One of the statistics that a score fills in.
+inline double statistic(const Result& result, const char* name, double otherwise = 0) {
+  const auto found = result.statistics.find(name);
+  return found == result.statistics.end() ? otherwise : std::get<double>(found->second);
+}
+
 /// Sets "verdict" and "reason" of a mirror, or of pairs alone. A reason that the method gave says
 /// why it chose this mirror: where there is none, what is missing comes before it.
 inline void judge(Result& result, const Mirror* mirror, double minimum_score) {
   const bool has_mirror = mirror || result.pairs.rows() > 0;
   // Rounded down: a score below the minimum does not read as the minimum.
   const auto digits = [](double x) { return to_string(Value(std::floor(1e4 * x) / 1e4)); };
-  const auto statistic = [&](const char* name, double otherwise) {
-    const auto known = result.statistics.find(name);
-    return known == result.statistics.end() ? otherwise : std::get<double>(known->second);
-  };
-  const double sure = statistic("evidence", 1);
+  const double sure = statistic(result, "evidence", 1);
   const bool scores = has_mirror && result.score >= minimum_score;
-  const double least = mirror ? least_evidence(*mirror, statistic("missing_share", 0)) : 0;
+  const double least = mirror ? least_evidence(*mirror, statistic(result, "missing_share")) : 0;
   const bool found = scores && sure >= least;
   result.statistics["verdict"] = std::string(found ? "found" : "none");
   std::string score = result.method + " finds no mirror";
@@ -50,7 +52,7 @@ inline void judge(Result& result, const Mirror* mirror, double minimum_score) {
             to_string(Value(minimum_score));
   constexpr double too_few = 0.1;  // of the samples, that tell a mirror from others
   if (scores && !found)
-    score += statistic("deciding_share", 1) < too_few
+    score += statistic(result, "deciding_share", 1) < too_few
                  ? ", but it cannot be decided at this sampling"
                  : ", but its evidence is " + digits(sure) + ", below " + digits(least) +
                        ": mirrors beside it map the shape nearly as well";
