@@ -61,7 +61,7 @@ struct UnitPlane {
   }
   void follow(const UnitPlane& moved) { *this = moved; }
   static constexpr double ridge = 1e-13;  // rounding
-  static constexpr bool is_rigid = true;
+  static constexpr bool is_affine = true;
 };
 
 /// The mirror's tangent plane at the foot of the centroid: of a plane itself.

@@ -115,6 +115,8 @@ template Candidate<UnitCylinder> refined_on_surfels(const Surfels&, const Surfel
 
 template void suppress_non_maxima(const std::vector<Vector3>&, std::vector<Candidate<UnitPlane>>&,
                                   double, Index);
+template void suppress_non_maxima(const std::vector<Vector3>&,
+                                  std::vector<Candidate<UnitObliquePlane>>&, double, Index);
 template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitSphere>>&, double,
                                   Index);
 template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitCylinder>>&, double,

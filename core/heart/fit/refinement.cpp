@@ -25,8 +25,9 @@ constexpr double least_moved = 0.35;  // share of the samples
 constexpr double closest = 0.0003, close = 0.001;
 constexpr double near_miss = 0.016, penalty = 0.4;
 
-// Noise is taken off the points for planes alone: along the planes of patches, it would take what
-// tells how a mirror bends as well. Of 24 spheres through noise 22 are right without, 12 with it.
+// Noise is taken off the points for affine maps alone: along the planes of patches, it would take
+// what tells how a mirror bends as well. Of 24 spheres through noise 22 are right without, 12 with
+// it; of 60 oblique planes 46 without, 55 with it.
 template <typename Shape>
 constexpr bool is_plane = std::is_same_v<Shape, UnitPlane>;
 

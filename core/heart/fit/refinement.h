@@ -135,7 +135,7 @@ Candidate<Shape> polished(const Candidate<Shape>& candidate, const Fit& fit,
 
 template <typename Map>
 const Vector3& Refinement::position(const Sample& sample) const {
-  return Map::is_rigid ? sample.smoothed : sample.point;
+  return Map::is_affine ? sample.smoothed : sample.point;
 }
 
 template <typename Map>
@@ -164,7 +164,7 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
     if (!surfel) continue;
     found.push_back({position<Map>(asked[k].sample),
                      *asked[k].sample.surfel,
-                     Map::is_rigid ? noise_.smoothed(x, *surfel) : x,
+                     Map::is_affine ? noise_.smoothed(x, *surfel) : x,
                      {surfel->normal, surfel->flatness_without(noise_.deviation())},
                      asked[k].map});
   }

@@ -89,7 +89,7 @@ struct UnitCylinder {
   /// The axis tilts about its point nearest to the origin.
   void follow(const UnitCylinder& moved) { *this = moved; }
   static constexpr double ridge = 1e-13;  // rounding
-  static constexpr bool is_rigid = false;
+  static constexpr bool is_affine = false;
 
   UnitCylinder changed(const Change& by) const {
     return {nearest_to_origin() + by[0] * side(0) + by[1] * side(1),
@@ -140,7 +140,7 @@ struct UnitObliquePlane {
   }
   void follow(const UnitObliquePlane& moved) { *this = moved; }
   static constexpr double ridge = 1e-13;  // rounding
-  static constexpr bool is_rigid = false;
+  static constexpr bool is_affine = true;
 
   Vector3 side(int k) const { return across(normal, k); }
 };
@@ -213,7 +213,7 @@ struct UnitSphere {
 
   void follow(const UnitSphere& moved) { *this = moved; }
   static constexpr double ridge = 1e-13;  // rounding
-  static constexpr bool is_rigid = false;
+  static constexpr bool is_affine = false;
 
   UnitSphere changed(const Change& by) const {
     return {point + by[0] * normal, (normal + by[1] * side(0) + by[2] * side(1)).normalized(),

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "search/parametric.h"
+#include "search/plane.h"
 
 namespace symsurf {
 
@@ -13,48 +15,77 @@ namespace {
 
 constexpr double steepest = 1.3;  // radians between direction and normal: more is no shear
 
+using Candidates = std::vector<Candidate<UnitObliquePlane>>;
+
 // Divided by the standard deviations along the principal axes, an oblique plane of symmetry is an
 // ordinary one.
-Result whitened_planes(const Cloud& cloud, const Vector3& deviations, const Context& context) {
-  const Points points = cloud.frame.to_frame(cloud.points, context.stage(0, 0.1)) *
-                        deviations.cwiseInverse().asDiagonal();
-  const MethodImplementation& plane = heart_method("plane");
-  const Cloud white = checked_cloud(points, {}, plane.minimum_points, context.stage(0.1, 0.2));
-  const ParameterValues values{
-      plane.name, plane.parameters, {{"pairs", false}, {"max_candidates", Index{3}}}};
-  return plane.run(white, values, context.stage(0.2, 1));
+void add_whitened_planes(const Points& points, Index sample_size, Candidates& found,
+                         const Context& context) {
+  const PrincipalFrame frame = principal_frame(points, context);
+  // Diagonals, by which a flat cloud is not divided.
+  const Vector3 deviations =
+      (frame.variance.cwiseMax(0).cwiseSqrt() / frame.size).cwiseMax(single_rounding);
+  const Points whitened = frame.to_frame(points, context) * deviations.cwiseInverse().asDiagonal();
+  const Cloud white = checked_cloud(whitened, {}, 1, context);
+  const Surfels& surfels = white.patches(sample_size / 2, context);
+  for (const PlaneCandidate& candidate : promising_planes(surfels, SurfelMap(surfels), context)) {
+    const Plane plane = in_input_units(candidate.shape, white.frame);
+    const Vector3 normal = frame.axes * plane.normal().cwiseQuotient(deviations);
+    const double length = normal.norm();
+    found.push_back(
+        {{normal / length, (frame.size * plane.offset() - normal.dot(frame.centroid)) / length,
+          length * frame.axes * plane.normal().cwiseProduct(deviations)}});
+  }
 }
 
-UnitObliquePlane sheared(const Mirror& found, const Vector3& deviations) {
-  const Foot foot = *found.at(Vector3::Zero());
-  const Vector3 normal = foot.normal.cwiseQuotient(deviations);
-  const double length = normal.norm();
-  return {normal / length, foot.distance / length, length * foot.normal.cwiseProduct(deviations)};
+// The rows but for a share of them, those nearest to one.
+Points without_neighbours(const Points& points, Index row, double share) {
+  const Vector3 centre = points.row(row).transpose();
+  std::vector<std::pair<double, Index>> rows;
+  for (Index i = 0; i < points.rows(); ++i)
+    rows.emplace_back((points.row(i).transpose() - centre).squaredNorm(), i);
+  const auto first = rows.begin() + static_cast<Index>(share * static_cast<double>(rows.size()));
+  std::nth_element(rows.begin(), first, rows.end());
+  std::vector<Index> left;
+  for (auto one = first; one != rows.end(); ++one) left.push_back(one->second);
+  return chosen_rows(points, left);
+}
+
+// A body that has lost a part is white without what was opposite, so that candidates come from the
+// body without each of several parts of it, too.
+Candidates whitened_planes(const Surfels& surfels, Index sample_size, const Context& context) {
+  constexpr Index parts = 8;
+  constexpr double share = 0.2;
+  const Points points = surfels.positions(2000);
+  Candidates found;
+  add_whitened_planes(points, sample_size, found, context);
+  for (Index k = 0; k < parts; ++k) {
+    context.check();
+    add_whitened_planes(without_neighbours(points, k * points.rows() / parts, share), sample_size,
+                        found, context);
+  }
+  return found;
 }
 
 Result run_oblique_plane(const Cloud& cloud, const ParameterValues& values,
                          const Context& context) {
-  // Diagonals, by which a flat cloud is not divided.
-  const Vector3 deviations =
-      (cloud.frame.variance.cwiseMax(0).cwiseSqrt() / cloud.frame.size).cwiseMax(single_rounding);
-  const Result white = whitened_planes(cloud, deviations, context.stage(0, 0.5));
+  constexpr Fit rough{.samples = 250, .tolerance = 0.04, .steps = 8};
   const Index sample_size = values.integer("sample_size");
-  const NearestPoints points(cloud, context.stage(0.5, 0.6));
-  const Refinement refinement(cloud, points, cloud.patches(sample_size, context.stage(0.6, 0.62)),
-                              cloud.finer_patches(sample_size, context.stage(0.62, 0.65)));
-  const MirrorScore score(cloud, context.stage(0.65, 0.7));
+  const Surfels& coarse = cloud.patches(sample_size, context.stage(0, 0.1));
+  const Surfels& fine = cloud.finer_patches(sample_size, context.stage(0.1, 0.2));
+  Candidates found = whitened_planes(fine, sample_size, context.stage(0.2, 0.2));
+  const NearestPoints points(cloud, context.stage(0.3, 0.4));
+  const Refinement refinement(cloud, points, coarse, fine);
+  const MirrorScore score(cloud, context.stage(0.45, 0.5));
+  fit_to_all(found, refinement, score, cloud.frame, rough, context.stage(0.5, 0.7));
+  suppress_non_maxima(found, alike_planes, refined_at_most);
   std::vector<std::shared_ptr<Mirror>> mirrors;
-  const auto add = [&](const Result& start) {
+  for (const auto& candidate : found) {
     context.check();
-    // A body that has lost a part is not quite white.
-    const UnitObliquePlane rough = refinement.fitted(
-        sheared(*start.mirror, deviations), {.samples = 1000, .tolerance = 0.03, .steps = 12});
-    const UnitObliquePlane close = refinement.refined(rough);
+    const UnitObliquePlane close = refinement.refined(candidate.shape);
     if (close.direction.norm() < 1 / std::cos(steepest))
       mirrors.push_back(mirror_of(close, cloud.frame));
-  };
-  add(white);
-  std::for_each(white.candidates.begin(), white.candidates.end(), add);
+  }
   if (mirrors.empty()) return {};
   Result best = score.ranked("oblique_plane", mirrors);
   add_pairs(best, cloud, values, context.stage(0.8, 1));

@@ -103,34 +103,17 @@ std::vector<PlaneCandidate> candidate_planes(const Surfels& surfels, const Surfe
   return found;
 }
 
-void suppress_non_maxima(std::vector<PlaneCandidate>& candidates, double distance, Index count) {
-  // The corners of a tetrahedron as wide as the cloud.
-  static const std::vector<Vector3> probes{Vector3(0.2, 0.2, 0.2), Vector3(0.2, -0.2, -0.2),
-                                           Vector3(-0.2, 0.2, -0.2), Vector3(-0.2, -0.2, 0.2)};
-  suppress_non_maxima(probes, candidates, distance, count);
-}
-
 namespace {
 
-constexpr double least_best = 0.3;  // a best that explains less has the margins of one like this
-constexpr Index refined_at_most = 4;
 constexpr double thin = 2;  // patches: the standard deviation of a body whose sides they mix
-constexpr double alike_planes = 0.05;  // planes closer than this are one
-constexpr double beside_exact = 0.3;   // of the best support, below which none is a candidate then
+constexpr double beside_exact = 0.3;  // of the best support, below which none is a candidate then
 
-constexpr Index started = 20;   // candidates that are refined on the surfels, roughly
-constexpr Index fitted = 10;    // of these, are fitted to the full cloud
-constexpr Index finalists = 6;  // of these, are fitted carefully
+constexpr Index started = 20;    // candidates that are refined on the surfels, roughly
+constexpr Index promising = 10;  // of these, are fitted to the full cloud
 constexpr double far_below_best_on_surfels = 0.6;  // by this share of it: not worth fitting
 
-double below(double best, double share) { return best - share * std::max(best, least_best); }
+}  // namespace
 
-void drop_far_below_best(std::vector<PlaneCandidate>& candidates, double share) {
-  const double least = below(candidates.front().support, share);
-  std::erase_if(candidates, [&](const PlaneCandidate& c) { return c.support < least; });
-}
-
-// On the thinned cloud alone.
 std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const SurfelMap& map,
                                              const Context& context) {
   std::vector<PlaneCandidate> candidates = candidate_planes(surfels, map, started);
@@ -140,46 +123,19 @@ std::vector<PlaneCandidate> promising_planes(const Surfels& surfels, const Surfe
   suppress_non_maxima(candidates, alike_planes, started);
   context.report(0.5);
   drop_far_below_best(candidates, far_below_best_on_surfels);
-  suppress_non_maxima(candidates, alike_planes, fitted);
+  suppress_non_maxima(candidates, alike_planes, promising);
   context.report(1);
   return candidates;
 }
 
-// Each by itself.
-template <typename Step>
-void improve(std::vector<PlaneCandidate>& candidates, const Context& context, const Step& step) {
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i] = step(candidates[i]);
-    context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
-  }
-}
-
-// Fitted to the full cloud, and ranked by the share of it that they map.
-void fit_to_all(std::vector<PlaneCandidate>& candidates, const Refinement& refinement,
-                const MirrorScore& score, const PrincipalFrame& frame, const Context& context) {
-  struct Look {
-    Fit fit;
-    Index stride;      // of the score's samples
-    double far_below;  // the best by this share of it: not worth another look
-  };
-  double done = 0;
-  for (const Look& look : {Look{quick, 9, 0.5}, {careful, 3, 0.2}}) {
-    improve(candidates, context.stage(done, done + 0.5), [&](const PlaneCandidate& c) {
-      const UnitPlane plane = refinement.fitted(c, look.fit).shape;
-      return PlaneCandidate{plane, score.fit(in_input_units(plane, frame), look.stride).share};
-    });
-    suppress_non_maxima(candidates, alike_planes, finalists);
-    drop_far_below_best(candidates, look.far_below);
-    done += 0.5;
-  }
-}
+namespace {
 
 // The best that a search finds, refined.
 std::vector<UnitPlane> searched_planes(const Cloud& cloud, const Surfels& surfels,
                                        const Refinement& refinement, const MirrorScore& score,
                                        std::vector<PlaneCandidate> candidates,
                                        const Context& context) {
-  fit_to_all(candidates, refinement, score, cloud.frame, context.stage(0, 0.7));
+  fit_to_all(candidates, refinement, score, cloud.frame, quick, context.stage(0, 0.7));
   suppress_non_maxima(candidates, alike_planes, refined_at_most);
   // Of a body thinner than the patches these say nothing about the plane along it.
   if (std::sqrt(cloud.frame.variance.z()) < thin * surfels.spacing() * cloud.frame.size)

@@ -34,7 +34,7 @@ struct GroupPose {
 class PosedElement {
  public:
   using Change = Eigen::Vector<double, 6>;
-  static constexpr bool is_rigid = true;
+  static constexpr bool is_affine = true;
   /// Directions that the elements leave free, as along an axis, stay as they are.
   static constexpr double ridge = 1e-5;
 
