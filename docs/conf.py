@@ -45,7 +45,7 @@ nitpick_ignore_regex = [
 ]
 
 # Markdown: links to headings as a repository's web page makes them.
-myst_enable_extensions = ["colon_fence", "substitution", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 
 autodoc_member_order = "bysource"
@@ -82,7 +82,7 @@ breathe_show_include = False
 
 exclude_patterns = ["images", "pictures", "static", "extensions"]
 suppress_warnings = [
-    "config.cache",  # the scraper and the substitutions are functions, which Sphinx cannot pickle
+    "config.cache",  # the scraper is a function, which Sphinx cannot pickle
     "duplicate_declaration.cpp",  # the namespace, in every header
 ]
 

@@ -1,14 +1,11 @@
 """Pages made from the descriptions that the front ends are made from.
 
-Functions that give Markdown, which pages call as substitutions, `{{ detectors() }}`. What pages have that
-are read in the repository, too, ``docs/tables.py`` writes.
+Functions that give Markdown, which stands on the site in place of the blocks of their name: ``docs/tables.py`` describes
+these, and writes what the repository shows.
 """
 
 from __future__ import annotations
 
-import ast
-import importlib
-import inspect
 import os
 import re
 from collections.abc import Iterable
@@ -17,7 +14,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from sphinx.application import Sphinx
-from tables import table
+from tables import BLOCK, FOLDERS, table
 
 import symsurf
 import symsurf.cli
@@ -25,60 +22,34 @@ import symsurf.cli
 HOSTS = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "hosts"
 
 
-def functions(names: Iterable[str]) -> str:
+def functions(shown: str, *names: str) -> str:
     """Python's, with their docstrings."""
-    return _rst(f".. autofunction:: symsurf.{name}" for name in names)
+    full = (name if "." in name else f"symsurf.{name}" for name in names)
+    return _rst(f".. autofunction:: {name}" for name in full)
 
 
-def detectors() -> str:
-    return functions(f"detect_{name}" for name in symsurf.methods())
+def described(shown: str, folder: str) -> str:
+    prefix = "detect_" if folder == "methods" else ""
+    return functions(shown, *(prefix + name for name in FOLDERS[folder]()))
 
 
-def operating_functions() -> str:
-    return functions(symsurf.operations())
+def module(shown: str, name: str) -> str:
+    return _rst([f".. automodule:: {name}\n   :members:"])
 
 
-def analysing_functions() -> str:
-    return functions(symsurf.analyses())
+def classes(shown: str, *names: str) -> str:
+    """A table of them, with a page each."""
+    pages = "\n".join(f"classes/{name.rpartition('.')[2]}" for name in names)
+    return f"{shown}\n```{{toctree}}\n:hidden:\n\n{pages}\n```"
 
 
-def classes(names: Iterable[str]) -> str:
-    """A table of them, with a page each, which ``write_class_pages`` writes."""
-    rows = [
-        (f"[`{_short(name)}`](classes/{_short(name)}.md)", _first_sentence(_object(name)))
-        for name in names
-    ]
-    pages = "\n".join(f"classes/{_short(name)}" for name in names)
-    return f"{table(('class', ''), rows)}\n\n```{{toctree}}\n:hidden:\n\n{pages}\n```"
+def class_(shown: str, name: str) -> str:
+    return _rst(
+        [f".. autoclass:: {name}\n   :members:\n   :inherited-members: object, tuple, dict"]
+    )
 
 
-def write_class_pages(app: Sphinx) -> None:
-    folder = Path(app.srcdir, "reference", "python")
-    (folder / "classes").mkdir(exist_ok=True)
-    for page in folder.glob("*.md"):
-        for names in re.findall(r"\{\{ classes\((\[.*?\])\) \}\}", page.read_text(), re.DOTALL):
-            for name in ast.literal_eval(names):
-                directive = f".. autoclass:: {name}\n   :members:\n   :inherited-members: object, tuple, dict"
-                text = f"# {_short(name)}\n\n{_rst([directive])}\n"
-                (folder / "classes" / f"{_short(name)}.md").write_text(text)
-
-
-def _short(name: str) -> str:
-    return name.rpartition(".")[2]
-
-
-def _object(name: str) -> Any:
-    module, _, own = name.rpartition(".")
-    return getattr(importlib.import_module(module), own)
-
-
-def _first_sentence(described: Any) -> str:
-    """Of its documentation, in Markdown."""
-    text = " ".join((inspect.getdoc(described) or "").split("\n\n")[0].split())
-    return re.split(r"(?<=[.])\s(?=[A-Z])", text)[0].replace("``", "`")
-
-
-def vtk_python() -> str:
+def vtk_python(shown: str) -> str:
     import symsurf.vtk
 
     return _rst(
@@ -91,7 +62,7 @@ def _rst(directives: Iterable[str]) -> str:
     return "```{eval-rst}\n" + "\n\n".join(directives) + "\n```"
 
 
-def commands() -> str:
+def commands(shown: str) -> str:
     """The help of every command."""
     os.environ["COLUMNS"] = "88"  # argparse's width
     texts = [
@@ -101,7 +72,7 @@ def commands() -> str:
     return "\n\n".join(texts)
 
 
-def cpp_headers() -> str:
+def cpp_headers(shown: str) -> str:
     """Every header of the core, in the order of their names."""
     headers = sorted(Path(name).name for name in os.environ["SYMSURF_HEADERS"].split())
     return "\n\n".join(
@@ -111,7 +82,7 @@ def cpp_headers() -> str:
     )
 
 
-def vtk_classes() -> str:
+def vtk_classes(shown: str) -> str:
     xml = Path(os.environ["SYMSURF_DOCS_BUILD"]) / "doxygen" / "xml"
     names = sorted(path.stem[5:] for path in xml.glob("classvtk*.xml"))
     return "\n\n".join(
@@ -119,7 +90,7 @@ def vtk_classes() -> str:
     )
 
 
-def paraview() -> str:
+def paraview(shown: str) -> str:
     """Every filter and source as ParaView's server manager describes it."""
     texts = []
     for file in sorted((HOSTS / "paraview").glob("*.xml")):
@@ -153,7 +124,7 @@ def _said(described: ElementTree.Element) -> str:
     return text.split(f" - {choices[0]}: ")[0] + f" One of {', '.join(choices)}."
 
 
-def meshlab() -> str:
+def meshlab(shown: str) -> str:
     """Every filter with the parameters that pymeshlab prints; one that nothing describes is an error."""
     printed = (HOSTS / "meshlab.txt").read_text()
     described = _meshlab_filters()
@@ -253,14 +224,29 @@ def name_aliases(*described: Any) -> tuple[str | None, str | None]:
                  for text in described[-2:])  # fmt: skip
 
 
+def printed(shown: str, name: str) -> str:
+    """What an example printed when the site was made."""
+    return f"```{{literalinclude}} {name}\n:language: text\n```"
+
+
+FUNCTIONS = {
+    each.__name__.rstrip("_"): each
+    for each in (functions, described, module, classes, class_, vtk_python, commands, cpp_headers,
+                 vtk_classes, paraview, meshlab, printed)
+}  # fmt: skip
+
+
+def fill_blocks(app: Sphinx, page: str, source: list[str]) -> None:
+    def block(match: re.Match[str]) -> str:
+        if match["name"] not in FUNCTIONS:
+            return match[0]
+        return FUNCTIONS[match["name"]](match["content"], *match["words"].split())
+
+    source[0] = BLOCK.sub(block, source[0])
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    app.config.myst_substitutions = {
-        function.__name__: function
-        for function in (detectors, operating_functions,
-                         analysing_functions, functions, classes,
-                         vtk_python, commands, cpp_headers, vtk_classes, paraview, meshlab)
-    }  # fmt: skip
-    app.connect("builder-inited", write_class_pages)
+    app.connect("source-read", fill_blocks)
     app.connect("source-read", link_examples)
     app.connect("autodoc-process-signature", name_aliases)
     app.connect("autodoc-process-docstring", escape, priority=400)  # before Napoleon

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 from .._core import Analysis, InvalidParameter
@@ -17,14 +16,12 @@ from ..results import Symmetries
 from ..results.analysis_results import RESULTS
 from ..saving.shape_files import formats_of
 from .batch_options import (
-    add_absolute,
     add_batch_options,
     add_files,
     input_tasks,
-    jobs_and_threads,
-    planned_outputs,
     run_tasks,
     tell,
+    with_outputs,
     worked_on,
 )
 from .described_options import add_parameters, given_values
@@ -75,29 +72,12 @@ class AnalysisCommand:
             )
         add_batch_options(parser, group)
         add_options(parser.add_argument_group("search"), Search, ["nonfinite"])
-        add_absolute(parser)
         add_parameters(parser, self._analysis)
 
     def run(self, arguments: argparse.Namespace) -> int:
-        given = input_tasks(arguments)
-        outputs = planned_outputs(
-            arguments,
-            given,
-            lambda _: [self._suffix(arguments.format or "json")],
-            arguments.format,
-            self._formats,
-        )
-        _, threads = jobs_and_threads(arguments)
-        tasks = [
-            replace(
-                task,
-                operation=self._analysis.name,
-                parameters=given_values(arguments) | arguments.absolute,
-                threads=threads,
-                outputs=tuple(outputs.get(task.file, ())),
-            )
-            for task in given
-        ]
+        suffix = self._suffix(arguments.format or "json")
+        tasks = input_tasks(arguments, given_values(arguments), operation=self._analysis.name)
+        tasks = with_outputs(tasks, arguments, lambda _: [suffix], arguments.format, self._formats)
         pose_table = getattr(arguments, "pose_table", None)
         if pose_table is None:
             return run_tasks(tasks, arguments, _text)[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -48,17 +48,28 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         help="read the files as this format, such as ply or ply.gz; standard input needs it",
     )
     add_options(group, Reading)
+    group.add_argument(
+        "--absolute",
+        action="store_const",
+        const={"absolute": True},
+        default={},
+        help="lengths among the parameters are in input units, not fractions of the diagonal",
+    )
 
 
-def input_tasks(arguments: argparse.Namespace) -> list[FileTask]:
-    """A task for each file on the command line, with what says how it is read."""
+def input_tasks(
+    arguments: argparse.Namespace, parameters: Mapping[str, Any], **fields: Any
+) -> list[FileTask]:
+    """A task for each file on the command line, with these fields."""
     suffix = arguments.input_format and require_format(arguments.input_format)
     input_format = arguments.input_format = suffix and suffix[1:]
     asked = FileTask(
         Path(),
         input_format=input_format,
+        parameters=parameters | arguments.absolute,
+        threads=threads_of_each(whole(arguments.threads), _jobs(arguments)),
         unit=arguments.unit,
-        **given_options(arguments),
+        **given_options(arguments) | fields,
     )
     tasks = []
     for path in files_in(arguments.files):
@@ -128,30 +139,20 @@ def add_mirror_options(parser: argparse.ArgumentParser) -> Group:
     return group
 
 
-def add_absolute(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--absolute",
-        action="store_const",
-        const={"absolute": True},
-        default={},
-        help="lengths among the parameters are in input units, not fractions of the diagonal",
-    )
-
-
-def jobs_and_threads(arguments: argparse.Namespace) -> tuple[int, Any]:
+def _jobs(arguments: argparse.Namespace) -> int:
     jobs = whole(arguments.jobs)
     require_jobs(jobs)
-    return jobs, threads_of_each(whole(arguments.threads), jobs)
+    return jobs
 
 
-def planned_outputs(
+def with_outputs(
+    tasks: list[FileTask],
     arguments: argparse.Namespace,
-    tasks: Sequence[FileTask],
     suffixes_of: Callable[[Path], Sequence[str]],
     formats: str | None,
     allowed: Sequence[str],
-) -> dict[Path, list[Path]]:
-    """The files to write for each file to read, a picture last.
+) -> list[FileTask]:
+    """The tasks with the files to write for each file to read, a picture last.
 
     Args:
         suffixes_of: those of the files in a folder.
@@ -161,7 +162,7 @@ def planned_outputs(
     if arguments.output is None:
         if arguments.plot:
             raise InvalidParameter("plot is given without output; allowed is with one")
-        return {}
+        return tasks
     if arguments.plot:
         import_pyvista()  # missing, it is missed before the work is done
     picture = [PICTURE_SUFFIX] if arguments.plot else []
@@ -181,12 +182,10 @@ def planned_outputs(
         files = [output, *(output.with_suffix(suffix) for suffix in picture)]
         outputs = {tasks[0].file: list(dict.fromkeys(files))}
         require_apart(outputs)
-        return outputs
-    return output_files(
-        [task.file for task in tasks],
-        output,
-        lambda path: [*suffixes_of(path), *picture],
-    )
+    else:
+        files = [task.file for task in tasks]
+        outputs = output_files(files, output, lambda path: [*suffixes_of(path), *picture])
+    return [replace(task, outputs=tuple(outputs[task.file])) for task in tasks]
 
 
 def run_tasks(
@@ -267,7 +266,7 @@ def worked_on(
 ) -> Iterator[Record]:
     """The records in the order of the tasks, with a bar on a terminal. What is to be kept of each is
     kept as soon as it ends, with the index of its task."""
-    jobs, _ = jobs_and_threads(arguments)
+    jobs = _jobs(arguments)
 
     def kept(bar: ProgressBar) -> Iterator[Ended]:
         found = ended(tasks, jobs=jobs) if jobs > 1 else _one_by_one(tasks, bar)

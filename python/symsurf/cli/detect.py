@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import replace
 from typing import Any
 
 from .._core import InvalidParameter
@@ -13,15 +12,7 @@ from ..base.plain import shown
 from ..base.printable import printable
 from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
-from .batch_options import (
-    add_absolute,
-    add_batch_options,
-    add_files,
-    input_tasks,
-    jobs_and_threads,
-    planned_outputs,
-    run_tasks,
-)
+from .batch_options import add_batch_options, add_files, input_tasks, run_tasks, with_outputs
 from .method_options import add_method_options, given_parameters
 from .output_paths import add_output
 from .shared_options import add_options
@@ -74,31 +65,23 @@ def add_arguments(parser: Parser) -> None:
         help="downsample to about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
         "are then pairs of these",
     )
-    add_absolute(parser)
     add_method_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     suffixes = _suffixes(arguments.formats or SUMMARY_SUFFIX)
-    given = input_tasks(arguments)
-    outputs = planned_outputs(arguments, given, lambda _: suffixes, arguments.formats, _FORMATS)
     divisor = arguments.downsample
     if arguments.use_normals and divisor is not None:
         raise InvalidParameter("use_normals is given beside downsample; allowed is one of them")
-    _, threads = jobs_and_threads(arguments)
-    tasks = [
-        replace(
-            task,
-            parameters=given_parameters(arguments) | arguments.absolute,
-            threads=threads,
-            use_faces=not arguments.ignore_faces,
-            use_normals=arguments.use_normals,
-            in_chunks=arguments.in_chunks,
-            downsample=None if divisor is None else _divisor(divisor),
-            outputs=tuple(outputs.get(task.file, ())),
-        )
-        for task in given
-    ]
+    tasks = input_tasks(
+        arguments,
+        given_parameters(arguments),
+        use_faces=not arguments.ignore_faces,
+        use_normals=arguments.use_normals,
+        in_chunks=arguments.in_chunks,
+        downsample=None if divisor is None else _divisor(divisor),
+    )
+    tasks = with_outputs(tasks, arguments, lambda _: suffixes, arguments.formats, _FORMATS)
     return run_tasks(tasks, arguments, _text)[0]
 
 

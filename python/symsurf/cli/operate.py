@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 
 from .._core import Operation
@@ -17,14 +16,12 @@ from ..results.summary import figures, value_text
 from ..saving.same_format import REWRITERS
 from ..saving.shape_files import SHAPES, formats_of, makes_shape, output_suffix
 from .batch_options import (
-    add_absolute,
     add_batch_options,
     add_files,
     add_mirror_options,
     input_tasks,
-    jobs_and_threads,
-    planned_outputs,
     run_tasks,
+    with_outputs,
 )
 from .described_options import add_parameters, given_values
 from .output_paths import add_output
@@ -64,39 +61,31 @@ class OperationCommand:
             help="use this mirror for all files instead of finding one: JSON written by detect, or "
             '{"mirror": {"kind": "sphere", "centre": [0, 0, 0], "radius": 1}}',
         )
-        add_absolute(parser)
         add_parameters(parser, self._operation)
 
     def run(self, arguments: argparse.Namespace) -> int:
         name = self._operation.name
-        given = input_tasks(arguments)
-        own = {*(task.suffix for task in given)}.intersection(REWRITERS)
-        pages = [PAGE_SUFFIX] if name == Asymmetry.operation else []
-        outputs = planned_outputs(
+        mirror = arguments.mirror and read_mirror(arguments.mirror)
+        if mirror is not None:
+            require_no_search(Search(**part(Search, given_options(arguments))))
+        tasks = input_tasks(
             arguments,
-            given,
+            given_values(arguments),
+            operation=name,
+            mirror=mirror,
+            require_found=arguments.require_found,
+        )
+        own = {*(task.suffix for task in tasks)}.intersection(REWRITERS)
+        pages = [PAGE_SUFFIX] if name == Asymmetry.operation else []
+        tasks = with_outputs(
+            tasks,
+            arguments,
             lambda path: [
                 output_suffix(path, name, arguments.format or "input", arguments.input_format)
             ],
             arguments.format,
             [*formats_of(RESULTS[name]), *own, *pages],
         )
-        _, threads = jobs_and_threads(arguments)
-        mirror = arguments.mirror and read_mirror(arguments.mirror)
-        if mirror is not None:
-            require_no_search(Search(**part(Search, given_options(arguments))))
-        tasks = [
-            replace(
-                task,
-                operation=name,
-                mirror=mirror,
-                require_found=arguments.require_found,
-                parameters=given_values(arguments) | arguments.absolute,
-                threads=threads,
-                outputs=tuple(outputs.get(task.file, ())),
-            )
-            for task in given
-        ]
         return run_tasks(tasks, arguments, _text)[0]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 
 from .._core import operations
@@ -12,12 +11,10 @@ from ..batching.report_files import report_tasks, write_report
 from ..report import require_viewer
 from ..results.summary import of_the_diagonal
 from .batch_options import (
-    add_absolute,
     add_files,
     add_mirror_options,
     add_table_options,
     input_tasks,
-    jobs_and_threads,
     run_tasks,
 )
 from .described_options import add_parameters, given_values
@@ -39,22 +36,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_table_options(parser)
     add_mirror_options(parser)
-    add_absolute(parser)
     add_parameters(parser, operations()["asymmetry"])
 
 
 def run(arguments: argparse.Namespace) -> int:
     require_viewer()
-    _, threads = jobs_and_threads(arguments)
-    asked = [
-        replace(
-            task,
-            require_found=arguments.require_found,
-            parameters=given_values(arguments) | arguments.absolute,
-            threads=threads,
-        )
-        for task in input_tasks(arguments)
-    ]
+    asked = input_tasks(arguments, given_values(arguments), require_found=arguments.require_found)
     tasks = report_tasks(asked, arguments.output)
     status, rows = run_tasks(tasks, arguments, _text)
     write_report(arguments.output, tasks, rows)
