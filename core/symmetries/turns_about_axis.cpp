@@ -199,6 +199,8 @@ std::optional<double> covering_turn(PointsView points, TrianglesView faces,
 void run_about_axis(const OperationInput& input, const ParameterValues& values,
                     const Context& context, OperationResult& result) {
   constexpr Index most_turns = 16;
+  if (!values.boolean("search"))
+    throw InvalidParameter("search is false beside the symmetry axis; allowed is true");
   const SymmetryAxis axis = axis_of(input, values, context.stage(0, 0.4));
   start_completion(input, result);
   Index turns = 0;

@@ -65,14 +65,16 @@ def _sphere_of(given: Sphere | Result[Sphere], argument: str) -> Sphere:
     return mirror
 
 
-def surface_distance(surface_points: ArrayLike, truth: Result | Mirror, points: ArrayLike) -> float:
+def surface_distance(
+    surface_points: ArrayLike, truth: Result | Mirror | str, points: ArrayLike
+) -> float:
     """RMS distance of points (m, 3) from the true mirror, over the diagonal of the object's."""
     return _core.surface_distance(surface_points, mirror_of(truth, "truth"), points)
 
 
 def coverage(
     surface_points: ArrayLike,
-    truth: Result | Mirror,
+    truth: Result | Mirror | str,
     points: ArrayLike,
     tolerance: float | None = None,
 ) -> float:

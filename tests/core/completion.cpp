@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,8 @@
 #include "bumpy_ball.h"
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/triangle_mesh.h"
+#include "expect_error.h"
+#include "operations/meshes.h"
 #include "random_cloud.h"
 
 namespace symsurf::completion_tests {
@@ -136,6 +140,51 @@ int open_edges(const Triangles& faces) {
     for (int k = 0; k < 3; ++k) ++edges[std::minmax(f[k], f[(k + 1) % 3])];
   return static_cast<int>(
       std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second == 1; }));
+}
+
+const Values image{{"search", false}};
+
+TEST(Complete, AddsTheImageOfHalfAModelWithoutASearch) {
+  const Ball b = ball(3);
+  const Sphere sphere(Vector3(3, 0, 0), 3);
+  const Cylinder cylinder(Vector3(2.5, 0, 0), Vector3::UnitZ(), 2.5);
+  const ObliquePlane oblique(Vector3::UnitX(), 0.1, Vector3(1, 0.3, 0.2));
+  for (const Mirror* mirror :
+       std::initializer_list<const Mirror*>{&middle, &sphere, &cylinder, &oblique}) {
+    const Half half = half_of(b.points, b.faces, *mirror, true, {});
+    const MirroredHalf expected = with_image(half, *mirror, {});
+    const OperationResult whole = operate("complete", {half.points, half.faces}, *mirror, image);
+    expect_input_untouched(whole, half.points, half.faces);
+    EXPECT_EQ(whole.points, expected.points) << mirror->kind();
+    EXPECT_EQ(whole.faces, expected.faces) << mirror->kind();
+    EXPECT_EQ(open_edges(whole.faces), 0) << mirror->kind();
+    EXPECT_EQ(TriangleMesh(whole.points, whole.faces).refused().total(), 0) << mirror->kind();
+    EXPECT_GT(volume(whole.points, whole.faces), volume(half.points, half.faces));
+    EXPECT_FALSE(whole.statistics.contains("warning")) << mirror->kind();
+  }
+}
+
+TEST(Complete, LooksForNothingWithoutASearch) {
+  const Ball b = ball(3);
+  const OperationResult both = operate("complete", {b.points, b.faces}, middle, image);
+  EXPECT_EQ(both.faces.rows(), 2 * b.faces.rows());
+  EXPECT_NE(std::get<std::string>(both.statistics.at("warning")).find("other side"),
+            std::string::npos);
+  const OperationResult cloud = operate("complete", {b.points}, middle, image);
+  EXPECT_EQ(cloud.points, both.points);
+  // A face within the mirror is its own image.
+  const OperationResult half = operate("cut", {b.points, b.faces}, middle);
+  const auto cap = static_cast<Index>(half.face_arrays.at("cap").sum());
+  const OperationResult whole = operate("complete", {half.points, half.faces}, middle, image);
+  EXPECT_EQ(count(whole, "added_faces"), half.faces.rows() - cap);
+  EXPECT_NE(std::get<std::string>(whole.statistics.at("warning")).find(std::to_string(cap)),
+            std::string::npos);
+  expect_error<InvalidInput>("have no image", [&] {
+    operate("complete", {b.points, b.faces}, Sphere(Vector3(1.2, 0, 0), 0.75), image);
+  });
+  expect_error<InvalidParameter>("search is false", [&] {
+    operate("complete", {b.points}, middle, {{"search", false}, {"symmetry", "axis"}});
+  });
 }
 
 // No side is its own counterpart, however near to the mirror it is.

@@ -63,6 +63,52 @@ def test_a_closed_surface_is_cut_into_closed_halves(make, side):
     np.testing.assert_array_equal(made.on_mirror[made.shape.faces[made.cap]], True)
 
 
+@pytest.mark.parametrize("kind", ["plane", "sphere", "cylinder", "quadric"])
+def test_half_a_model_and_its_exact_image_are_closed(kind):
+    mirror = curved(kind)
+    half = symsurf.cut(ball(), mirror, capped=False)
+    whole = symsurf.complete(half.shape, mirror, search=False)
+    assert of(whole).is_manifold
+    own = whole.origin == 0
+    np.testing.assert_array_equal(whole.shape.points[own], half.shape.points)
+    np.testing.assert_array_equal(
+        whole.shape.points[~own], mirror.reflect(half.shape.points)[whole.sources[~own]]
+    )
+    assert len(whole.patch.faces) == len(half.shape.faces)
+    assert whole.statistics["points_on_mirror"] == half.on_mirror.sum()
+
+
+def test_the_image_of_what_crosses_the_mirror_is_warned_of():
+    with pytest.warns(symsurf.InputWarning, match="lie on the other side of the mirror"):
+        whole = symsurf.complete(ball(), "x=0.5", search=False)
+    assert len(whole.shape.faces) == 2 * len(ball().faces)
+
+
+def test_a_plane_across_an_axis_is_a_mirror_everywhere(tmp_path):
+    shape = ball()
+    given = symsurf.complete(shape, "x=0").mirror
+    assert (list(given.normal), given.offset, str(given.offset)) == ([1, 0, 0], 0, "0.0")
+    assert symsurf.align(shape, " y = -1.5e-1").mirror.offset == 0.15
+    np.testing.assert_array_equal(
+        symsurf.bend(shape.points, "z=1"), symsurf.bend(shape.points, symsurf.Plane((0, 0, 1), -1))
+    )
+    assert symsurf.match(shape, "z=0").verdict == "found"
+    symsurf.cut(shape, "x=0", capped=False).save(tmp_path / "half.ply")
+    line = "complete half.ply --search false --mirror"
+    done = run_here(f"{line} x=0 -o whole.ply", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert of_file(tmp_path / "whole.ply").is_manifold
+    for wrong in ("x=", "w=0", "xy=1", "x=inf", "x=nan", "x=0=1", "=0"):
+        with pytest.raises(symsurf.InvalidParameter, match="allowed is x, y or z and a finite"):
+            symsurf.complete(shape, wrong)
+        done = run_here(f"{line} {wrong}", tmp_path)
+        assert done.returncode == 2 and f"--mirror is '{wrong}'" in done.stderr
+
+
+def of_file(path):
+    return symsurf.read(path).to_pyvista()
+
+
 def test_curves_within_others_bound_holes():
     made = symsurf.cut(torus(), symsurf.Plane((0, 0, 1), 0))
     faces = made.shape.to_pyvista().extract_cells(np.flatnonzero(made.cap))

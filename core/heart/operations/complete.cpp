@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "base/disjoint_sets.h"
@@ -429,10 +430,54 @@ void start_completion(const OperationInput& input, OperationResult& result) {
 
 namespace {
 
+// Nothing is asked of the shape: half a model has no other side to compare with.
+void add_image(const OperationInput& input, const Mirror& mirror, const Context& context,
+               OperationResult& result) {
+  const Index points = input.points.size(), faces = input.faces.size();
+  const Eigen::VectorXd distances = mirror.signed_distance(input.points, context.stage(0, 0.5));
+  const double near = mirror_tolerance * diagonal_of(input.points);
+  Half half{result.points, result.faces, {}, {}, result.face_sources, std::vector<bool>(points)};
+  for (Index i = 0; i < points; ++i) half.on_mirror[i] = std::abs(distances[i]) <= near;
+  const MirroredHalf whole = with_image(std::move(half), mirror, context.stage(0.5, 1));
+  result.points = whole.points;
+  for (Index i = 0; i < points; ++i)
+    if (whole.partners[i] != i) result.point_sources.push_back(i);
+  // The image of a face within the mirror is the face.
+  std::vector<Index> added;
+  for (Index f = 0; f < faces; ++f)
+    if (const Index* c = input.faces[f];
+        std::any_of(c, c + 3, [&](Index i) { return !whole.on_mirror[i]; }))
+      added.push_back(f);
+  const auto more = static_cast<Index>(added.size());
+  result.faces.conservativeResize(faces + more, 3);
+  for (Index k = 0; k < more; ++k) result.faces.row(faces + k) = whole.faces.row(faces + added[k]);
+  result.face_sources.insert(result.face_sources.end(), added.begin(), added.end());
+  result.arrays["origin"].conservativeResize(result.points.rows(), 1);
+  result.arrays["origin"].bottomRows(result.points.rows() - points).setConstant(mirrored);
+  const Index other =
+      std::min((distances.array() > near).count(), (distances.array() < -near).count());
+  result.statistics = {{"added_points", result.points.rows() - points},
+                       {"added_faces", more},
+                       {"seam_faces", Index{0}},
+                       {"points_on_mirror", 2 * points - result.points.rows()}};
+  std::string warning;
+  if (other > 0)
+    warning = std::to_string(other) + " of " + std::to_string(points) +
+              " points lie on the other side of the mirror, where the image overlaps the shape";
+  else if (more < faces)
+    warning = std::to_string(faces - more) + " of " + std::to_string(faces) +
+              " faces lie within the mirror: they divide the inside of the result";
+  if (!warning.empty())
+    result.statistics["warning"] = warning + "; cut with capped=False leaves these out";
+}
+
 void run_complete(const OperationInput& input, const Mirror& mirror, const ParameterValues& values,
                   const Context& context, OperationResult& result) {
   start_completion(input, result);
-  complete_by(mirror, values, context, result);
+  if (values.boolean("search"))
+    complete_by(mirror, values, context, result);
+  else
+    add_image(input, mirror, context, result);
 }
 
 }  // namespace
@@ -445,6 +490,9 @@ OperationImplementation complete_operation() {
       "Adds missing parts: the images, over a mirror or about an axis, of the points and faces "
       "that exist.";
   operation.parameters = {
+      Parameter::boolean("search", true,
+                         "Search for what is missing; false: add the exact image of all points and "
+                         "faces, welded at the mirror, as half a model needs it."),
       Parameter::choice(
           "fill", "all", {"all", "holes"},
           "What to add: all missing parts or, for a mesh, only those that the shape surrounds."),
@@ -453,7 +501,8 @@ OperationImplementation complete_operation() {
       Parameter::real("blend", 0.05, 0, 1, "diagonal",
                       "Width of the band along the boundary in which the added part is deformed to "
                       "meet the shape; 0: the exact image."),
-      max_distance(), max_angle()};
+      max_distance(),
+      max_angle()};
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};
   operation.shown = "origin";

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from .._core import Operation
+from .._core import Mirror, Operation
 from ..base.options import Search, part
 from ..base.printable import printable
 from ..batching.file_task import PAGE_SUFFIX, Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
+from ..results import plane_of
 from ..results.operation_results import RESULTS, Asymmetry
 from ..results.summary import figures, value_text
 from ..saving.same_format import REWRITERS
@@ -56,16 +57,16 @@ class OperationCommand:
         add_batch_options(parser, group)
         add_mirror_options(parser).add_argument(
             "--mirror",
-            type=Path,
-            metavar="FILE",
-            help="use this mirror for all files instead of finding one: JSON written by detect, or "
-            '{"mirror": {"kind": "sphere", "centre": [0, 0, 0], "radius": 1}}',
+            metavar="MIRROR",
+            help="use this mirror for all files instead of finding one: a plane such as x=0 or y=-1.5; or "
+            'a file, JSON written by detect or {"mirror": {"kind": "sphere", "centre": [0, 0, 0], '
+            '"radius": 1}}',
         )
         add_parameters(parser, self._operation)
 
     def run(self, arguments: argparse.Namespace) -> int:
         name = self._operation.name
-        mirror = arguments.mirror and read_mirror(arguments.mirror)
+        mirror = arguments.mirror and _mirror(arguments.mirror)
         if mirror is not None:
             require_no_search(Search(**part(Search, given_options(arguments))))
         tasks = input_tasks(
@@ -87,6 +88,12 @@ class OperationCommand:
             [*formats_of(RESULTS[name]), *own, *pages],
         )
         return run_tasks(tasks, arguments, _text)[0]
+
+
+def _mirror(given: str) -> Mirror:
+    if "=" in given and not Path(given).exists():
+        return plane_of(given, "--mirror")
+    return read_mirror(Path(given))
 
 
 def _text(record: Record) -> str:

@@ -93,7 +93,7 @@ def detect(
 @renamed(points="shape")
 def match(
     shape: object,
-    mirror: Result | _core.Mirror,
+    mirror: Result | _core.Mirror | str,
     pair_distance: float = 0.05,
     *,
     tolerance: float = 0.004,
@@ -113,7 +113,7 @@ def match(
 
     Args:
         shape: (n, 3) coordinates, a file, a ``Shape`` or a mesh, as for ``detect``.
-        mirror: the known mirror, or a result that has one.
+        mirror: the known mirror, a result that has one, or a plane such as "x=0".
         pair_distance: maximum distance between image and partner, as a fraction of the diagonal.
         tolerance: how far the two sides may differ and still count as symmetric, as a fraction of
             the diagonal in [1e-4, 0.1]: a point whose image lies this far from the surface counts
@@ -127,7 +127,7 @@ def match(
 
     Raises:
         InvalidInput: a result without a mirror, else as ``detect`` does.
-        InvalidParameter: neither a mirror nor a result, else as ``detect`` does.
+        InvalidParameter: neither a mirror nor a result nor a plane, else as ``detect`` does.
         Cancelled: as ``detect`` does.
     """
     mirror = mirror_of(mirror)

@@ -10,7 +10,9 @@ from .._core import Mirror, Plane
 from ..results import Result, mirror_of
 
 
-def bend(points: ArrayLike, mirror: Result | Mirror, back: bool = False) -> NDArray[np.float64]:
+def bend(
+    points: ArrayLike, mirror: Result | Mirror | str, back: bool = False
+) -> NDArray[np.float64]:
     """Points (n, 3) carried along while a curved mirror flattens into its plane, or, with ``back``,
     while the plane bends into the mirror.
 
@@ -35,7 +37,7 @@ def bend(points: ArrayLike, mirror: Result | Mirror, back: bool = False) -> NDAr
     return _core.bend(points, mirror_of(mirror), back)
 
 
-def straight_mirror(mirror: Result | Mirror, points: ArrayLike | None = None) -> Plane:
+def straight_mirror(mirror: Result | Mirror | str, points: ArrayLike | None = None) -> Plane:
     """The plane that ``bend`` flattens a mirror into.
 
     Args:

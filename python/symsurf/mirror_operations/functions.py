@@ -23,8 +23,8 @@ _VALUES = (
 _DOCUMENTED = {
     "shape": "points, a mesh or a file, as for ``detect``; points that are not finite do not move and "
     'have no counterpart: ``statistics["nonfinite_points"]`` is their number.',
-    "mirror": "a result of ``detect``, or a mirror of any kind, in the unit and pose of the points; "
-    "None: the mirror is found first.",
+    "mirror": "a result of ``detect``, a mirror of any kind, or a plane across an axis such as "
+    '"x=0" or "y=-1.5", in the unit and pose of the points; None: the mirror is found first.',
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
     "pairs": 'landmarks that mirror each other, with ``pairing="homologous"``: (k, 2) indices of '
     "points, or (k, 2, 3) places in input units. Without effect where both sides have one "
@@ -71,7 +71,7 @@ def _signature(operation: Operation) -> inspect.Signature:
             annotation=f"{own['symmetry'].annotation} | Mirror | Result | Axis"
         )
     else:
-        shared["mirror"] = shared["mirror"].replace(annotation="Result | Mirror | None")
+        shared["mirror"] = shared["mirror"].replace(annotation="Result | Mirror | str | None")
     words = {name: shared.pop(name) for name in ("shape", "mirror")} | own | shared
     if operation.carries_values:
         values = inspect.Parameter(

@@ -27,7 +27,7 @@ FOUND_AT = 0.8
 def operate(
     name: str,
     shape: object,
-    mirror: Result | Mirror | Axis | None = None,
+    mirror: Result | Mirror | Axis | str | None = None,
     *,
     mask: ArrayLike | None = None,
     pairs: ArrayLike | None = None,
@@ -121,8 +121,8 @@ def _carried(made: OperationResult, values: ArrayLike, name: object) -> NDArray[
 
 
 def _named_symmetry(
-    result: Result | Mirror | Axis | None, parameters: dict[str, Any]
-) -> tuple[Result | Mirror | Axis | None, dict[str, Any]]:
+    result: Result | Mirror | Axis | str | None, parameters: dict[str, Any]
+) -> tuple[Result | Mirror | Axis | str | None, dict[str, Any]]:
     """Both as the core takes them: the symmetry is given as an object in place of its name, or as the
     result; an axis becomes parameters."""
     given = parameters.get("symmetry")

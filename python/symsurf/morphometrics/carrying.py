@@ -17,7 +17,7 @@ from .checks import points_of
 def carry_landmarks(
     points: ArrayLike | Landmarks,
     shape: object,
-    result: Result | Mirror | None = None,
+    result: Result | Mirror | str | None = None,
     *,
     pairing: str = "homologous",
     **options: Any,

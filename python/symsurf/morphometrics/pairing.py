@@ -48,7 +48,7 @@ class LandmarkPairs:
 
 def landmark_pairs(
     points: ArrayLike | Landmarks,
-    mirror: Result | Mirror | None = None,
+    mirror: Result | Mirror | str | None = None,
     names: Sequence[str] | None = None,
     *,
     max_distance: float = 0.1,

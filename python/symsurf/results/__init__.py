@@ -9,7 +9,7 @@ from .analysis_results import (
     SymmetryEmbedding,
 )
 from .elements import Axis, SymmetryAxis, Transformation
-from .given_mirror import found_mirror, mirror_of
+from .given_mirror import found_mirror, mirror_of, plane_of
 from .operation_results import (
     Alignment,
     Asymmetry,
@@ -49,4 +49,5 @@ __all__ = [
     "Transformation",
     "found_mirror",
     "mirror_of",
+    "plane_of",
 ]
