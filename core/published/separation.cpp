@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <optional>
 
 #include "base/linear_algebra.h"
 #include "base/parallel.h"
@@ -56,6 +58,17 @@ double midpoint_score(const Cloud& cloud, const Result& result, const Context& c
   return covered * sum / static_cast<double>(sampled);
 }
 
+// None where they lie on one line.
+std::shared_ptr<Mirror> mirror_of(const Points& midpoints, const Context& context) {
+  constexpr Index least = 12;
+  if (midpoints.rows() < least) return nullptr;
+  try {
+    return fit_mirror(midpoints, "auto", std::nullopt, context);
+  } catch (const InvalidInput&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Result midpoint_pairs(const Cloud& cloud, const std::vector<Neighbour>& partners,
@@ -74,7 +87,8 @@ Result midpoint_pairs(const Cloud& cloud, const std::vector<Neighbour>& partners
     result.residuals[row] = std::sqrt(partner.squared_distance);
     result.surface_points.row(row++) = (points[i] + points[partner.index]).transpose() / 2;
   }
-  result.score = midpoint_score(cloud, result, context);
+  result.score = midpoint_score(cloud, result, context.stage(0, 0.8));
+  result.mirror = mirror_of(result.surface_points, context.stage(0.8, 1));
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <symsurf/detect.h>
 #include <symsurf/mirrors.h>
 
 #include <memory>
@@ -291,6 +292,17 @@ void bind_mirrors(py::module_& module) {
       "along the two lines through it. A shape that the mirror reflects onto itself comes out\n"
       "symmetric about ``straight_mirror(mirror)``. A mirror made by hand is laid out over the\n"
       "points' own feet. Rows without a foot are NaN. Raises InvalidInput when no point has one.");
+  module.def(
+      "fit_mirror",
+      [](const PointsArgument& points, const std::string& kind,
+         const std::optional<VectorArgument>& direction) {
+        return interruptible([&](const Context& context) {
+          return fit_mirror(PointsView(points), kind,
+                            direction ? std::optional(direction->vector) : std::nullopt, context);
+        });
+      },
+      py::arg("points"), py::arg("kind") = "auto", py::arg("direction") = py::none(),
+      "The mirror that points (n, 3) lie on.");
   module.def(
       "straight_mirror",
       [](const Mirror& mirror, const std::optional<PointsArgument>& points) {

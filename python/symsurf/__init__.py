@@ -33,7 +33,7 @@ from ._core import (
     methods,
     operations,
 )
-from .detection import detect, detectors, match
+from .detection import detect, detectors, fit_mirror, match
 from .detection.chunks import ChunkMatches, detect_chunks, match_chunks
 from .detection.detectors import *  # detect_<method>, one for each in methods()
 from .detection.sampling import downsample, estimate_normals
@@ -141,6 +141,7 @@ __all__ = [
     "detect_chunks",
     "downsample",
     "estimate_normals",
+    "fit_mirror",
     "landmark_pairs",
     "make_mirror",
     "match",

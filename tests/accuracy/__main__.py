@@ -16,6 +16,7 @@ from . import (
     deformed,
     embedding,
     exact,
+    given_surfaces,
     halves,
     homologous,
     intrinsic,
@@ -44,7 +45,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
+           given_surfaces, halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
            pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

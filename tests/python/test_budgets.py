@@ -13,11 +13,11 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (126, 174508, 1161, 2, 3),
+    "heart": (127, 178525, 1186, 4, 6),
     "symmetries": (30, 77817, 514, 3, 0),
     "synthetic": (8, 17577, 283, 0, 1),
     "io": (7, 12886, 40, 0, 0),
-    "published": (5, 11786, 128, 0, 0),
+    "published": (5, 11893, 131, 0, 0),
     "light": (4, 8707, 44, 0, 4),
     "homologous": (4, 7243, 47, 1, 0),
     "remeshing": (7, 8921, 47, 0, 0),

@@ -283,6 +283,7 @@ struct GeneralQuadric {
     if (!by.allFinite()) return {*this, 0};
     return {GeneralQuadric(coefficients + by), by.norm()};
   }
+  void follow(const GeneralQuadric& moved) { *this = moved; }
   static constexpr double ridge = double_rounding;  // the length of the coefficients moves nothing
 
   Change coefficients;

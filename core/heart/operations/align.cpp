@@ -149,6 +149,17 @@ OperationImplementation align_operation() {
 
 namespace {
 
+// The shear that makes the direction the normal: x + h (n - d / (n . d)), h the height over the
+// plane; the way back subtracts what h is multiplied by.
+Eigen::MatrixXd upright(const ObliquePlane& plane, bool back) {
+  const Vector3& n = plane.normal();
+  const Vector3 shift = (back ? -1 : 1) * (n - plane.direction() / n.dot(plane.direction()));
+  Eigen::MatrixXd matrix = Matrix4::Identity();
+  matrix.topLeftCorner<3, 3>() += shift * n.transpose();
+  matrix.topRightCorner<3, 1>() = plane.offset() * shift;
+  return matrix;
+}
+
 void run_straighten(const OperationInput& input, const Mirror& mirror,
                     const ParameterValues& values, const Context& context,
                     OperationResult& result) {
@@ -160,6 +171,8 @@ void run_straighten(const OperationInput& input, const Mirror& mirror,
   result.statistics["normal"] = plane.normal();
   result.statistics["offset"] = plane.offset();
   result.statistics["unplaced_points"] = unplaced;
+  if (const auto* oblique = dynamic_cast<const ObliquePlane*>(&mirror))
+    result.statistics["matrix"] = upright(*oblique, back);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -202,13 +203,20 @@ void try_freer_kinds(const Cloud& cloud, bool content, const Comparison& compari
                bends_all ? Contest::Run() : anew(bending, contest.pairs));
 }
 
+bool is_oblique(const Result& result) {
+  constexpr double least =
+      2 * std::numbers::pi / 180;  // a cut tilts chords of straight bodies by 1
+  const auto* plane = dynamic_cast<const ObliquePlane*>(result.mirror.get());
+  return plane && plane->obliquity() > least;
+}
+
 void try_oblique_plane(const Cloud& cloud, const Comparison& comparison, Contest& contest,
                        const Context& context) {
   const MethodImplementation& oblique = heart_method("oblique_plane");
   if (cloud.points.size() < oblique.minimum_points) return;
   const Cloud& some = cloud.thinned(thinned_size, context.stage(0, 0));
   Result result = run_usual(oblique, some, contest.pairs, context);
-  const bool wins = comparison.explains_more(result, contest.best);
+  const bool wins = is_oblique(result) && comparison.explains_more(result, contest.best);
   contest.take(oblique, std::move(result), wins,
                &some == &cloud ? Contest::Run() : anew(oblique, contest.pairs));
 }

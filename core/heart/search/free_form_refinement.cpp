@@ -1,6 +1,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <queue>
+#include <tuple>
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
@@ -23,13 +25,6 @@ struct Smoothing {
   double robust_scale;  // in units of the diagonal
   double most_missed;   // a patch whose data miss by more, in the median, is none
 };
-
-// So many that noise averages out.
-Index around_a_patch(const SearchCloud& cloud) {
-  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
-  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
-  return static_cast<Index>(std::min(most, least * excess * excess));
-}
 
 double median_miss(const std::vector<Carried>& data) {
   std::vector<double> squared;
@@ -76,9 +71,8 @@ void drop_small_components(const SearchCloud& cloud, std::vector<Carried>& carri
 }
 
 // Patches about one spacing apart, each fitted to the data around it.
-std::shared_ptr<const FreeForm> fitted(const SearchCloud& cloud,
-                                       const std::vector<Carried>& carried,
-                                       const Smoothing& smoothing) {
+std::shared_ptr<FreeForm> fitted(const SearchCloud& cloud, const std::vector<Carried>& carried,
+                                 const Smoothing& smoothing) {
   if (carried.size() < 6) return nullptr;
   const Points feet = feet_of(carried);
   const PointTree tree(feet);
@@ -127,6 +121,49 @@ double local_spacing(const SearchCloud& cloud, Index i) {
 }
 
 }  // namespace
+
+Index around_a_patch(const SearchCloud& cloud) {
+  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
+  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
+  return static_cast<Index>(std::min(most, least * excess * excess));
+}
+
+void orient(SearchCloud& cloud) {
+  struct Edge {
+    double alike;
+    Index from, to;
+
+    bool operator<(const Edge& other) const {
+      return std::tie(alike, other.from, other.to) < std::tie(other.alike, from, to);
+    }
+  };
+  std::vector<char> done(cloud.size(), 0);
+  std::priority_queue<Edge> edges;
+  for (Index first = 0; first < cloud.size(); ++first) {
+    edges.push({1, first, first});
+    while (!edges.empty()) {
+      const Edge edge = edges.top();
+      edges.pop();
+      if (done[edge.to]) continue;
+      done[edge.to] = 1;
+      if (cloud.normal(edge.from).dot(cloud.normal(edge.to)) < 0) cloud.normals.row(edge.to) *= -1;
+      for (int k = 0; k < SearchCloud::ring; ++k) {
+        const Index next = cloud.neighbours(edge.to, k);
+        if (!done[next])
+          edges.push({std::abs(cloud.normal(edge.to).dot(cloud.normal(next))), edge.to, next});
+      }
+    }
+  }
+}
+
+std::shared_ptr<FreeForm> surface_through(const SearchCloud& cloud) {
+  std::vector<Carried> own;
+  for (Index i = 0; i < cloud.size(); ++i)
+    own.push_back({cloud.point(i), cloud.normal(i), 0, Vector3::Zero(), cloud.normal(i)});
+  return fitted(cloud, own,
+                cloud.noisy() ? Smoothing{around_a_patch(cloud), 1, 0.6 * cloud.spacing, 1}
+                              : Smoothing{14, 1, 0.02 * cloud.spacing, 1});
+}
 
 double reach(const GrownSurface& surface) { return surface.exact ? 0.8 : 1.3; }
 

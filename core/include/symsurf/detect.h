@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -142,5 +143,18 @@ double diagonal(PointsView points, const Options& options = {}, const Context& c
 Result match(PointsView points, const Mirror& mirror, double pair_distance = 0.05,
              const Context& context = {}, bool refuse_nonfinite = false,
              double tolerance = usual_tolerance, TrianglesView faces = {});
+
+/// The mirror that points lie on: of a mid-surface that was drawn or known, of the midpoints of
+/// pairs, or of a method that ends with points. `kind`: "plane", "sphere", "cylinder", "quadric" or
+/// "free-form"; "auto" takes the likeliest, each number more of which has to pay (Schwarz 1978).
+/// Residuals are taken as Student's of 3 degrees: a third of the points may lie elsewhere. With a
+/// direction of mapping a plane becomes an oblique one, and a free form, which has to be a graph
+/// along it, a height field. The points are the mirror's footprint. Throws InvalidInput for fewer
+/// points than the kind has numbers, for points that are not finite or lie on one line, and where
+/// they determine no mirror of the kind, or none along the direction; InvalidParameter for an
+/// unknown kind; Cancelled.
+std::shared_ptr<Mirror> fit_mirror(PointsView points, std::string_view kind = "auto",
+                                   const std::optional<Vector3>& direction = std::nullopt,
+                                   const Context& context = {});
 
 }  // namespace symsurf

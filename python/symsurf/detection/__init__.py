@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from numpy.typing import ArrayLike
 
 from .. import _core
@@ -143,3 +145,33 @@ def match(
     return Result.from_fields(
         fields | {"mirror": mirror, "faces": given.faces, "space": given.space}
     )
+
+
+MirrorShape = Literal["auto", "plane", "sphere", "cylinder", "quadric", "free-form"]
+
+
+def fit_mirror(
+    points: object, kind: MirrorShape = "auto", direction: ArrayLike | None = None
+) -> _core.Mirror:
+    """The mirror that points lie on, such as those of a mid-surface that was drawn or is known.
+
+    Residuals are taken as Student's of 3 degrees, so that a third of the points may lie elsewhere.
+
+    Args:
+        points: (n, 3), a polyline, a file, a ``Shape`` or a mesh, as for ``detect``: its vertices
+            count; or a result, whose surface points count.
+        kind: of the mirror. "auto" takes the likeliest, in which each number more has to pay
+            (Schwarz 1978): a plane has 3, a sphere 4, a cylinder 5, a quadric 9, a free form more.
+        direction: (3,), along which the mirror maps: a plane becomes an ``ObliquePlane``, a free
+            form a ``HeightField``.
+
+    Returns:
+        The mirror in input units. The points are its footprint.
+
+    Raises:
+        InvalidInput: fewer points than the kind has numbers, points that are not finite or lie on
+            one line, that determine no mirror of the kind, or none along the direction.
+        InvalidParameter: an unknown kind; one that takes no direction.
+    """
+    given = points.surface_points if isinstance(points, Result) else as_input(points).points
+    return _core.fit_mirror(given, kind, direction)

@@ -359,9 +359,8 @@ class Illuminated(_OverMirror):
 @dataclass(frozen=True, eq=False, repr=False)
 class Straightened(_OverMirror):
     """The shape, deformed so that its mirror is flat. ``statistics``: "normal" and "offset" of the
-    plane that
-    the mirror is then, and how many "unplaced_points" have no foot on it: they go rigidly with the
-    nearest that has one."""
+    plane that the mirror is then, how many "unplaced_points" have no foot on it, as they go rigidly
+    with the nearest that has one, and "matrix" over an oblique plane."""
 
     operation = "straighten"
 
@@ -369,6 +368,12 @@ class Straightened(_OverMirror):
     def plane(self) -> Plane:
         """The plane into which the mirror was flattened."""
         return Plane(self.statistics["normal"], self.statistics["offset"])
+
+    @property
+    def matrix(self) -> NDArray[np.float64] | None:
+        """(4, 4) affine map that removed the shear of an oblique plane, ``matrix @ (x, y, z, 1)``;
+        None over other mirrors."""
+        return self.statistics.get("matrix")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
