@@ -173,7 +173,7 @@ def _active_layers(mesh):
     colours = mesh.color_attributes
     shown = mesh.uv_layers.active
     return (
-        shown.name if shown else None,
+        shown.name if shown else "",
         colours.active_color_name,
         colours.default_color_name,
     )

@@ -21,10 +21,7 @@ _symsurf() {
     words="%(commands)s"
   else
     case "${COMP_WORDS[1]} $before" in
-%(values)s
-      *) case ${COMP_WORDS[1]} in
-%(options)s
-      esac ;;
+%(cases)s
     esac
   fi
   COMPREPLY=($(compgen -W "$words" -- "$word"))
@@ -78,20 +75,15 @@ def _kinds(parser: Parser) -> list[str]:
 
 
 def _bash(parsers: Mapping[str, Parser]) -> str:
-    values, options = [], []
+    cases: dict[str, list[str]] = {}
     for name, parser in parsers.items():
-        options.append(
-            f'        {name}) words="{" ".join([*_kinds(parser), *_options(parser)])}" ;;'
-        )
-        for option, action in _options(parser).items():
-            if words := _values(action):
-                values.append(f'      "{name} {option}") words="{" ".join(words)}" ;;')
-    commands = " ".join(parsers)
-    return _BASH % {
-        "commands": commands,
-        "values": "\n".join(values),
-        "options": "\n".join(options),
-    }
+        options = _options(parser)
+        cases |= {f'"{name} {option}"': _values(action) for option, action in options.items()}
+        cases[f'"{name} "*'] = [*_kinds(parser), *options]
+    lines = [
+        f'      {case}) words="{" ".join(words)}" ;;' for case, words in cases.items() if words
+    ]
+    return _BASH % {"commands": " ".join(parsers), "cases": "\n".join(lines)}
 
 
 def _zsh(parsers: Mapping[str, Parser]) -> str:

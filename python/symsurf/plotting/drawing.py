@@ -84,7 +84,7 @@ def prepare(plotter: pyvista.Plotter) -> None:
 
 def add_title(plotter: pyvista.Plotter, title: str) -> None:
     if title:
-        plotter.add_text(title, position="upper_edge", font_size=14, color=INK)
+        plotter.add_text(title, position="upper_edge", font_size=12, color=INK)
 
 
 def import_pyvista() -> Any:

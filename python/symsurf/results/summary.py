@@ -35,8 +35,8 @@ class Summarised:
 
 
 def percent(share: float) -> str:
-    """Never 100 % of less than all."""
-    return f"{int(1000 * share) / 10:g} %"
+    """Never 100 % of less than all, never 0 % of some."""
+    return "below 0.1 %" if 0 < share < 0.001 else f"{int(1000 * share) / 10:g} %"
 
 
 def of_the_diagonal(share: float) -> str:

@@ -125,6 +125,14 @@ def test_mirrored_triangles_are_exact_and_quadrilaterals_stay():
     assert _is_closed_and_turned_outwards(shape)
 
 
+@pytest.mark.parametrize("options", [{"triangles": "mirrored"}, {"triangles": "kept"}])
+def test_a_mesh_needs_no_texture_coordinates(options):
+    shape, _ = head()
+    shape.data.uv_layers.remove(shape.data.uv_layers[0])
+    assert bpy.ops.symsurf.symmetrize(**options) == {"FINISHED"}
+    assert not shape.data.uv_layers
+
+
 def _own_plane(shape, angle=np.pi / 2):
     """An empty whose local z lies along x: the plane x = 0."""
     empty = bpy.data.objects.new("Plane", None)

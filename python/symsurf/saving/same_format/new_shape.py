@@ -148,7 +148,7 @@ _COLOURS = {
     prefix + name for prefix in (b"", b"diffuse_") for name in (b"red", b"green", b"blue", b"alpha")
 }
 
-LOST_NORMALS = "the normals are left out, which are not those of the new shape"
+LOST_NORMALS = "the normals are left out: they do not fit the new shape"
 
 
 def lost_arrays(format_name: str, names: Iterable[str]) -> str:
