@@ -219,7 +219,8 @@ def test_a_result_stands_for_its_mirror(name):
     with pytest.raises(symsurf.InvalidInput, match="the result of match has no mirror"):
         call(without)
     with pytest.raises(
-        symsurf.InvalidParameter, match=f"{argument} is of type .*; allowed is a Result or a Mirror"
+        symsurf.InvalidParameter,
+        match=f"{argument} is of type .*; allowed is a Result, a Mirror or a plane",
     ):
         call(None)
 

@@ -149,14 +149,15 @@ OperationImplementation align_operation() {
 
 namespace {
 
-// The shear that makes the direction the normal: x + h (n - d / (n . d)), h the height over the
-// plane; the way back subtracts what h is multiplied by.
-Eigen::MatrixXd upright(const ObliquePlane& plane, bool back) {
-  const Vector3& n = plane.normal();
-  const Vector3 shift = (back ? -1 : 1) * (n - plane.direction() / n.dot(plane.direction()));
+// The shear that makes an oblique plane's direction its normal: x + h (n - d / (n . d)), h the
+// height over the plane; the way back subtracts what h is multiplied by.
+Eigen::MatrixXd upright(const Mirror& plane, bool back) {
+  const Foot origin = *plane.at(Vector3::Zero());
+  const Vector3 &n = origin.normal, d = plane.direction(origin);
+  const Vector3 shift = (back ? -1 : 1) * (n - d / n.dot(d));
   Eigen::MatrixXd matrix = Matrix4::Identity();
   matrix.topLeftCorner<3, 3>() += shift * n.transpose();
-  matrix.topRightCorner<3, 1>() = plane.offset() * shift;
+  matrix.topRightCorner<3, 1>() = origin.distance * n.dot(d) * shift;
   return matrix;
 }
 
@@ -171,8 +172,7 @@ void run_straighten(const OperationInput& input, const Mirror& mirror,
   result.statistics["normal"] = plane.normal();
   result.statistics["offset"] = plane.offset();
   result.statistics["unplaced_points"] = unplaced;
-  if (const auto* oblique = dynamic_cast<const ObliquePlane*>(&mirror))
-    result.statistics["matrix"] = upright(*oblique, back);
+  if (mirror.kind() == "oblique plane") result.statistics["matrix"] = upright(mirror, back);
 }
 
 }  // namespace

@@ -203,11 +203,11 @@ void try_freer_kinds(const Cloud& cloud, bool content, const Comparison& compari
                bends_all ? Contest::Run() : anew(bending, contest.pairs));
 }
 
-bool is_oblique(const Result& result) {
+bool is_oblique(const Mirror& plane) {
   constexpr double least =
       2 * std::numbers::pi / 180;  // a cut tilts chords of straight bodies by 1
-  const auto* plane = dynamic_cast<const ObliquePlane*>(result.mirror.get());
-  return plane && plane->obliquity() > least;
+  const Foot foot = *plane.at(Vector3::Zero());
+  return foot.normal.cross(plane.direction(foot)).norm() > std::sin(least);
 }
 
 void try_oblique_plane(const Cloud& cloud, const Comparison& comparison, Contest& contest,
@@ -216,7 +216,8 @@ void try_oblique_plane(const Cloud& cloud, const Comparison& comparison, Contest
   if (cloud.points.size() < oblique.minimum_points) return;
   const Cloud& some = cloud.thinned(thinned_size, context.stage(0, 0));
   Result result = run_usual(oblique, some, contest.pairs, context);
-  const bool wins = is_oblique(result) && comparison.explains_more(result, contest.best);
+  const bool wins =
+      result.mirror && is_oblique(*result.mirror) && comparison.explains_more(result, contest.best);
   contest.take(oblique, std::move(result), wins,
                &some == &cloud ? Contest::Run() : anew(oblique, contest.pairs));
 }

@@ -220,8 +220,10 @@ const KindThrough* asked(std::string_view name, bool has_direction) {
 // Along a direction: an oblique plane, or heights over one.
 std::shared_ptr<Mirror> along(const Vector3& direction, const Mirror& found, PointsView points,
                               const Context& context) {
-  if (const auto* plane = dynamic_cast<const Plane*>(&found))
-    return std::make_shared<ObliquePlane>(plane->normal(), plane->offset(), direction);
+  if (found.kind() == "plane") {
+    const Foot foot = *found.at(Vector3::Zero());
+    return std::make_shared<ObliquePlane>(foot.normal, foot.distance, direction);
+  }
   Points feet(points.size(), 3);
   for (Index i = 0; i < points.size(); ++i) {
     const std::optional<Foot> foot = found.at(points[i]);

@@ -8,14 +8,18 @@ from typing import Any
 
 import numpy as np
 
+from .._core import Sphere
 from ..results import Result
+
+_POINTS = ("separation", "separation_normals", "normals_only")
+"""Methods whose result the thesis writes as points, whatever mirror lies through them."""
 
 
 def text_bytes(result: Result) -> bytes:
     lines = [f"# {line}" for line in comments(result)]
-    if result.mirror is not None and result.mirror.kind == "sphere":
-        sphere = result.mirror.numbers
-        lines += [coordinates(sphere["centre"]), repr(sphere["radius"])]
+    sphere = result.method not in _POINTS and isinstance(result.mirror, Sphere) and result.mirror
+    if sphere:
+        lines += [coordinates(sphere.centre), repr(sphere.radius)]
     else:
         lines += [coordinates(point) for point in result.surface_points]
     return ("\n".join(lines) + "\n").encode()
