@@ -12,17 +12,17 @@ namespace symsurf {
 namespace {
 
 const std::vector<OperationImplementation>& operation_implementations() {
-  static const std::vector<OperationImplementation> all{
-      asymmetry_operation(homologous_points),
-      correspondences_operation(homologous_points),
-      align_operation(),
-      also_about_axis(complete_operation()),
-      symmetrize_operation({homologous_points, vertex_pairs}),
-      straighten_operation(),
-      remesh_operation(),
-      cut_operation(),
-      transfer_operation(homologous_points),
-      illuminate_operation()};
+  static constexpr Matchers matchers{homologous_points, topological_pairs, vertex_pairs};
+  static const std::vector<OperationImplementation> all{asymmetry_operation(matchers),
+                                                        correspondences_operation(matchers),
+                                                        align_operation(),
+                                                        also_about_axis(complete_operation()),
+                                                        symmetrize_operation(matchers),
+                                                        straighten_operation(),
+                                                        remesh_operation(),
+                                                        cut_operation(),
+                                                        transfer_operation(matchers),
+                                                        illuminate_operation()};
   return all;
 }
 

@@ -60,4 +60,12 @@ HomologousPoints homologous_points(const OperationInput& input, const SymmetryMa
 HomologousPoints vertex_pairs(const OperationInput& input, const SymmetryMap& map,
                               PointsView images, const Context& context);
 
+/// The partners of vertices by the triangles alone, wherever a pose has put them: of the maps of
+/// each connected part of the faces onto itself or another that turn the winding round and are
+/// their own inverses the one that is nearest to the mirror's, or to what the largest part does
+/// beside it. Takes time by the number of faces. Throws InvalidInput without faces, and where less
+/// than half of the vertices have partners.
+HomologousPoints topological_pairs(const OperationInput& input, const SymmetryMap& map,
+                                   PointsView images, const Context& context);
+
 }  // namespace symsurf

@@ -3,73 +3,17 @@
 #include <cstdint>
 #include <functional>
 #include <queue>
-#include <span>
 #include <tuple>
-#include <utility>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "cloud/point_tree.h"
 #include "homologous_points.h"
+#include "surface_graph.h"
 
 namespace symsurf {
 
 namespace {
-
-// The vertices of a triangulated surface with the edges between them.
-class SurfaceGraph {
- public:
-  SurfaceGraph(Index vertices, TrianglesView faces);
-
-  // Vertices joined to this one by an edge, in ascending order.
-  std::span<const std::int32_t> neighbours(Index vertex) const {
-    return {neighbour_.data() + begin_[vertex], neighbour_.data() + begin_[vertex + 1]};
-  }
-
-  bool are_neighbours(Index one, Index other) const { return edge(one, other) >= 0; }
-
-  // The third vertices of the faces at an edge; -1 where there is none, both of more than two.
-  std::array<std::int32_t, 2> thirds(Index one, Index other) const {
-    const Index found = edge(one, other);
-    return found < 0 ? std::array{-1, -1} : thirds_[found];
-  }
-
- private:
-  // Its place among the neighbours of all; -1: there is none.
-  Index edge(Index one, Index other) const {
-    const auto around = neighbours(one);
-    const auto found =
-        std::lower_bound(around.begin(), around.end(), static_cast<std::int32_t>(other));
-    return found == around.end() || *found != other ? -1 : &*found - neighbour_.data();
-  }
-
-  std::vector<Index> begin_;
-  std::vector<std::int32_t> neighbour_;
-  std::vector<std::array<std::int32_t, 2>> thirds_;
-};
-
-SurfaceGraph::SurfaceGraph(Index vertices, TrianglesView faces) : begin_(vertices + 1, 0) {
-  std::vector<std::array<std::int32_t, 3>> edges;  // from, to, and the third vertex; both ways
-  edges.reserve(6 * faces.size());
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c) {
-      const auto a = static_cast<std::int32_t>(faces[f][c]);
-      const auto b = static_cast<std::int32_t>(faces[f][(c + 1) % 3]);
-      const auto third = static_cast<std::int32_t>(faces[f][(c + 2) % 3]);
-      if (a == b) continue;
-      edges.push_back({a, b, third});
-      edges.push_back({b, a, third});
-    }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 0, next = 0; k < edges.size(); k = next) {
-    const auto [a, b, third] = edges[k];
-    while (next < edges.size() && edges[next][0] == a && edges[next][1] == b) ++next;
-    neighbour_.push_back(b);
-    thirds_.push_back({next - k > 2 ? -1 : third, next - k == 2 ? edges[k + 1][2] : -1});
-    ++begin_[a + 1];
-  }
-  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-}
 
 constexpr Index table_grain = 1024;
 constexpr int most_starts = 40;  // a connected part: one in fifteen may be right
@@ -81,19 +25,16 @@ constexpr double worth_of_edges = 10;   // against being close: a lattice that s
 constexpr double most_turned = 0.5;     // of the edges at a vertex: quadrangles divided at random
 constexpr double most_unlike = 0.0625;  // an edge and its image: squared, by the length of the edge
 
-using Corner = std::array<std::int32_t, 3>;  // a vertex and the two others of a face at it
-
-// A map of a triangulation onto itself that exchanges the vertices of each pair.
-class MirrorMap {
+// A map of a triangulation onto itself that is near to displacements.
+class MirrorMap : public PartnerTable {
  public:
   MirrorMap(PointsView points, PointsView images, const SurfaceGraph& graph,
             const Displacements& displacements, const Context& context)
-      : images_(images),
-        graph_(graph),
+      : PartnerTable(graph),
+        images_(images),
         targets_(points.matrix() + displacements.mean),
         slides_(2 * displacements.deviations),
         nearest_(points.size()),
-        table_(points.size(), -1),
         best_(table_) {
     for (Index i = 0; i < points.size(); ++i) {
       for (const Index j : graph.neighbours(i))
@@ -117,7 +58,8 @@ class MirrorMap {
       const std::int32_t a = part[random.below(count)];
       const auto around = graph_.neighbours(a);
       const std::int32_t b = around[random.below(static_cast<Index>(around.size()))];
-      const Corner start{a, b, graph_.thirds(a, b)[0]};
+      const auto thirds = graph_.thirds(a, b);
+      const Corner start{a, b, thirds[thirds[0] < 0]};
       // All faces of a map of the whole part lead to it.
       if ((best.is_whole && is_in(best_, start)) || !begin(start)) continue;
       context.check();
@@ -131,7 +73,7 @@ class MirrorMap {
     }
     for (const std::int32_t i : part)
       if (best_[i] >= 0) join(i, best_[i]);
-    joined_.clear();
+    keep();
   }
 
   // The other vertex of each pair that keeps enough edges, else -1.
@@ -148,25 +90,6 @@ class MirrorMap {
     double score = 0;                           // 0: it is none
     bool is_whole = false, is_nearest = false;  // keeps all edges; and no other is as near
   };
-
-  bool may_join(Index i, Index j) const {
-    return table_[i] == j || (table_[i] < 0 && table_[j] < 0);
-  }
-
-  // Whether the two are a pair now and were none.
-  bool join(Index i, Index j) {
-    if (table_[i] >= 0 || table_[j] >= 0) return false;
-    table_[i] = j;
-    table_[j] = i;
-    joined_.insert(joined_.end(), {i, j});
-    return true;
-  }
-
-  // Breaks the pairs of the present map.
-  void undo() {
-    for (const Index i : joined_) table_[i] = -1;
-    joined_.clear();
-  }
 
   // Whether a map takes the corners of a face to the nearest.
   bool is_in(const std::vector<Index>& map, const Corner& face) const {
@@ -232,35 +155,6 @@ class MirrorMap {
     return {i, j, -1};
   }
 
-  // Whether the faces around a vertex are those around its image, from a face on that is mapped to
-  // one, with as many edges at their other vertices. `found`: these, their images, the ones before.
-  bool mirrors_faces(const Corner& corner, std::vector<Corner>& found) const {
-    const std::int32_t vertex = corner[0];
-    const auto across = [&](Index a, Index b, Index third) {
-      const auto thirds = graph_.thirds(a, b);
-      return thirds[0] == third ? thirds[1] : thirds[0];
-    };
-    found.clear();
-    for (int way = 1; way < 3 && corner[2] >= 0; ++way) {
-      std::int32_t last = corner[way], at = corner[3 - way];
-      Index last_image = table_[last], at_image = table_[at];
-      for (std::int32_t next = 0; next != corner[way];) {
-        next = across(vertex, at, last);
-        const std::int32_t image = across(table_[vertex], at_image, last_image);
-        if ((next < 0) != (image < 0)) return false;
-        if (next < 0) break;
-        if (!may_join(next, image) ||
-            graph_.neighbours(next).size() != graph_.neighbours(image).size())
-          return false;
-        found.push_back({next, image, at});
-        if (next == corner[way]) return true;
-        last = std::exchange(at, next);
-        last_image = std::exchange(at_image, image);
-      }
-    }
-    return corner[2] >= 0;
-  }
-
   Index kept_edges(Index i) const {
     const auto around = graph_.neighbours(i);
     return std::count_if(around.begin(), around.end(), [&](Index j) {
@@ -291,10 +185,9 @@ class MirrorMap {
   }
 
   PointsView images_;
-  const SurfaceGraph& graph_;
   Points targets_;
   Eigen::VectorXd slides_;  // that are as likely as not, diagonals
-  std::vector<Index> nearest_, table_, best_, joined_;
+  std::vector<Index> nearest_, best_;
 };
 
 }  // namespace

@@ -38,6 +38,7 @@ from . import (
     spheres,
     symmetries,
     textures,
+    topology,
     without_mirror,
 )
 from .case import Case, Figures
@@ -46,7 +47,8 @@ from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
            given_surfaces, halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
-           pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, without_mirror)  # fmt: skip
+           pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, topology,
+           without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 
 FRACTION = 5

@@ -141,13 +141,13 @@ void report_sides(Values& statistics, const OperationInput& input, const Mirror&
       Sides::index(std::abs(sides.positive_volume), std::abs(sides.negative_volume));
 }
 
-void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, const Mirror& mirror,
+void run_asymmetry(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
                    const ParameterValues& values, const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
   const double diagonal = diagonal_of(points);
   const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
-                                  pairing_of(values, homologous));
+                                  pairing_of(values, matchers));
   Points vector(count, 3), weights(count, 3);
   Eigen::VectorXd distance(count), outward(count), tangential(count), lateral(count),
       matched(count), face(count), confidence(count);
@@ -200,7 +200,7 @@ void run_asymmetry(HomologousMatcher homologous, const OperationInput& input, co
 
 }  // namespace
 
-OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
+OperationImplementation asymmetry_operation(const Matchers& matchers) {
   OperationImplementation operation;
   operation.name = "asymmetry";
   operation.title = "Mirror asymmetry";
@@ -239,7 +239,7 @@ OperationImplementation asymmetry_operation(HomologousMatcher homologous) {
        "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "signed";
-  operation.run = std::bind_front(run_asymmetry, homologous);
+  operation.run = std::bind_front(run_asymmetry, matchers);
   return operation;
 }
 

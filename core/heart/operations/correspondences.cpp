@@ -5,13 +5,13 @@ namespace symsurf {
 
 namespace {
 
-void run_correspondences(HomologousMatcher homologous, const OperationInput& input,
+void run_correspondences(const Matchers& matchers, const OperationInput& input,
                          const Mirror& mirror, const ParameterValues& values,
                          const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
   const Counterparts counterparts(input, mirror, limits_of(values, points), context,
-                                  pairing_of(values, homologous));
+                                  pairing_of(values, matchers));
   Eigen::VectorXd index(count), confidence(count), face(count);
   Points weights(count, 3);
   for (Index i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ void run_correspondences(HomologousMatcher homologous, const OperationInput& inp
 
 }  // namespace
 
-OperationImplementation correspondences_operation(HomologousMatcher homologous) {
+OperationImplementation correspondences_operation(const Matchers& matchers) {
   OperationImplementation operation;
   operation.name = "correspondences";
   operation.title = "Mirror correspondences";
@@ -66,7 +66,7 @@ OperationImplementation correspondences_operation(HomologousMatcher homologous) 
        "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "confidence";
-  operation.run = std::bind_front(run_correspondences, homologous);
+  operation.run = std::bind_front(run_correspondences, matchers);
   return operation;
 }
 
@@ -79,13 +79,12 @@ double own_share(const std::string& side, double signed_distance, double near) {
   return inside >= -near ? 1 : 0;
 }
 
-void run_transfer(HomologousMatcher homologous, const OperationInput& input, const Mirror& mirror,
+void run_transfer(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
                   const ParameterValues& values, const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
-  const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
-                                  pairing_of(values, homologous));
-  const Eigen::VectorXd distances = mirror.signed_distance(points, context.stage(0.8, 1));
+  const Counterparts counterparts(input, mirror, limits_of(values, points), context,
+                                  pairing_of(values, matchers));
   const std::string& side = values.choice("side");
   const double near = mirror_tolerance * diagonal_of(points);
   result.point_parents.resize(count, 4);
@@ -93,7 +92,7 @@ void run_transfer(HomologousMatcher homologous, const OperationInput& input, con
   Eigen::VectorXd failed = Eigen::VectorXd::Zero(count);
   for (Index i = 0; i < count; ++i) {
     const Counterpart& c = counterparts[i];
-    double own = own_share(side, distances[i], near);
+    double own = own_share(side, counterparts.signed_distance(i), near);
     failed[i] = own < 1 && !c.matched;
     if (!c.matched) own = 1;
     result.point_parents.row(i).setConstant(i);
@@ -118,7 +117,7 @@ void run_transfer(HomologousMatcher homologous, const OperationInput& input, con
 
 }  // namespace
 
-OperationImplementation transfer_operation(HomologousMatcher homologous) {
+OperationImplementation transfer_operation(const Matchers& matchers) {
   OperationImplementation operation;
   operation.name = "transfer";
   operation.title = "Mirror transfer";
@@ -136,7 +135,7 @@ OperationImplementation transfer_operation(HomologousMatcher homologous) {
        "Whether the point has no counterpart to take values from, and keeps its own."}};
   operation.shown = "";
   operation.carries_values = true;
-  operation.run = std::bind_front(run_transfer, homologous);
+  operation.run = std::bind_front(run_transfer, matchers);
   return operation;
 }
 

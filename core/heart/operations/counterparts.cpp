@@ -108,6 +108,12 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
     pair_copies(input.points, input.faces, nearest, context.stage(1, 1));
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].nearest = nearest[i];
   }
+  if (is_by_topology()) {
+    const double beside = 2 * mirror_tolerance * diagonal_of(input.points);
+    for (Index i = 0; i < input.points.size(); ++i)
+      if (const double side = homologous_.sides[i]; std::isfinite(side))
+        distances_[i] = side * std::max(std::abs(distances_[i]), beside);
+  }
   matched_ =
       std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
 }
@@ -154,9 +160,10 @@ void Counterparts::report(Values& statistics) const {
   statistics["unmatched_too_far"] = share(is_far);
   statistics["unmatched_turned"] = share(is_turned);
   if (!is_homologous_) return;
+  for (const auto& [name, value] : homologous_.statistics) statistics[name] = value;
   const double known = median(std::vector(homologous_.known.begin(), homologous_.known.end()));
   statistics["known_share"] = known;
-  if (known < 0.5)
+  if (known < 0.5 && !is_by_topology())
     statistics["warning"] =
         "the shape explains less than half of the displacement along the surface (known_share " +
         to_string(Value(known)) + "): homologous points are uncertain along it";
@@ -273,6 +280,11 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
         all_[i].past_rim = image(i).allFinite();
         continue;
       }
+      if (is_by_topology()) {
+        if (const Index other = homologous_.partners[i]; other >= 0)
+          settle_at_point(i, other, true);
+        continue;
+      }
       Index partner = is_half_ ? i : images.nearest(points[i], exact_reach * exact_reach).index;
       const bool is_exact = partner >= 0;
       if (!is_exact && is_homologous_) partner = homologous_.partners[i];
@@ -302,7 +314,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   const std::vector<bool> by_lines = wound_against_their_images(points, input.faces, faces_alike);
   parallel_for(context.stage(0.9, 1), points.size(), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
-      if (by_lines[i] && all_[i].face >= 0 && all_[i].gap > exact_reach)
+      if (by_lines[i] && !is_by_topology() && all_[i].face >= 0 && all_[i].gap > exact_reach)
         settle_at(i, closest_to(i, [&](const auto& surface) { return surface(query(points, i)); }),
                   true);
   });
@@ -362,14 +374,18 @@ Parameter max_angle() {
 }
 
 Parameter pairing() {
-  return Parameter::choice("pairing", "closest", {"closest", "homologous"},
-                           "Counterpart of a point: the closest point of the mirrored surface, or "
+  return Parameter::choice("pairing", "closest", {"closest", "homologous", "topology"},
+                           "Counterpart of a point: the closest point of the mirrored surface; "
                            "the homologous one, which is the vertex that mirrors it in a symmetric "
-                           "triangulation, otherwise an estimate by a Gaussian process.");
+                           "triangulation, otherwise an estimate by a Gaussian process; or that "
+                           "vertex by the triangles alone, wherever a pose has put it.");
 }
 
-HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous) {
-  return values.choice("pairing") == "homologous" ? homologous : nullptr;
+HomologousMatcher pairing_of(const ParameterValues& values, const Matchers& matchers) {
+  const std::string& pairing = values.choice("pairing");
+  return pairing == "homologous" ? matchers.homologous
+         : pairing == "topology" ? matchers.topological
+                                 : nullptr;
 }
 
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points) {

@@ -60,6 +60,10 @@ struct HomologousPoints {
   std::vector<Index> partners;  ///< of each point the one that it is the image of; -1: not known
   Eigen::VectorXd deviations;   ///< standard, of the part along the surface, input units
   Eigen::VectorXd known;        ///< share of its variance that the shape explains, 0 to 1
+  /// Where partners count wherever they lie, and points without one have no counterpart: the side
+  /// of the mirror that each belongs to, 1 or -1, 0: both; NaN without a partner. Else empty.
+  Eigen::VectorXd sides = {};
+  Values statistics = {};
 };
 
 /// Finds them. `images`: of the points, NaN where there are none.
@@ -69,6 +73,7 @@ using HomologousMatcher = HomologousPoints (*)(const OperationInput& input, cons
 /// Those of a satellite.
 struct Matchers {
   HomologousMatcher homologous;
+  HomologousMatcher topological;
   HomologousMatcher vertex_pairs;  ///< partners by the triangles alone, without displacements
 };
 
@@ -122,6 +127,9 @@ class Counterparts {
   /// Where homologous points were asked for.
   const HomologousPoints* homologous() const { return is_homologous_ ? &homologous_ : nullptr; }
 
+  /// From the mirror, input units; of posed points with the sign of the side that they belong to.
+  double signed_distance(Index i) const { return distances_[i]; }
+
   /// Of a point, NaN where it has none.
   Vector3 image(Index i) const { return images_.row(i).transpose(); }
   /// What has the point for its image: over a mirror the same.
@@ -152,6 +160,7 @@ class Counterparts {
   void match_cloud(const OperationInput& input, const Context& context);
   void settle(Index i, double cosine);
   void settle_exact(Index i);
+  bool is_by_topology() const { return homologous_.sides.size() > 0; }
 
   // From where the counterpart of a point is looked for.
   Vector3 query(PointsView points, Index i) const {
@@ -176,8 +185,8 @@ class Counterparts {
 Parameter max_distance();
 Parameter max_angle();
 Parameter pairing();
-/// The matcher where "pairing" asks for it; null for the closest points.
-HomologousMatcher pairing_of(const ParameterValues& values, HomologousMatcher homologous);
+/// The matcher that "pairing" asks for; null for the closest points.
+HomologousMatcher pairing_of(const ParameterValues& values, const Matchers& matchers);
 Counterparts::Limits limits_of(const ParameterValues& values, PointsView points);
 
 }  // namespace symsurf

@@ -22,13 +22,13 @@ struct OperationImplementation : Operation {
 };
 
 /// Pairings that a satellite provides are passed in.
-OperationImplementation asymmetry_operation(HomologousMatcher homologous);
-OperationImplementation correspondences_operation(HomologousMatcher homologous);
+OperationImplementation asymmetry_operation(const Matchers& matchers);
+OperationImplementation correspondences_operation(const Matchers& matchers);
 OperationImplementation align_operation();
 OperationImplementation complete_operation();
 OperationImplementation symmetrize_operation(const Matchers& matchers);
 OperationImplementation straighten_operation();
-OperationImplementation transfer_operation(HomologousMatcher homologous);
+OperationImplementation transfer_operation(const Matchers& matchers);
 
 /// Makes the result the shape itself, the source of each point and face its own.
 void start_completion(const OperationInput& input, OperationResult& result);

@@ -21,20 +21,21 @@ class Symmetrization {
       : input_(input),
         mirror_(mirror),
         limits_(limits_of(values, input.points)),
-        matcher_(pairing_of(values, matchers.homologous)),
+        matcher_(pairing_of(values, matchers)),
         vertex_pairs_(matcher_ ? nullptr : matchers.vertex_pairs),
         on_mirror_(mirror_tolerance * diagonal_of(input.points)) {}
 
   // Each point halfway to its place.
   Points average(const Context& context) {
-    return moved(input_.points, context,
-                 [](const Vector3& x, const Vector3& place) -> Vector3 { return (x + place) / 2; });
+    return moved(
+        input_.points, context,
+        [](const Vector3& x, const Vector3& place, double) -> Vector3 { return (x + place) / 2; });
   }
 
   // The points of the other side carried to the image of this one.
   Points carried(const Points& from, bool positive, const Context& context) {
-    return moved(from, context, [&](const Vector3& x, const Vector3& place) {
-      return (mirror_.signed_distance(x) > 0) == positive ? x : place;
+    return moved(from, context, [&](const Vector3& x, const Vector3& place, double distance) {
+      return (distance > 0) == positive ? x : place;
     });
   }
 
@@ -70,7 +71,8 @@ class Symmetrization {
     return static_cast<double>(same) >= triangles_agree * static_cast<double>(pairs);
   }
 
-  // What has a counterpart comes to to(x, place); what lies on the mirror, to its foot.
+  // What has a counterpart comes to to(x, place, signed distance); what lies on the mirror, to its
+  // foot.
   template <typename To>
   Points moved(PointsView from, const Context& context, const To& to) {
     OperationInput input = input_;
@@ -97,11 +99,12 @@ class Symmetrization {
         if (!c.matched || paired_[i] == 0) continue;
         const Vector3 x = from[i];
         const bool lies_on_mirror =
-            std::abs(mirror_.signed_distance(x)) <= on_mirror_ || c.nearest == i;
+            std::abs(found.signed_distance(i)) <= on_mirror_ || c.nearest == i;
         const bool is_pair = keep_pairs && is_mutual(found, i);
-        points.row(i) =
-            (lies_on_mirror ? mirror_.foot(x) : to(x, is_pair ? found.image(c.nearest) : c.place))
-                .transpose();
+        points.row(i) = (lies_on_mirror ? mirror_.foot(x)
+                                        : to(x, is_pair ? found.image(c.nearest) : c.place,
+                                             found.signed_distance(i)))
+                            .transpose();
       }
     });
     return points;

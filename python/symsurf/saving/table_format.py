@@ -41,9 +41,12 @@ def csv_bytes(arrays: Mapping[str, NDArray[Any]]) -> bytes:
 
 def mirror_bytes(result: Correspondences) -> bytes:
     """MakeHuman's table: one line for each point that has one: its number, that of its mirror point, and l, r
-    or m: on the side where signed distances are positive, on the other, or its own mirror point."""
+    or m: on the side where signed distances are greater, on the other, or its own mirror point."""
     points = np.flatnonzero(result.index >= 0)
-    distances = result.mirror.signed_distance(result.shape.points[points])
-    sides = np.where(result.index[points] == points, "m", np.where(distances > 0, "l", "r"))
-    rows = zip(points.tolist(), result.index[points].tolist(), sides.tolist(), strict=True)
+    partners = result.index[points]
+    # A pose may have put both on one side of the mirror.
+    distances = result.mirror.signed_distance(result.shape.points)
+    is_left = distances[points] > distances[partners]
+    sides = np.where(partners == points, "m", np.where(is_left, "l", "r"))
+    rows = zip(points.tolist(), partners.tolist(), sides.tolist(), strict=True)
     return "".join(f"{point} {partner} {side}\n" for point, partner, side in rows).encode()
