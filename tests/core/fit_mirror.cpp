@@ -103,7 +103,8 @@ TEST(FitMirror, NamesWhatIsNotAllowed) {
   RandomCloud random(5);
   const Points plane = on(Plane({0, 0, 1}, 0), random, 50);
   expect_error<InvalidInput>("determine no sphere", [&] { fit_mirror(plane, "sphere"); });
-  expect_error<InvalidInput>("at least 9", [&] { fit_mirror(Points(plane.topRows(8)), "quadric"); });
+  expect_error<InvalidInput>("at least 9",
+                             [&] { fit_mirror(Points(plane.topRows(8)), "quadric"); });
   expect_error<InvalidInput>("leaves it", [&] { fit_mirror(plane, "plane", Vector3(1, 0, 0)); });
   expect_error<InvalidParameter>(
       "kind is 'cone'; allowed is auto, plane, sphere, cylinder, quadric, "

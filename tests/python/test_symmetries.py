@@ -7,7 +7,7 @@ import json
 
 import numpy as np
 import pytest
-from accuracy.symmetric_parts import PARTS, Part, cut, noisy
+from accuracy.symmetric_parts import PARTS, Part, box, cut, noisy
 from command_line import run
 from numpy.typing import NDArray
 from seeds import each_seed, full_run
@@ -160,10 +160,14 @@ def test_the_command_line_says_the_same(tmp_path):
     found = symsurf.symmetries(points)
     record = json.loads(run("symmetries", path, "--json").stdout)
     assert record["file"] == str(path)
-    assert record["bop"] == found.to_bop()
+    entry = found.to_bop(points=points)
+    assert record["bop"] == entry
     told = found.to_json() | {"seconds": 0}
     assert {name: (record | {"seconds": 0})[name] for name in told} == told
-    assert json.loads(run("symmetries", path, "--bop").stdout) == {str(path): found.to_bop()}
+    assert json.loads(run("symmetries", path, "--bop").stdout) == {str(path): entry}
+    number = tmp_path / "obj_000012.xyz"
+    np.savetxt(number, points, fmt="%.17g")
+    assert json.loads(run("symmetries", number, "--bop").stdout) == {"12": entry}
     done = run("symmetries", tmp_path / "none.xyz", path)
     assert done.returncode == 1
     assert "none.xyz" in done.stderr and "D2h" in done.stdout
@@ -193,3 +197,76 @@ def test_bad_input_is_named():
         symsurf.symmetries(points[:2])
     with pytest.raises(symsurf.Cancelled):
         symsurf.symmetries(points, progress=lambda _: False)
+
+
+def test_bop_s_entry_has_the_diameter_and_the_box():
+    points = np.random.default_rng(8).normal(size=(700, 3)) * (1, 2, 3)
+    entry = symsurf.symmetries(points).to_bop(points=points)
+    between = np.linalg.norm(points[:, None] - points, axis=2)
+    assert entry["diameter"] == pytest.approx(between.max(), rel=1e-12)
+    for k, axis in enumerate("xyz"):
+        assert entry[f"min_{axis}"] == points[:, k].min()
+        assert entry[f"size_{axis}"] == np.ptp(points[:, k])
+
+
+def prism(sides, height):
+    """With its corners shared by the faces, and a vertex in the middle of either end."""
+    around = 2 * np.pi * np.arange(sides) / sides
+    circle = np.column_stack([np.cos(around), np.sin(around), 0 * around])
+    points = np.vstack([circle, circle + (0, 0, height), [(0, 0, 0), (0, 0, height)]])
+    i = np.arange(sides)
+    j = (i + 1) % sides
+    faces = [(i, j, j + sides), (i, j + sides, i + sides), (j, i, 0 * i + 2 * sides),
+             (i + sides, j + sides, 0 * i + 2 * sides + 1)]  # fmt: skip
+    return symsurf.Shape(points, np.vstack([np.column_stack(three) for three in faces]))
+
+
+@pytest.mark.parametrize("sides", [3, 5, 12, 15, 20, 31, 64])
+def test_a_prism_has_all_its_turns_exactly(sides):
+    for height in (0.2, 3.0):
+        found = symsurf.symmetries(prism(sides, height))
+        assert found.group == f"D{sides}h"
+        assert len(found.elements) == 4 * sides
+        turns = found.elements[:, :3, :3]
+        np.testing.assert_allclose(
+            np.trace(turns @ turns[1], axis1=1, axis2=2).sum(), 0, atol=1e-9
+        )  # of a group, characters sum to 0
+        assert found.max_deviation.max() < 1e-9
+
+
+def test_a_prism_is_no_ball_and_a_coarse_ball_is_one():
+    import pyvista
+
+    assert symsurf.symmetries(pyvista.Sphere()).group == "K"
+    assert symsurf.symmetries(pyvista.Cylinder()).group == "D∞h"
+    assert symsurf.symmetries(pyvista.Cylinder(resolution=24)).group == "D24h"
+
+
+def test_a_closed_body_has_no_side_that_nobody_saw():
+    """A plate with two pairs of blocks, C2, and a post at one end: no half turn maps it."""
+    blocks = [
+        box(4, 2, 0.5),
+        box(0.6, 0.5, 0.7) + (1.5, 0.6, 0.6),
+        box(0.6, 0.5, 0.7) + (-1.5, -0.6, 0.6),
+    ]
+    post = box(0.35, 0.35, 1.3) + (1.2, 0.1, 0.9)
+    for parts, group in ((blocks, "C2"), ([*blocks, post], "C1")):
+        corners = np.concatenate(parts).reshape(-1, 3)
+        vertices, faces = np.unique(corners, axis=0, return_inverse=True)
+        assert symsurf.symmetries(symsurf.Shape(vertices, faces.reshape(-1, 3))).group == group
+
+
+@pytest.mark.parametrize("decimals", [3, 4, 6])
+def test_points_count_to_the_rounding_of_their_decimals(decimals):
+    rng = np.random.default_rng(decimals)
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    methane = 0.629 * np.array([(0, 0, 0), (1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
+    around = np.radians(60) * np.arange(6)
+    ring = np.column_stack([np.cos(around), np.sin(around), 0 * around])
+    for atoms, group in ((methane, "Td"), (np.vstack([1.39 * ring, 2.48 * ring]), "D6h")):
+        given = np.round(atoms @ turn.T + rng.normal(size=3), decimals)
+        found = symsurf.symmetries(given)
+        assert found.group == group
+        assert found.max_deviation.max() <= 2 * 10.0**-decimals
+        shaken = given + 0.01 * rng.uniform(-1, 1, size=given.shape)
+        assert symsurf.symmetries(shaken, tolerance=0.05).group == group

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
@@ -13,14 +14,14 @@ namespace symsurf {
 
 namespace {
 
-// Of the set's diameter: from an image to a point, single precision; the same under an isometry
-// that two points define.
-constexpr double exactly = 2e-6, guessed = 5e-5;
-constexpr double same_map = 1e-4;         // between matrices
-constexpr double least_radius = 0.3;      // of the largest, of points that define a map
-constexpr double least_sine = 0.3;        // of the angle between two of them
-constexpr Index most_bases = 4'000'000;   // pairs that are tried for the base
-constexpr std::size_t farthest = 10'000;  // points that the base is chosen of
+constexpr double single_precision = 2e-6;         // of the set's diameter: from an image to a point
+constexpr double guessing = 25;                   // as far off, where two points define the map
+constexpr double same_map = 50;                   // between matrices
+constexpr double guessing_far = 3, same_far = 8;  // the same, of a tolerance
+constexpr double least_radius = 0.3;              // of the largest, of points that define a map
+constexpr double least_sine = 0.3;                // of the angle between two of them
+constexpr Index most_bases = 4'000'000;           // pairs that are tried for the base
+constexpr std::size_t farthest = 10'000;          // points that the base is chosen of
 
 // How often a file repeats a point must not move it.
 Vector3 centre_of(PointsView points, const PointTree& tree) {
@@ -37,7 +38,7 @@ Vector3 centre_of(PointsView points, const PointTree& tree) {
 
 class Search {
  public:
-  Search(PointsView points, const PointTree& tree, Index checked)
+  Search(PointsView points, const PointTree& tree, Index checked, double tolerance)
       : all_(points),
         tree_(tree),
         centre_(tree.has_copies() ? centre_of(points, tree)
@@ -45,9 +46,12 @@ class Search {
         points_(farthest_of(points)),
         radii_(points_.colwise().norm()),
         diameter_(2 * radii_.maxCoeff()),
+        exactly_(std::max(single_precision, tolerance / diameter_)),
+        guessed_(std::max(guessing * single_precision, guessing_far * tolerance / diameter_)),
+        same_(std::max(same_map * single_precision, same_far * tolerance / diameter_)),
         whole_from_(static_cast<Index>(radii_.size()) == points.size()
                         ? 0
-                        : radii_.minCoeff() + guessed * diameter_),
+                        : radii_.minCoeff() + guessed_ * diameter_),
         checked_(3, std::min(checked, points.size())) {
     for (Index k = 0; k < checked_.cols(); ++k)
       checked_.col(k) = points[k * points.size() / checked_.cols()] - centre_;
@@ -67,14 +71,14 @@ class Search {
       context.check();
       for (const Index j : as_b) {
         const double distance = (points_.col(as_a[i]) - points_.col(j)).norm();
-        if (std::abs(distance - apart) > guessed * diameter_) continue;
+        if (std::abs(distance - apart) > guessed_ * diameter_) continue;
         const Matrix3 onto = basis_of(points_.col(as_a[i]), points_.col(j));
         for (const double side : {1.0, -1.0}) {
           Matrix3 map = onto * Vector3(1, 1, side).asDiagonal() * base.transpose();
           // In crowds of points any pair stands for the same map.
-          if (is_known(fitted, map) || is_known(found.maps, map) || !fit(map, guessed)) continue;
+          if (is_known(fitted, map) || is_known(found.maps, map) || !fit(map, guessed_)) continue;
           fitted.push_back(map);
-          if (fit(map, exactly) && !is_known(found.maps, map)) add(map, most, found);
+          if (fit(map, exactly_) && !is_known(found.maps, map)) add(map, most, found);
         }
         if (found.maps.size() >= most) return found;
       }
@@ -116,8 +120,8 @@ class Search {
     std::vector<Index> counts;
     for (const double radius : radii_)
       counts.push_back(
-          std::upper_bound(sorted.begin(), sorted.end(), radius + exactly * diameter_) -
-          std::lower_bound(sorted.begin(), sorted.end(), radius - exactly * diameter_));
+          std::upper_bound(sorted.begin(), sorted.end(), radius + exactly_ * diameter_) -
+          std::lower_bound(sorted.begin(), sorted.end(), radius - exactly_ * diameter_));
     const auto rarest = [&](const auto& allowed) {
       Index best = -1;
       for (Index i = 0; i < radii_.size(); ++i)
@@ -135,13 +139,13 @@ class Search {
     Index widest = 0;  // of a slender set
     for (Index i = 0; i < radii_.size(); ++i)
       if (across(i) > across(widest)) widest = i;
-    return {a, across(widest) > exactly * radii_[a] * diameter_ ? widest : -1};
+    return {a, across(widest) > exactly_ * radii_[a] * diameter_ ? widest : -1};
   }
 
   std::vector<Index> as_far_as(Index point) const {
     std::vector<Index> alike;
     for (Index i = 0; i < radii_.size(); ++i)
-      if (std::abs(radii_[i] - radii_[point]) <= guessed * diameter_) alike.push_back(i);
+      if (std::abs(radii_[i] - radii_[point]) <= guessed_ * diameter_) alike.push_back(i);
     return alike;
   }
 
@@ -179,15 +183,15 @@ class Search {
   // Rounding adds up in products, of slender sets about their axes.
   bool keeps_some(const Matrix3& map) const {
     constexpr Index enough = 200;
-    const double limit = exactly * exactly * diameter_ * diameter_;
+    const double limit = exactly_ * exactly_ * diameter_ * diameter_;
     for (Index i = 0; i < checked_.cols(); i += std::max<Index>(1, checked_.cols() / enough))
       if (tree_.nearest(centre_ + map * checked_.col(i), limit).index < 0) return false;
     return true;
   }
 
-  static bool is_known(const std::vector<Matrix3>& maps, const Matrix3& map) {
+  bool is_known(const std::vector<Matrix3>& maps, const Matrix3& map) const {
     return std::any_of(maps.begin(), maps.end(),
-                       [&](const Matrix3& other) { return (other - map).norm() < same_map; });
+                       [&](const Matrix3& other) { return (other - map).norm() < same_; });
   }
 
   PointsView all_;
@@ -196,9 +200,11 @@ class Search {
   Columns points_;  // that are farthest from it, from it
   Eigen::VectorXd radii_;
   double diameter_;
-  double whole_from_;  // radius from which on these are all points
-  Columns checked_;    // from the centre
-  Index hardest_ = 0;  // that the last map took nowhere: others may miss there, too
+  double exactly_, guessed_;  // of it
+  double same_;               // between matrices
+  double whole_from_;         // radius from which on these are all points
+  Columns checked_;           // from the centre
+  Index hardest_ = 0;         // that the last map took nowhere: others may miss there, too
 };
 
 // The normal of a reflection; none of other maps.
@@ -212,8 +218,39 @@ std::optional<Vector3> reflected_normal(const Matrix3& map) {
 }  // namespace
 
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
-                                 std::size_t most, Index checked) {
-  return Search(points, tree, checked).run(most, context);
+                                 std::size_t most, Index checked, double tolerance) {
+  return Search(points, tree, checked, tolerance).run(most, context);
+}
+
+std::vector<Matrix3> polished(const std::vector<Matrix3>& maps) {
+  constexpr int rounds = 4;
+  constexpr double apart = 0.1;       // of matrices; a turn by 3 degrees is 0.07 off
+  constexpr std::size_t enough = 60;  // quotients a map is the mean of
+  const std::size_t count = maps.size(), factors = std::min(count, enough);
+  std::vector<std::size_t> product;
+  for (const Matrix3& map : maps)
+    for (std::size_t h = 0; h < factors; ++h) {
+      const Matrix3 wanted = map * maps[h];
+      std::size_t best = 0;
+      double least = apart * apart;
+      for (std::size_t k = 0; k < count; ++k)
+        if (const double off = (maps[k] - wanted).squaredNorm(); off < least)
+          std::tie(best, least) = std::pair(k, off);
+      if (least == apart * apart) return {};
+      product.push_back(best);
+    }
+  std::vector<Matrix3> group = maps;
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<Matrix3> before = group;
+    for (std::size_t g = 0; g < count; ++g) {
+      Matrix3 sum = Matrix3::Zero();
+      for (std::size_t h = 0; h < factors; ++h)
+        sum += before[product[g * factors + h]] * before[h].transpose();
+      group[g] = nearest_orthogonal(sum, maps[g].determinant());
+    }
+  }
+  group.front().setIdentity();
+  return group;
 }
 
 std::vector<Plane> exact_planes(const Cloud& cloud, const Context& context) {

@@ -22,10 +22,17 @@ struct ExactIsometries {
 /// the plane) with few as far out as they are (Wolter, Woo and Volz 1985), then fitted to all; of
 /// what is found all products. At most about `most`. `checked`: how many of the points, spread
 /// over them, are asked where they are taken. The identity alone where of many points too many lie
-/// as far out, as on a sphere.
+/// as far out, as on a sphere. `tolerance`: how far off its partner an image may be, where that is
+/// more, in input units.
 ExactIsometries exact_isometries(PointsView points, const PointTree& tree, const Context& context,
                                  std::size_t most = std::numeric_limits<std::size_t>::max(),
-                                 Index checked = std::numeric_limits<Index>::max());
+                                 Index checked = std::numeric_limits<Index>::max(),
+                                 double tolerance = 0);
+
+/// Maps that are products of each other but for their rounding, made a group to the last digit:
+/// each becomes the mean of its quotients, A_g = mean_h A_gh A_h' (Grove, Karcher and Ruh 1974).
+/// None where a product is none of them.
+std::vector<Matrix3> polished(const std::vector<Matrix3>& maps);
 
 /// The reflections among them, by some of the points: the planes that map a cloud onto itself, but
 /// for one that all points lie on.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "base/parallel.h"
 #include "cloud/closest_point_on_mesh.h"
 #include "cloud/exact_isometries.h"
+#include "cloud/triangle_mesh.h"
 #include "detection/pipeline.h"
 #include "point_group/point_group.h"
 
@@ -291,18 +293,6 @@ class SymmetrySearch {
   Vector3 centre_ = Vector3::Zero();
 };
 
-// That of all isometries of a small set, such as landmarks or the atoms of a molecule; C1 of
-// others.
-PointGroup exact_group(const Cloud& cloud, const Context& context) {
-  constexpr Index most_points = 1000;
-  if (cloud.points.size() > most_points) return {};
-  std::vector<Matrix3> elements;
-  for (const Matrix3& map : exact_isometries(cloud.points, cloud.tree(context), context).maps)
-    elements.push_back(
-        map.isIdentity(0) ? map : Matrix3(cloud.frame.axes.transpose() * map * cloud.frame.axes));
-  return PointGroup(elements);
-}
-
 }  // namespace
 
 Symmetries described(const PointGroup& group, const GroupPose& pose, const OrbitVote& vote,
@@ -330,14 +320,9 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
   return found;
 }
 
-Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
                              const std::function<bool(Symmetries&)>& accepts,
                              const Context& context) {
-  if (is_set)
-    if (const PointGroup exact = exact_group(cloud, context); exact.elements.size() > 1) {
-      Symmetries found = described(exact, {}, {.support = 1}, cloud.frame);
-      if (accepts(found)) return found;
-    }
   return SymmetrySearch(cloud, minimum_score, accepts, context).run();
 }
 
@@ -354,6 +339,11 @@ class Deviation {
   // Of each map, in the unit of the points; looks at about as many images in all.
   std::vector<double> of(const std::vector<Matrix4>& maps, Index looked,
                          const Context& context) const;
+  bool keeps(const Matrix3& turn, const Vector3& centre, PointsView samples, double limit) const;
+
+  // A mesh with both sides of each edge: it has no side that nobody saw.
+  bool is_closed() const { return is_closed_; }
+  Points vertices() const { return chosen_rows(shape_.points, vertices_); }
 
  private:
   double squared_distance(const Vector3& x) const;
@@ -362,6 +352,7 @@ class Deviation {
   const PointTree& tree_;
   std::vector<Index> vertices_;
   std::optional<ClosestPointOnMesh> surface_;
+  bool is_closed_ = false;
 };
 
 Deviation::Deviation(const Cloud& shape, const Context& context)
@@ -374,6 +365,17 @@ Deviation::Deviation(const Cloud& shape, const Context& context)
     for (int c = 0; c < 3; ++c) is_vertex[faces[f][c]] = true;
   for (const Index i : tree_.order())
     if (is_vertex[i] && points[i].allFinite()) vertices_.push_back(i);
+  if (faces.empty()) return;
+  const std::vector<bool> rim = TriangleMesh(points, faces, context).is_boundary();
+  is_closed_ = std::none_of(rim.begin(), rim.end(), [](bool is) { return is; });
+}
+
+bool Deviation::keeps(const Matrix3& turn, const Vector3& centre, PointsView samples,
+                      double limit) const {
+  constexpr Index looked = 2000;
+  for (Index i = 0; i < samples.size(); i += 1 + samples.size() / looked)
+    if (squared_distance(centre + turn * (samples[i] - centre)) > limit * limit) return false;
+  return true;
 }
 
 double Deviation::squared_distance(const Vector3& x) const {
@@ -460,6 +462,62 @@ bool deviates_little(Symmetries& found, const Deviation& deviation, double toler
   return !(tolerance > 0) || *std::max_element(deviations.begin(), deviations.end()) <= tolerance;
 }
 
+// What points have at most: half a unit of the last decimal that all of them have, along each axis,
+// twice. 0 of coordinates with more decimals, or too few to tell a shape by.
+double rounding_of(PointsView points, double diagonal) {
+  constexpr double most = 1e-3;  // diagonals
+  double unit = 1;
+  for (int decimals = 0; decimals <= 6; ++decimals, unit /= 10) {
+    const Eigen::ArrayXXd steps = points.matrix().array() / unit;
+    const bool fits = ((steps - steps.round()).abs() < 1e-6 * (1 + steps.abs())).all();
+    if (fits && unit < most * diagonal) return std::sqrt(3.0) * unit;
+  }
+  return 0;
+}
+
+// The group of the maps that take a small set, or the vertices of a mesh and its faces, exactly
+// onto themselves; C1 of others.
+Symmetries exact_symmetries(const Cloud& cloud, const Deviation& shape, bool is_set,
+                            double tolerance, const Context& context) {
+  constexpr Index most_points = 1000, most_vertices = 20'000;
+  constexpr std::size_t most = 512;
+  constexpr double rounding = 1e-5;  // diagonals
+  const Points vertices = is_set ? Points(cloud.points.matrix()) : shape.vertices();
+  if (vertices.rows() > (is_set ? most_points : most_vertices)) return described({}, {}, {}, {});
+  const PointTree tree(vertices, context);
+  const double reach = is_set ? std::max(tolerance, rounding_of(vertices, cloud.diagonal)) : 0;
+  const ExactIsometries maps =
+      exact_isometries(vertices, tree, context, most, std::numeric_limits<Index>::max(), reach);
+  std::vector<Matrix3> elements = polished(maps.maps);
+  const bool is_kept =
+      !elements.empty() && elements.size() < most &&
+      std::all_of(maps.generators.begin(), maps.generators.end(), [&](const Matrix3& generator) {
+        return is_set ||
+               shape.keeps(generator, maps.centre, cloud.points, rounding * cloud.diagonal);
+      });
+  if (!is_kept) elements = {Matrix3::Identity()};
+  for (Matrix3& map : elements)
+    if (!map.isIdentity(0)) map = cloud.frame.axes.transpose() * map * cloud.frame.axes;
+  const GroupPose pose{Matrix3::Identity(), cloud.frame.to_frame(maps.centre)};
+  return described(PointGroup(elements), pose, {.support = 1}, cloud.frame);
+}
+
+// Whether a group has more elements than the exact ones, all of them to within what tessellation
+// takes off: of a prism of 64 sides, which is no cylinder, 3e-4; of a ball that is drawn coarsely
+// more.
+bool has_more(const Symmetries& found, const Symmetries& exact, double diagonal) {
+  constexpr double of_round = 2e-4, of_ball = 1e-2;  // diagonals
+  if (exact.elements.size() == 1) return true;
+  std::vector<double> deviations = found.max_deviations;
+  deviations.insert(deviations.end(), found.axis_max_deviations.begin(),
+                    found.axis_max_deviations.end());
+  const bool is_continuous = std::any_of(found.axes.begin(), found.axes.end(),
+                                         [](const SymmetryAxis& axis) { return axis.order == 0; });
+  return (is_continuous || found.elements.size() > exact.elements.size()) &&
+         *std::max_element(deviations.begin(), deviations.end()) <=
+             (found.group == "K" ? of_ball : of_round) * diagonal;
+}
+
 void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
                   const std::function<void(const Cloud&, const Context&)>& search,
                   const Context& context) {
@@ -496,10 +554,22 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
   const auto search = [&](const Cloud& cloud, const Context& running) {
     const bool is_cloud = options.faces.empty();
     const Deviation deviation(is_cloud ? cloud : whole, running.stage(0, 0));
+    // A closed mesh has no side that nobody saw: what maps a part of it elsewhere is no symmetry.
+    constexpr double farthest = 0.1;  // diagonals
+    const double limit = options.tolerance > 0   ? options.tolerance
+                         : deviation.is_closed() ? farthest * cloud.diagonal
+                                                 : 0;
     const auto accepts = [&](Symmetries& group) {
-      return deviates_little(group, deviation, options.tolerance, running.stage(1, 1));
+      return deviates_little(group, deviation, limit, running.stage(1, 1));
     };
-    found = search_symmetries(cloud, is_cloud, options.minimum_score, accepts, running);
+    found = exact_symmetries(cloud, deviation, is_cloud, options.tolerance, running.stage(0, 0.1));
+    const bool is_exact = accepts(found) && found.elements.size() > 1;
+    constexpr Index least_searched = 30;  // points: fewer show no surface
+    if (is_cloud ? !is_exact && cloud.points.size() >= least_searched : true) {
+      Symmetries searched =
+          search_symmetries(cloud, options.minimum_score, accepts, running.stage(0.1, 1));
+      if (!is_exact || has_more(searched, found, cloud.diagonal)) found = std::move(searched);
+    }
     if (options.colours.size() > 0) {
       const Context last = running.stage(1, 1);
       const ColouredSurface surface(points, options.faces, options.colours, last);

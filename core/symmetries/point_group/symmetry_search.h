@@ -199,11 +199,9 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
 
 /// The point group of a validated cloud in one process. Elements are proposed by candidate planes,
 /// by the lines that these meet in and by the principal axes; the groups that they may make are
-/// fitted and judged as a whole, the largest first. `is_set`: the points are no sample of faces; of
-/// few, what maps them exactly onto one another counts before. Of a surface of revolution any part
-/// of the turn may be missing. `accepts`: whether a group that was found is one; it may fill in
-/// more of it.
-Symmetries search_symmetries(const Cloud& cloud, bool is_set, double minimum_score,
+/// fitted and judged as a whole, the largest first. Of a surface of revolution any part of the turn
+/// may be missing. `accepts`: whether a group that was found is one; it may fill in more of it.
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
                              const std::function<bool(Symmetries&)>& accepts,
                              const Context& context);
 

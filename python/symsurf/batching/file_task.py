@@ -257,7 +257,7 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
         record["notices"].append(nonfinite_message(left_out))
     record |= plain(found.to_json())
     if isinstance(found, Symmetries):
-        record |= {"bop": found.to_bop(), "isaac": found.to_isaac()}
+        record |= {"bop": found.to_bop(points=shape.points), "isaac": found.to_isaac()}
     _write(task, found, record)
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from .._core import Analysis, InvalidParameter
@@ -33,7 +35,7 @@ from .values import duration
 # What pose estimators read, by the record's name for it.
 _TABLES = {
     "bop": "an entry of the BOP toolkit's models_info, with symmetries_discrete and "
-    "symmetries_continuous",
+    "symmetries_continuous; those named obj_000001 are called by their number",
     "isaac": "the parameter symmetry_axes of Isaac ROS FoundationPose",
 }
 
@@ -101,9 +103,16 @@ def _print_pose_table(name: str, tasks: Sequence[FileTask], arguments: argparse.
     for record in worked_on(tasks, arguments):
         status = max(status, tell(record))
         if name in record:
-            entries[record["file"]] = record[name]
+            key = _object_number(record["file"]) if name == "bop" else None
+            entries[key or record["file"]] = record[name]
     say(json.dumps(entries, indent=1))
     return status
+
+
+def _object_number(file: str) -> str | None:
+    """The toolkit's name of obj_000012.ply: "12"."""
+    number = re.fullmatch(r"obj_(\d+)", Path(file).stem)
+    return str(int(number[1])) if number else None
 
 
 def _text(record: Record) -> str:

@@ -15,7 +15,7 @@ from ..shapes import Shape
 from .base_result import BaseResult
 from .elements import Axis, Transformation
 from .outputs import plot
-from .poses import isaac_axes, nearest_poses, rigid, stepped
+from .poses import extents, isaac_axes, nearest_poses, rigid, stepped
 from .summary import value_text
 
 if TYPE_CHECKING:
@@ -250,7 +250,9 @@ class Symmetries(AnalysisResult):
                 found[k : k + 1] = nearest_poses(poses[k : k + 1], found[k - 1 : k], turns, axes)
         return found.reshape(np.shape(pose))
 
-    def to_bop(self, tolerance: float | None = None) -> dict[str, Any]:
+    def to_bop(
+        self, tolerance: float | None = None, points: ArrayLike | None = None
+    ) -> dict[str, Any]:
         """The rotations as an entry of the BOP toolkit's ``models_info.json`` has them.
 
         ``symmetries_discrete``: 4 x 4 matrices, row by row in lists of 16, without the identity;
@@ -263,6 +265,8 @@ class Symmetries(AnalysisResult):
             tolerance: the greatest ``max_deviation`` and ``axis_max_deviation`` of those to take, a
                 length in input units; without it all. The BOP challenge takes the larger of 15 mm
                 and a tenth of the diameter.
+            points: (n, 3) of the model: with them the entry has ``diameter``, ``min_x`` and ``size_x``
+                and the like, too, and is complete.
 
         Raises:
             InvalidParameter: a tolerance below 0 or not finite.
@@ -270,7 +274,7 @@ class Symmetries(AnalysisResult):
         taken = self._taken(tolerance)[1:]
         turns = self.elements[1:][taken]
         _, axes = self._rotations(tolerance)
-        entry: dict[str, Any] = {}
+        entry: dict[str, Any] = {} if points is None else extents(points)
         if len(turns):
             entry["symmetries_discrete"] = [turn.ravel().tolist() for turn in turns]
             entry["max_deviation"] = self.max_deviation[1:][taken].tolist()

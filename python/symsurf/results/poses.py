@@ -71,6 +71,29 @@ def nearest_poses(poses: Matrices, to: Matrices, turns: Matrices, axes: Sequence
     return poses @ candidates[np.arange(len(poses)), first]
 
 
+def extents(points: ArrayLike) -> dict[str, float]:
+    """The bounding box of points (n, 3) and their diameter, the largest distance of two, by the names
+    of the BOP toolkit's ``models_info.json``."""
+    rows = np.asarray(points, dtype=np.float64)
+    rows = rows[np.isfinite(rows).all(axis=1)]
+    low, size = rows.min(axis=0), np.ptp(rows, axis=0)
+    box = {f"min_{axis}": float(low[k]) for k, axis in enumerate("xyz")}
+    box |= {f"size_{axis}": float(size[k]) for k, axis in enumerate("xyz")}
+    return {"diameter": _diameter(rows), **box}
+
+
+def _diameter(rows: NDArray[np.float64]) -> float:
+    from_middle = np.linalg.norm(rows - (rows.min(axis=0) + np.ptp(rows, axis=0) / 2), axis=1)
+    one = rows[from_middle.argmax()]
+    longest = float(np.linalg.norm(rows - one, axis=1).max())
+    # Nearer to the middle a point has no partner so far off.
+    rows = rows[from_middle >= longest * (1 - 1e-12) - from_middle.max()]
+    for row in np.array_split(rows, -(-len(rows) // 256)):
+        far = np.linalg.norm(row[:, None] - rows, axis=2)
+        longest = max(longest, float(far.max()))
+    return longest
+
+
 def stepped(turns: Matrices, axes: Sequence[Axis], step: float) -> Matrices:
     """(k, 4, 4): the turns, the identity first, and about continuous axes those by steps of at most
     so many degrees; of a ball, by Euler angles in steps of 30 at least."""
