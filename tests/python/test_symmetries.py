@@ -270,3 +270,16 @@ def test_points_count_to_the_rounding_of_their_decimals(decimals):
         assert found.max_deviation.max() <= 2 * 10.0**-decimals
         shaken = given + 0.01 * rng.uniform(-1, 1, size=given.shape)
         assert symsurf.symmetries(shaken, tolerance=0.05).group == group
+
+
+def test_a_tolerance_admits_what_a_pin_spoils():
+    """Points of a cylinder with a pin: any turn takes the pin 6 % of the radius off."""
+    around = np.linspace(0, 2 * np.pi, 96, endpoint=False)
+    a, z = (each.ravel() for each in np.meshgrid(around, np.linspace(-1, 1, 40)))
+    side = np.column_stack([np.cos(a), np.sin(a), z])
+    y, z = (each.ravel() for each in np.meshgrid(*2 * [np.linspace(-0.12, 0.12, 12)]))
+    points = np.vstack([side, np.column_stack([np.full_like(y, 1.06), y, z])])
+    assert symsurf.symmetries(points, tolerance=0.2).group == "D∞h"
+    within = symsurf.symmetries(points, tolerance=0.04)
+    assert within.group != "D∞h"
+    assert within.max_deviation.max() <= 0.04

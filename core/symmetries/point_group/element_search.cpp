@@ -90,8 +90,10 @@ OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
 
 }  // namespace
 
-SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context)
+SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, bool is_limited,
+                           const Context& context)
     : minimum_score_(minimum_score),
+      is_limited_(is_limited),
       points_(cloud, context.stage(0, 0.2)),
       coarse_(cloud.patches(surfels, context.stage(0.2, 0.4))),
       fine_(cloud.finer_patches(surfels, context.stage(0.4, 0.6))),
@@ -99,8 +101,9 @@ SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Conte
       fit_(cloud, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {
-  return vote.support >= minimum_score_ && vote.missing <= most_missing &&
-         vote.outliers <= most_outliers_of_elements;
+  return vote.support >= minimum_score_ &&
+         (is_limited_ ||
+          (vote.missing <= most_missing && vote.outliers <= most_outliers_of_elements));
 }
 
 std::optional<SymmetryTest::Passed> SymmetryTest::tried(const GroupPose& start,
@@ -127,6 +130,7 @@ std::optional<SymmetryTest::Passed> SymmetryTest::passed(const GroupPose& start,
   const GroupPose pose = fit_.closely(start, spread(group), samples_of_group);
   const OrbitVote vote = orbit_vote(score_, pose, group, many_images);
   if (!may_be(vote)) return {};
+  if (is_limited_) return Passed{pose, vote};
   const double most_outliers = continuous ? most_outliers_of_continuous : most_outliers_of_group;
   const bool decided =
       group.size() > 2 ? vote.outliers <= most_outliers : vote.share() >= minimum_score_;

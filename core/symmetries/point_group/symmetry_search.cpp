@@ -44,12 +44,12 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
 
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Cloud& cloud, double minimum_score,
+  SymmetrySearch(const Cloud& cloud, double minimum_score, bool is_limited,
                  const std::function<bool(Symmetries&)>& accepts, const Context& context)
       : cloud_(cloud),
         accepts_(accepts),
         context_(context),
-        test_(cloud, minimum_score, context.stage(0, 0.4)) {}
+        test_(cloud, minimum_score, is_limited, context.stage(0, 0.4)) {}
 
   Symmetries run() {
     planes_ = find_planes(test_);
@@ -320,10 +320,10 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
   return found;
 }
 
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score, bool is_limited,
                              const std::function<bool(Symmetries&)>& accepts,
                              const Context& context) {
-  return SymmetrySearch(cloud, minimum_score, accepts, context).run();
+  return SymmetrySearch(cloud, minimum_score, is_limited, accepts, context).run();
 }
 
 namespace {
@@ -566,8 +566,8 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     const bool is_exact = accepts(found) && found.elements.size() > 1;
     constexpr Index least_searched = 30;  // points: fewer show no surface
     if (is_cloud ? !is_exact && cloud.points.size() >= least_searched : true) {
-      Symmetries searched =
-          search_symmetries(cloud, options.minimum_score, accepts, running.stage(0.1, 1));
+      Symmetries searched = search_symmetries(cloud, options.minimum_score, options.tolerance > 0,
+                                              accepts, running.stage(0.1, 1));
       if (!is_exact || has_more(searched, found, cloud.diagonal)) found = std::move(searched);
     }
     if (options.colours.size() > 0) {
@@ -592,7 +592,7 @@ std::optional<SymmetryAxis> find_axis(PointsView points, TrianglesView faces,
   if (!group.axes.empty()) return group.axes.front();
   std::optional<SymmetryAxis> found;
   const auto search = [&](const Cloud& cloud, const Context& running) {
-    const SymmetryTest test(cloud, options.minimum_score, running);
+    const SymmetryTest test(cloud, options.minimum_score, false, running);
     if (const auto part = find_revolution(cloud, test, running))
       found = SymmetryAxis{cloud.frame.from_frame(part->axis.pose.centre),
                            cloud.frame.axes * part->axis.z(), 0};
