@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -27,13 +28,16 @@ constexpr Index most_walks = 64;   // over a part: a regular lattice has maps wi
 constexpr Index compared_seeds = 64;
 constexpr Index beside_parts = 16;                      // of many alike that are compared
 constexpr Index frame_places = 16, frame_vertices = 4;  // of a part, and of the largest near each
+constexpr double sound_near = 0.5;  // share of vertices: with a third of a body bent 0.6
 constexpr double least_near = 0.3;  // share of vertices: with all limbs bent by 120 degrees 0.54
 constexpr double alike = 0.95;      // share of the best map's worth: of a body others reach 0.5
 
 // A number for each vertex, the same where the triangles around are alike, in either winding:
 // colour refinement (Weisfeiler and Leman 1968).
-std::vector<std::uint64_t> colours_of(const SurfaceGraph& graph) {
+// Vertices from `given` on are of another kind.
+std::vector<std::uint64_t> colours_of(const SurfaceGraph& graph, Index given) {
   std::vector<std::uint64_t> colours(graph.vertices(), 0), next = colours;
+  std::fill(colours.begin() + given, colours.end(), 1);
   for (int round = 0; round < colour_rounds; ++round) {
     for (Index i = 0; i < graph.vertices(); ++i) {
       next[i] = 3 * colours[i];
@@ -45,11 +49,17 @@ std::vector<std::uint64_t> colours_of(const SurfaceGraph& graph) {
   return colours;
 }
 
-// Triangles between distinct vertices, one of those with the same corners.
-Triangles proper_faces(TrianglesView faces, const std::vector<std::int32_t>& number) {
-  std::vector<std::pair<std::array<std::int32_t, 3>, Index>> corners;
-  for (Index f = 0; f < faces.size(); ++f) {
-    std::array own{number[faces[f][0]], number[faces[f][1]], number[faces[f][2]]};
+struct ImagedMesh {
+  Points points, images;  // over the mirror
+  Triangles faces;
+  Index given;  // vertices: others, behind them, divide polygons
+};
+
+// Without faces that name a vertex twice or have the corners of another.
+Triangles proper_faces(const Triangles& faces) {
+  std::vector<std::pair<std::array<Index, 3>, Index>> corners;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    std::array own{faces(f, 0), faces(f, 1), faces(f, 2)};
     std::sort(own.begin(), own.end());
     if (own[0] != own[1] && own[1] != own[2]) corners.emplace_back(own, f);
   }
@@ -57,22 +67,59 @@ Triangles proper_faces(TrianglesView faces, const std::vector<std::int32_t>& num
   const auto end = std::unique(corners.begin(), corners.end(),
                                [](const auto& a, const auto& b) { return a.first == b.first; });
   Triangles proper(end - corners.begin(), 3);
-  for (Index f = 0; f < proper.rows(); ++f)
-    for (int c = 0; c < 3; ++c) proper(f, c) = number[faces[corners[f].second][c]];
+  for (Index f = 0; f < proper.rows(); ++f) proper.row(f) = faces.row(corners[f].second);
   return proper;
+}
+
+// Triangles that follow each other may divide a polygon, and not alike on both sides: each about a
+// vertex in its middle. Polygons are fans about their first corner, or quadrangles of two triangles
+// with an edge. None: there are no polygons.
+std::optional<ImagedMesh> divided_about_middles(const ImagedMesh& mesh, bool are_fans) {
+  const Triangles& given = mesh.faces;
+  std::vector<std::array<Index, 3>> faces;
+  std::vector<Vector3> points, images;
+  for (Index f = 0, next = 0; f < given.rows(); f = next) {
+    std::vector<Index> corners{given(f, 0), given(f, 1), given(f, 2)};
+    // Whether the next triangle has an edge, and with it another corner.
+    const auto takes = [&](std::size_t at, int way) {
+      const Index third = given(next, (way + 2) % 3);
+      if (given(next, way) != corners[(at + 1) % corners.size()] ||
+          given(next, (way + 1) % 3) != corners[at] || std::ranges::count(corners, third) > 0)
+        return false;
+      corners.insert(corners.begin() + static_cast<Index>(at) + 1, third);
+      return true;
+    };
+    next = f + 1;
+    if (are_fans)
+      while (next < given.rows() && takes(corners.size() - 1, 0)) ++next;
+    for (int k = 0; !are_fans && next == f + 1 && next < given.rows() && k < 9; ++k)
+      if (takes(k / 3, k % 3)) ++next;
+    if (next == f + 1) {
+      faces.push_back({corners[0], corners[1], corners[2]});
+      continue;
+    }
+    const Index middle = mesh.given + static_cast<Index>(points.size());
+    points.push_back(mesh.points(corners, Eigen::indexing::all).colwise().mean().transpose());
+    images.push_back(mesh.images(corners, Eigen::indexing::all).colwise().mean().transpose());
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      faces.push_back({corners[k], corners[(k + 1) % corners.size()], middle});
+  }
+  if (points.empty()) return {};
+  const Index all = mesh.given + static_cast<Index>(points.size());
+  ImagedMesh divided{Points(all, 3), Points(all, 3), rows_of(faces), mesh.given};
+  divided.points << mesh.points, rows_of(points);
+  divided.images << mesh.images, rows_of(images);
+  return divided;
 }
 
 class TopologicalPairs {
  public:
-  // `images`: of the points, over the mirror.
-  TopologicalPairs(const Points& points, const Points& images, const Triangles& faces,
-                   const Context& context)
-      : points_(points),
-        images_(images),
-        graph_(points.rows(), faces),
-        colours_(colours_of(graph_)),
+  TopologicalPairs(ImagedMesh mesh, const Context& context)
+      : mesh_(std::move(mesh)),
+        graph_(points_.rows(), mesh_.faces = proper_faces(mesh_.faces)),
+        colours_(colours_of(graph_, mesh_.given)),
         table_(graph_),
-        scale_(usual_slide * diagonal_of(points)) {
+        scale_(usual_slide * diagonal_of(points_)) {
     find_parts();
     std::vector<Vector3> middles;
     for (const Part& part : parts_) middles.push_back(part.middle);
@@ -89,10 +136,14 @@ class TopologicalPairs {
 
   Index operator[](Index i) const { return table_[i]; }
 
-  Index vertices() const { return vertices_; }    ///< of faces
+  const ImagedMesh& mesh() const { return mesh_; }
+
+  Index vertices() const { return vertices_; }    ///< given ones of faces
   Index paired() const { return paired_; }        ///< of these
   Index ambiguous() const { return ambiguous_; }  ///< which another map pairs about as well
   Index parts() const { return static_cast<Index>(parts_.size()); }
+  /// Sum over these: 1 where the partner is the image, 0 far from it.
+  double nearness() const { return near_; }
   double near() const { return near_ / static_cast<double>(paired_); }  ///< share of paired()
   Index maps() const { return maps_; }  ///< of the largest part; of a lattice some of them
 
@@ -100,6 +151,7 @@ class TopologicalPairs {
   struct Part {
     std::vector<std::int32_t> vertices;  // by colour
     Vector3 middle;
+    Index given;                // vertices
     std::uint64_t colours = 0;  // the sum
     bool is_done = false;
   };
@@ -132,7 +184,8 @@ class TopologicalPairs {
         return std::pair(colours_[a], a) < std::pair(colours_[b], b);
       });
       part.middle = of(points_, part).colwise().mean().transpose();
-      vertices_ += static_cast<Index>(part.vertices.size());
+      part.given = std::ranges::count_if(part.vertices, [&](Index k) { return k < mesh_.given; });
+      vertices_ += part.given;
       parts_.push_back(std::move(part));
     }
     std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
@@ -280,14 +333,15 @@ class TopologicalPairs {
     for (Index k = 0; k < count; ++k) table_.join(part.vertices[k], partners[k]);
     table_.keep();
     parts_[image].is_done = true;
-    const Index both = image == own ? count : 2 * count;
+    const Index both = image == own ? part.given : 2 * part.given;
     paired_ += both;
     near_ += best * static_cast<double>(both);
     if (second >= alike * best) ambiguous_ += both;
     return true;
   }
 
-  const Points &points_, &images_;
+  ImagedMesh mesh_;
+  const Points &points_ = mesh_.points, &images_ = mesh_.images;
   const SurfaceGraph graph_;
   const std::vector<std::uint64_t> colours_;
   PartnerTable table_;
@@ -300,11 +354,10 @@ class TopologicalPairs {
 
 // Of each vertex the sign of the half of its surface: that of the sum of the distances from the
 // mirror; 0 of one that is its own partner, NaN without one.
-Eigen::VectorXd sides_of(const TopologicalPairs& partner, const Triangles& faces,
-                         const Eigen::VectorXd& distances) {
+Eigen::VectorXd sides_of(const TopologicalPairs& partner, const Eigen::VectorXd& distances) {
   const Index count = distances.size();
   DisjointSets halves(count);
-  for (const auto& face : faces.rowwise())
+  for (const auto& face : partner.mesh().faces.rowwise())
     for (int c = 0; c < 3; ++c)
       if (const Index a = face[c], b = face[(c + 1) % 3];
           partner[a] != a && partner[b] != b && partner[a] != b)
@@ -335,10 +388,20 @@ HomologousPoints topological_pairs(const OperationInput& input, const SymmetryMa
     throw InvalidInput("the pairing topology needs faces; none given for " +
                        std::to_string(given.size()) + " points");
   const DistinctPoints distinct = distinct_points(given, context.stage(0, 0.1));
-  const Points points = given.matrix()(distinct.first, Eigen::indexing::all),
-               mirrored = images.matrix()(distinct.first, Eigen::indexing::all);
-  const Triangles faces = proper_faces(given_faces, distinct.number);
-  const TopologicalPairs partner(points, mirrored, faces, context.stage(0.1, 0.9));
+  ImagedMesh mesh{given.matrix()(distinct.first, Eigen::indexing::all),
+                  images.matrix()(distinct.first, Eigen::indexing::all),
+                  Triangles(given_faces.size(), 3), static_cast<Index>(distinct.first.size())};
+  for (Index f = 0; f < given_faces.size(); ++f)
+    for (int c = 0; c < 3; ++c) mesh.faces(f, c) = distinct.number[given_faces[f][c]];
+  auto pairing = std::make_unique<TopologicalPairs>(mesh, context.stage(0.1, 0.5));
+  for (const bool are_fans : {true, false}) {
+    if (pairing->paired() == pairing->vertices() && pairing->near() > sound_near) break;
+    const std::optional<ImagedMesh> divided = divided_about_middles(mesh, are_fans);
+    if (!divided) continue;
+    auto other = std::make_unique<TopologicalPairs>(*divided, context.stage(0.5, 0.9));
+    if (other->nearness() > pairing->nearness()) pairing = std::move(other);
+  }
+  const TopologicalPairs& partner = *pairing;
   if (2 * partner.paired() < partner.vertices() || partner.paired() == 0)
     throw InvalidInput(
         "the triangulation is not symmetric: " + count_of(partner.paired(), partner.vertices()) +
@@ -353,11 +416,11 @@ HomologousPoints topological_pairs(const OperationInput& input, const SymmetryMa
   for (Index f = given_faces.size() - 1; f >= 0; --f)
     for (int c = 0; c < 3; ++c) first[distinct.number[given_faces[f][c]]] = given_faces[f][c];
   const Eigen::VectorXd sides =
-      sides_of(partner, faces, map.signed_distance(points, context.stage(0.9, 1)));
+      sides_of(partner, map.signed_distance(partner.mesh().points, context.stage(0.9, 1)));
   for (Index i = 0; i < given.size(); ++i) {
     const Index own = distinct.number[i], other = partner[own];
     found.sides[i] = sides[own];
-    if (other < 0) continue;
+    if (other < 0 || other >= mesh.given) continue;
     found.partners[i] = first[other];
     found.known[i] = 1;
   }

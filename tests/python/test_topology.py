@@ -22,6 +22,16 @@ def test_closest_points_lose_limbs_that_triangles_find():
     assert (closest.index == BODY.mirrored).mean() < 0.9
 
 
+def test_quadrangles_may_be_divided_in_any_way():
+    shape = symsurf.Shape(POSED.points, BODY.faces)  # no triangulation is mirrored as a whole
+    found = symsurf.correspondences(shape, "x=0", pairing="topology")
+    np.testing.assert_array_equal(found.index, BODY.mirrored)
+    mesh = POSED.to_pyvista()
+    mesh.points = POSED.points.astype(float)
+    made = mesh.symmetry.symmetrize(mirror="x=0", side="positive", pairing="topology")
+    np.testing.assert_allclose(made.points[BODY.mirrored] * OVER, made.points, atol=1e-6)
+
+
 def test_one_arm_bent_is_both_arms_bent_or_none():
     is_paired = BODY.mirrored != np.arange(len(BODY.mirrored))
     for side, sign in (("positive", 1), ("negative", -1)):
@@ -50,8 +60,9 @@ def test_the_command_line_pairs_by_topology(tmp_path):
 
 
 def test_what_has_no_map_is_named():
+    faces = np.vstack([BODY.faces[::2], BODY.faces[1::2]])  # the halves of quadrangles lie apart
     with pytest.raises(symsurf.InvalidInput, match="the triangulation is not symmetric: 0 of 1642"):
-        symsurf.correspondences(symsurf.Shape(BODY.points, BODY.faces), "x=0", pairing="topology")
+        symsurf.correspondences(symsurf.Shape(BODY.points, faces), "x=0", pairing="topology")
     with pytest.raises(symsurf.InvalidInput, match="pairing topology needs faces"):
         symsurf.symmetrize(BODY.points, "x=0", pairing="topology")
     with pytest.raises(symsurf.InvalidInput, match="landmark pairs"):
