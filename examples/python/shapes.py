@@ -93,6 +93,39 @@ def vertebra(cells=90):
     return Shape(np.array(surface.points, dtype=float) * 20, surface.regular_faces.astype(np.int64))
 
 
+def half_doll(cells=40):
+    """The side x >= 0 of a doll that looks along -y, open at x = 0."""
+    axes = [
+        np.linspace(0, 2, cells),
+        np.linspace(-0.7, 0.7, cells),
+        np.linspace(-2.1, 2, 2 * cells),
+    ]
+    x = np.meshgrid(*axes, indexing="ij")
+    parts = [
+        _ball(x, (0, 0, 1.4), (0.42, 0.45, 0.5)),
+        _ball(x, (0, 0, 0.2), (0.5, 0.36, 0.85)),
+        _rod(x, (0.4, 0, 0.65), (1.7, 0, 0.55), 0.17),
+        _rod(x, (0.25, 0, -0.4), (0.4, 0, -1.75), 0.2),
+        _rod(x, (0.4, 0, -1.8), (0.45, -0.3, -1.85), 0.17),
+    ]
+    inside = -np.log(sum(np.exp(-14 * part) for part in parts)) / 14
+    grid = pyvista.RectilinearGrid(*axes)
+    grid["inside"] = inside.ravel(order="F")
+    surface = grid.contour([0.0])
+    return Shape(np.array(surface.points, dtype=float), surface.regular_faces.astype(np.int64))
+
+
+def with_an_arm_raised(shape, degrees):
+    """The arm of a doll where x > 0, turned about the shoulder."""
+    shoulder = np.array([0.45, 0, 0.65])
+    out, _, up = shape.points.T
+    share = np.clip((out - 0.4) / 0.4, 0, 1) * np.clip((up + 0.1) / 0.4, 0, 1)
+    angle = np.radians(degrees) * share**2 * (3 - 2 * share)
+    x, y, z = (shape.points - shoulder).T
+    turned = x * np.cos(angle) - z * np.sin(angle), y, x * np.sin(angle) + z * np.cos(angle)
+    return Shape(np.column_stack(turned) + shoulder, shape.faces)
+
+
 def leaf(length=10.0, across=41, along=161):
     """Folded along its midrib, with veins; the midrib lies along z."""
     s, t = np.meshgrid(np.linspace(-1, 1, across), np.linspace(0.002, 0.998, along), indexing="ij")
