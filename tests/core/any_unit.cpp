@@ -37,9 +37,11 @@ TEST(AnyUnit, EveryMethodFindsTheSame) {
       ASSERT_EQ(!other.mirror, !one.mirror) << method.name << " in 2^" << power;
       if (!one.mirror) continue;
       const Points feet = one.mirror->project(points);
-      EXPECT_LE((other.mirror->project(Points(unit * points)) / unit - feet).norm(),
-                1e-6 * feet.norm())
-          << method.name << " in 2^" << power;
+      const Points others = other.mirror->project(Points(unit * points)) / unit;
+      for (Index i = 0; i < feet.rows(); ++i)  // a free form has not all of them
+        EXPECT_TRUE((others.row(i) - feet.row(i)).norm() <= 1e-6 ||
+                    (!feet.row(i).allFinite() && !others.row(i).allFinite()))
+            << method.name << " in 2^" << power << " at " << i;
     }
   }
 }

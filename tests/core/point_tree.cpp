@@ -117,6 +117,39 @@ TEST(PointTree, VisitsAllWithinARadiusAndNoOther) {
   }
 }
 
+// Eight together, in single precision first; far off the cloud and of ties one by one.
+TEST(PointTree, FindsTheSameOfManyQueriesAsOfEach) {
+  const auto expect_same = [](const Points& points, std::vector<Vector3> queries) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    queries.emplace_back(nan, 0, 0);
+    queries.emplace_back(0, infinity, 0);
+    queries.emplace_back(1e40, 0, -1e40);
+    const PointTree tree(points);
+    const double size = points.cwiseAbs().maxCoeff();
+    for (const double limit : {infinity, 0.01 * size * size, 0.0}) {
+      const std::vector<Neighbour> found = tree.nearest(queries, limit);
+      ASSERT_EQ(found.size(), queries.size());
+      for (std::size_t q = 0; q < queries.size(); ++q) {
+        const Neighbour alone = tree.nearest(queries[q], limit);
+        EXPECT_EQ(found[q].index, alone.index);
+        EXPECT_EQ(found[q].squared_distance, alone.squared_distance);
+      }
+    }
+  };
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RandomCloud random(seed);
+    for (const Points& points : clouds(seed)) expect_same(points, queries(points, random));
+    const Points lattice = random.lattice(2000, 6), halves = random.lattice(100, 12) / 2;
+    std::vector<Vector3> at;
+    for (Index q = 0; q < halves.rows(); ++q) at.emplace_back(halves.row(q).transpose());
+    for (const double unit : {1.0, 1e-40, 1e40}) {
+      std::vector<Vector3> scaled;
+      for (const Vector3& query : at) scaled.push_back(unit * query);
+      expect_same(unit * lattice, scaled);
+    }
+  }
+}
+
 TEST(PointTree, TakesTheLimitAsInclusive) {
   Points points(2, 3);
   points << 0, 0, 0, 4, 0, 0;

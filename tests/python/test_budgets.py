@@ -13,8 +13,8 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (127, 179279, 1188, 4, 3),
-    "symmetries": (30, 78676, 528, 3, 0),
+    "heart": (130, 182954, 1208, 4, 3),
+    "symmetries": (30, 78732, 528, 3, 0),
     "synthetic": (8, 17577, 283, 0, 1),
     "io": (7, 12886, 40, 0, 0),
     "published": (5, 11893, 131, 0, 0),
@@ -45,7 +45,7 @@ def code_of(path: Path) -> str:
 def measured() -> dict[str, tuple[int, ...]]:
     sums = {part: Counter[str]() for part in BUDGETS}
     core = ROOT / "core"
-    for path in [*core.rglob("*.h"), *core.rglob("*.cpp")]:
+    for path in [*core.rglob("*.h"), *core.rglob("*.inl"), *core.rglob("*.cpp")]:
         folders = path.relative_to(ROOT).parts
         part = next((f for f in folders if f in BUDGETS), "heart")
         code = code_of(path)

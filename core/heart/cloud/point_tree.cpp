@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -40,17 +41,21 @@ PointTree::PointTree(PointsView points, const Context& context) {
       ++finite;
     }
   if (finite > 0) origin_ = box.min() / 2 + box.max() / 2;  // their sum may be no double
-  sort(points, finite > 0 ? box.sizes().maxCoeff() : 0, context);
+  std::vector<std::uint64_t> keys = sort(points, finite > 0 ? box.sizes().maxCoeff() : 0, context);
   context.report(0.5);
 
   if (finite == 0) return;
   std::vector<Vector3> sorted(begins_.empty() ? finite : begins_.size() - 1);
-  interruptible_for(context, static_cast<Index>(sorted.size()),
-                    [&](Index node) { sorted[node] = points[order_[begin(node)]] - origin_; });
-  tree_ = std::make_unique<const Tree>(std::move(sorted), context);
+  interruptible_for(context, static_cast<Index>(sorted.size()), [&](Index node) {
+    sorted[node] = points[order_[begin(node)]] - origin_;
+    keys[node] = keys[begin(node)];  // of the first of copies
+  });
+  keys.resize(sorted.size());
+  tree_ = std::make_unique<const Tree>(std::move(sorted), keys, context);
 }
 
-void PointTree::sort(PointsView points, double extent, const Context& context) {
+std::vector<std::uint64_t> PointTree::sort(PointsView points, double extent,
+                                           const Context& context) {
   const double cells = static_cast<double>(1 << bits_per_axis) - 1;
   constexpr double least = 1e-300;  // an extent, in input units, that cells can be divided by
   const double scale = extent > least ? cells / extent : 0;
@@ -71,6 +76,7 @@ void PointTree::sort(PointsView points, double extent, const Context& context) {
   std::iota(order_.begin(), order_.end(), 0);
   radix_sort(keys, order_, context);
   put_copies_together(points, keys, context);
+  return keys;
 }
 
 // Among points of one key, which others may stand between. `keys`: sorted.
@@ -113,6 +119,25 @@ Neighbour PointTree::nearest(const Vector3& query, double limit) const {
   return best;
 }
 
+std::vector<Neighbour> PointTree::nearest(const std::vector<Vector3>& queries, double limit) const {
+  std::vector<Neighbour> found(queries.size());
+  if (!tree_) return found;
+  std::array<Vector3, Tree::lanes> packet;
+  for (std::size_t first = 0; first < queries.size(); first += packet.size()) {
+    const std::size_t count = std::min(packet.size(), queries.size() - first);
+    for (std::size_t i = 0; i < count; ++i) packet[i] = queries[first + i] - origin_;
+    const auto positions = tree_->nearest(packet.data(), static_cast<int>(count), limit);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t at = positions[i];
+      if (at >= 0)
+        found[first + i] = {order_[begin(at)], (tree_->point(at) - packet[i]).squaredNorm()};
+      else if (at < -1)
+        found[first + i] = nearest(queries[first + i], limit);
+    }
+  }
+  return found;
+}
+
 void PointTree::nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const {
   found.clear();
   const auto wanted = static_cast<std::size_t>(k);
@@ -135,14 +160,11 @@ NearestPoints::NearestPoints(const Cloud& cloud, const Context& context)
 
 std::vector<Vector3> NearestPoints::nearest(const std::vector<Vector3>& queries,
                                             double reach) const {
-  const double limit = reach * reach;
+  context_.check();
   std::vector<Vector3> nearest;
   nearest.reserve(queries.size());
-  for (const Vector3& query : queries) {
-    if (nearest.size() % queries_between_checks == 0) context_.check();
-    const Index found = tree_.nearest(query, limit).index;
-    nearest.push_back(found < 0 ? none : points_[found]);
-  }
+  for (const Neighbour& found : tree_.nearest(queries, reach * reach))
+    nearest.push_back(found.index < 0 ? none : points_[found.index]);
   return nearest;
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "cloud/box_tree.h"
+
 namespace symsurf {
 
 struct Cloud;
@@ -139,7 +141,7 @@ struct Neighbour {
   }
 };
 
-/// A k-d tree of a cloud: exact nearest neighbours, ties broken by index. The points are stored
+/// A tree of a cloud: exact nearest neighbours, ties broken by index. The points are stored
 /// along the Z-order curve, so that queries in that order stay in cache. Copies of a point are one
 /// point of the tree: a search for few neighbours takes no longer however many there are. Points
 /// that are not finite are never found.
@@ -160,6 +162,10 @@ class PointTree {
   Neighbour nearest(const Vector3& query,
                     double limit = std::numeric_limits<double>::infinity()) const;
 
+  /// The same of many queries, which are fastest where those next to each other are near.
+  std::vector<Neighbour> nearest(const std::vector<Vector3>& queries,
+                                 double limit = std::numeric_limits<double>::infinity()) const;
+
   /// The k nearest points, nearest first.
   void nearest(const Vector3& query, Index k, std::vector<Neighbour>& found) const;
 
@@ -174,7 +180,7 @@ class PointTree {
     });
   }
 
-  /// KdTree::search_boxes(): bound(low, high) of boxes, offer(index) of points.
+  /// BoxTree::search_boxes(): bound(low, high) of boxes, offer(index) of points.
   template <typename Bound, typename Offer>
   void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
     if (!tree_) return;
@@ -192,7 +198,7 @@ class PointTree {
   }
 
  private:
-  using Tree = KdTree<3>;
+  using Tree = BoxTree;
 
   // In the order, where the copies of the tree's point begin.
   std::size_t begin(std::size_t node) const { return begins_.empty() ? node : begins_[node]; }
@@ -208,7 +214,8 @@ class PointTree {
     });
   }
 
-  void sort(PointsView points, double extent, const Context& context);
+  // Gives the keys on the curve, in its order.
+  std::vector<std::uint64_t> sort(PointsView points, double extent, const Context& context);
   void put_copies_together(PointsView points, const std::vector<std::uint64_t>& keys,
                            const Context& context);
 

@@ -37,12 +37,15 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
   Partners partners{std::vector<std::int32_t>(points.size()), Eigen::VectorXd(points.size())};
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
+    std::vector<Vector3> images;
     for (Index p = begin; p < end; ++p) {
-      const std::int32_t i = order[p];
       if (p + ahead < end) prefetch(points, order[p + ahead]);
-      const Neighbour found = tree.nearest(mirror.reflect(points[i]), limit * limit);
-      partners.index[i] = static_cast<std::int32_t>(found.index);
-      partners.squared[i] = found.squared_distance;
+      images.push_back(mirror.reflect(points[order[p]]));
+    }
+    const std::vector<Neighbour> found = tree.nearest(images, limit * limit);
+    for (Index p = begin; p < end; ++p) {
+      partners.index[order[p]] = static_cast<std::int32_t>(found[p - begin].index);
+      partners.squared[order[p]] = found[p - begin].squared_distance;
     }
   });
   return partners;

@@ -30,9 +30,10 @@ struct OwnImages {
   double spacing() const { return 1; }
   template <typename Map>
   std::vector<Match> matches(const std::vector<Map>&, double) const {
+    const Facet none{Vector3::Zero(), 0};
     std::vector<Match> found;
     found.reserve(points.size());
-    for (const Vector3& x : points) found.push_back({x, {}, x, {}});
+    for (const Vector3& x : points) found.push_back({x, none, x, none});
     return found;
   }
 };
