@@ -29,16 +29,20 @@ struct BoxTree::Packet {
 };
 
 #if defined(__GNUC__)
+#define SYMSURF_WIDE 4
 struct BoxTree::Packet::Anywhere {
 #include "cloud/packet_search.inl"
 };
+#undef SYMSURF_WIDE
 #if defined(__x86_64__) && !defined(__clang__)
+#define SYMSURF_WIDE 8
 #pragma GCC push_options
 #pragma GCC target("avx2")
 struct BoxTree::Packet::Avx2 {
 #include "cloud/packet_search.inl"
 };
 #pragma GCC pop_options
+#undef SYMSURF_WIDE
 #endif
 #endif
 
@@ -128,10 +132,10 @@ std::array<std::int32_t, BoxTree::lanes> BoxTree::nearest(const Vector3* queries
   }
 #if defined(__x86_64__) && !defined(__clang__)
   static const auto search =
-      __builtin_cpu_supports("avx2") ? &Packet::Avx2::search : &Packet::Anywhere::search;
+      __builtin_cpu_supports("avx2") ? &Packet::Avx2::search_all : &Packet::Anywhere::search_all;
   search(packet);
 #else
-  Packet::Anywhere::search(packet);
+  Packet::Anywhere::search_all(packet);
 #endif
   for (int i = 0; i < count; ++i) {
     found[i] = packet.nearest[i];

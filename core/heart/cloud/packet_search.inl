@@ -1,22 +1,19 @@
 // The search of a packet, included in a class for each set of instructions. Nothing of Eigen or of
 // the standard library is called, so that no other code is compiled for the wider ones.
 
-typedef float Floats __attribute__((vector_size(4 * lanes)));
-typedef std::int32_t Integers __attribute__((vector_size(4 * lanes)));
+static constexpr int wide = SYMSURF_WIDE;  // lanes at a time
+typedef float Floats __attribute__((vector_size(4 * wide)));
+typedef std::int32_t Integers __attribute__((vector_size(4 * wide)));
 
 // A bit for each lane.
 static inline unsigned mask_of(const Integers& holds) {
-#if defined(__AVX2__)
+#if SYMSURF_WIDE == 8
   return static_cast<unsigned>(__builtin_ia32_movmskps256((Floats)holds));
 #elif defined(__SSE2__)
-  typedef float Half __attribute__((vector_size(16)));
-  Half halves[2];
-  __builtin_memcpy(halves, &holds, sizeof holds);
-  return static_cast<unsigned>(__builtin_ia32_movmskps(halves[0]) |
-                               __builtin_ia32_movmskps(halves[1]) << 4);
+  return static_cast<unsigned>(__builtin_ia32_movmskps((Floats)holds));
 #else
   unsigned mask = 0;
-  for (int i = 0; i < lanes; ++i) mask |= (holds[i] & 1u) << i;
+  for (int i = 0; i < wide; ++i) mask |= (holds[i] & 1u) << i;
   return mask;
 #endif
 }
@@ -40,12 +37,13 @@ struct Queries {
   }
 };
 
-static void search(Packet& packet) {
-  const Queries queries{*reinterpret_cast<const Floats*>(packet.x),
-                        *reinterpret_cast<const Floats*>(packet.y),
-                        *reinterpret_cast<const Floats*>(packet.z), packet.error};
+// Of the lanes from one on.
+static void search(Packet& packet, int lane) {
+  const Queries queries{*reinterpret_cast<const Floats*>(packet.x + lane),
+                        *reinterpret_cast<const Floats*>(packet.y + lane),
+                        *reinterpret_cast<const Floats*>(packet.z + lane), packet.error};
   constexpr float more = 1.00001f;  // of boxes: their distance is a bound
-  Floats reach = *reinterpret_cast<const Floats*>(packet.reach), within = more * reach,
+  Floats reach = *reinterpret_cast<const Floats*>(packet.reach + lane), within = more * reach,
          runner_up = 1e38f - Floats{}, one, other;
   Integers nearest = -1 - Integers{};
   std::uint32_t waiting[deepest];
@@ -91,6 +89,10 @@ static void search(Packet& packet) {
     }
     if (!has_next) break;
   }
-  *reinterpret_cast<Floats*>(packet.runner_up) = runner_up;
-  *reinterpret_cast<Integers*>(packet.nearest) = nearest;
+  *reinterpret_cast<Floats*>(packet.runner_up + lane) = runner_up;
+  *reinterpret_cast<Integers*>(packet.nearest + lane) = nearest;
+}
+
+static void search_all(Packet& packet) {
+  for (int lane = 0; lane < lanes; lane += wide) search(packet, lane);
 }
