@@ -53,6 +53,7 @@ def test_parameters_of_analyses_are_those_described(analysis):
     described = symsurf.analyses()[analysis].parameters
     shown = cloud().mesh_set().filter_parameter_values(f"compute_{analysis}")
     of_the_host = {"only_selected", "use_faces", "threads"}
+    of_the_host |= {"other_layer"} if symsurf.analyses()[analysis].takes_other else set()
     assert set(shown) == {p.name for p in described} | of_the_host
     assert_defaults(shown, described)
 

@@ -119,7 +119,14 @@ def test_xml_is_the_description(
 
 def test_xml_of_the_analyses_is_their_descriptions(server_manager_xml: Path) -> None:
     proxy = xml_properties(server_manager_xml / "SymmetryAnalysis.xml")
-    own = INPUT | {"Analysis", "UseFaces", "ColourArray", "RefuseNonfinite", "NumberOfThreads"}
+    own = INPUT | {
+        "Analysis",
+        "Other",
+        "UseFaces",
+        "ColourArray",
+        "RefuseNonfinite",
+        "NumberOfThreads",
+    }
     described = {
         camel_case(analysis.name, parameter.name): (analysis.name, parameter)
         for analysis in symsurf.analyses().values()

@@ -103,6 +103,7 @@ TEST(SymmetryAnalysis, RunsEveryAnalysis) {
     vtkNew<vtkSymmetryAnalysis> filter;
     filter->SetInputData(shape);
     filter->SetAnalysis(analysis.name.c_str());
+    if (analysis.takes_other) filter->SetInputDataObject(1, shape);
     const ErrorListener errors(filter);
     filter->Update();
     EXPECT_EQ(errors.message(), "");

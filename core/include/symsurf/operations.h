@@ -24,6 +24,7 @@ struct PointArray {
   bool is_signed = false;     ///< 0 belongs in the middle of a colour map
   bool names_points = false;  ///< the values are indices of points, -1 for none
   bool names_faces = false;   ///< likewise of faces
+  bool names_other = false;   ///< likewise of points of the other of two shapes
 };
 
 /// The one description of what is done with a mirror. Front ends are made by looping over

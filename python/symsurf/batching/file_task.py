@@ -67,6 +67,8 @@ class FileTask(Reading, Search):
     """Of an operation: a mirror with the verdict "none" is an error."""
     mirror: Mirror | None = None
     """Of an operation: the one to use, in place of that which the method finds."""
+    other: Path | None = None
+    """Of what takes two shapes: the second."""
     use_faces: bool = True
     use_normals: bool = False
     """Hand those of the file to the method; a file without any is an error."""
@@ -248,6 +250,7 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
     found = analyse(
         task.operation,
         shape,
+        None if task.other is None else read(task.other, **part(Reading, task)),
         nonfinite=task.nonfinite,
         threads=task.threads,
         progress=progress,
