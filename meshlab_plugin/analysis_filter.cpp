@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis_filter.h"
 
-#include <optional>
-
 #include "cloud_conversion.h"
+#include "mirror_layer.h"
 #include "parameter_dialog.h"
 #include "result_layers.h"
 #include "returned_values.h"
@@ -64,9 +63,7 @@ int AnalysisFilter::changes() const {
 RichParameterList AnalysisFilter::parameters(const MeshDocument& document) const {
   RichParameterList dialog;
   const double diagonal = layer_diagonal(document.mm());
-  if (analysis_.takes_other)
-    dialog.addParam(RichMesh("other_layer", document.mm() ? document.mm()->id() : 0, &document,
-                             "Other layer", "The second of two shapes, such as a right bone."));
+  if (analysis_.takes_other) add_other_choice(dialog, document);
   add_parameters(dialog, analysis_.parameters, diagonal);
   add_parameters(dialog, analysis_arguments(), diagonal);
   return dialog;
@@ -83,13 +80,12 @@ Outcome AnalysisFilter::apply(const RichParameterList& parameters, MeshDocument&
   AnalysisOptions options;
   options.parameters = read_parameters(parameters, analysis_.parameters, diagonal);
   options.faces = cloud.faces;
-  std::optional<LayerCloud> other;
+  LayerCloud other;
   if (analysis_.takes_other) {
-    const MeshModel* const second = document.getMesh(parameters.getMeshId("other_layer"));
-    if (!second) throw InvalidInput("other_layer is no layer of the document");
-    other = read_cloud(*second, false, false, given.boolean("use_faces"));
-    options.other = other->points;
-    options.other_faces = other->faces;
+    other = read_cloud(chosen_other_layer(parameters, document), false, false,
+                       given.boolean("use_faces"));
+    options.other = other.points;
+    options.other_faces = other.faces;
   }
   if (analysis_.takes_colours) options.colours = read_colours(layer, cloud);
   const Context context(progress, static_cast<int>(given.integer("threads")));

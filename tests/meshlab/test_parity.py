@@ -78,6 +78,7 @@ def test_parameters_of_operations_are_those_described(operation):
     of_the_host = {"mirror_layer", "find_mirror", "require_found", "threads"}
     if described.takes_mask:
         of_the_host |= {"only_selected", "weigh_by_quality"}
+    of_the_host |= {"other_layer"} if described.takes_other else set()
     names = [p.name for p in described.parameters]
     assert set(shown) == set(names) | of_the_host and len(shown) == len(names) + len(of_the_host)
     assert_defaults(shown, described.parameters)

@@ -158,7 +158,7 @@ class PointMatcher {
     for (const Vector3& x : positions_) {
       const Vector3 image = maps.front().reflect(x);
       if (!image.allFinite()) continue;
-      found.push_back({x, {}, x, {}});
+      found.push_back({x, {Vector3::Zero(), 0}, x, {Vector3::Zero(), 0}});
       images.push_back(frame_.from_frame(image));
     }
     const std::vector<Vector3> partners = points_.nearest(images, limit * frame_.size);

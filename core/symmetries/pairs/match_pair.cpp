@@ -210,6 +210,20 @@ Matrix4 in_input_units(const Eigen::Isometry3d& map, const PrincipalFrame& from,
   return map_taking(linear, from.centroid, onto.from_frame(map.translation())).matrix();
 }
 
+// To rounding where points of both are each other's images, as the vertices of two meshes may be.
+UnitPlacement exact(const UnitPlacement& start, const ColouredCloud& given,
+                    const PrincipalFrame& own, const PrincipalFrame& other, double spacing,
+                    const Context& context) {
+  constexpr Index wanted = 1000;
+  std::vector<Vector3> positions;
+  const Index count = given.points.size();
+  for (Index i = 0; i < count; i += std::max<Index>(1, count / wanted))
+    positions.push_back(own.to_frame(given.points[i]));
+  return fitted_to_exact_pairs(start, positions, NearestPoints(given.other, context), other,
+                               spacing)
+      .value_or(start);
+}
+
 void require_like_sizes(double left, double right) {
   // A third missing of a bone made 2.4; inches are 2.54 centimetres.
   constexpr double most = 2.5;
@@ -247,7 +261,11 @@ void run_match_pair(const ColouredCloud& given, const ParameterValues& values,
   for (Cloud* cloud : {&left.cloud, &right.cloud}) cloud->frame = cloud->frame.with_size(size);
   const Side own(left.cloud, context.stage(0.2, 0.4)), other(right.cloud, context.stage(0.4, 0.6));
   const PairSearch search(own, other);
-  const Eigen::Isometry3d map = search.found(context.stage(0.6, 0.9)).map;
+  const double spacing = other.coarse.spacing_of(given.other.points.size());
+  const Eigen::Isometry3d map =
+      exact(search.found(context.stage(0.6, 0.9)), given, left.cloud.frame, right.cloud.frame,
+            spacing, context.stage(0.9, 0.9))
+          .map;
   const Matrix4 matrix = in_input_units(map, left.cloud.frame, right.cloud.frame);
   const MirrorFit fit = search.fit({map}, 1);
   const double evidence =
