@@ -1,3 +1,4 @@
+#include <symsurf/analyses.h>
 #include <symsurf/operations.h>
 
 #include "base/named_values.h"
@@ -56,7 +57,25 @@ OperationResult operate(std::string_view name, const OperationInput& input, cons
 
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror* mirror,
                         const Values& parameters, const Context& context) {
-  return run_operation(operation_implementation(name), input, mirror, parameters, context);
+  const OperationImplementation& operation = operation_implementation(name);
+  if (input.other.empty()) return run_operation(operation, input, mirror, parameters, context);
+  if (!operation.takes_other) throw InvalidInput(operation.name + " takes no second shape");
+  if (mirror) throw InvalidInput("a mirror and a second shape are given; allowed is one of them");
+  AnalysisOptions options;
+  options.faces = input.faces;
+  options.other = input.other;
+  options.other_faces = input.other_faces;
+  const AnalysisResult pair = analyse("match_pair", input.points, options, context.stage(0, 0.5));
+  const Matrix4& map = pair.transformations.front().matrix;
+  OperationResult result = run_on_pair(operation, input, map, parameters, context.stage(0.5, 1));
+  const auto told = [&](const char* figure) { return pair.statistics.at(figure); };
+  result.statistics["pair_score"] = told("score");
+  result.statistics["pair_verdict"] = told("verdict");
+  result.statistics["pair_matrix"] = Eigen::MatrixXd(map);
+  if (std::get<std::string>(told("verdict")) == "none")
+    result.statistics["warning"] =
+        "the two shapes are no pair: " + std::get<std::string>(told("reason"));
+  return result;
 }
 
 }  // namespace symsurf

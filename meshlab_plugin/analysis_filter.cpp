@@ -2,6 +2,7 @@
 #include "analysis_filter.h"
 
 #include "cloud_conversion.h"
+#include "mirror_layer.h"
 #include "parameter_dialog.h"
 #include "result_layers.h"
 #include "returned_values.h"
@@ -62,6 +63,7 @@ int AnalysisFilter::changes() const {
 RichParameterList AnalysisFilter::parameters(const MeshDocument& document) const {
   RichParameterList dialog;
   const double diagonal = layer_diagonal(document.mm());
+  if (analysis_.takes_other) add_other_choice(dialog, document);
   add_parameters(dialog, analysis_.parameters, diagonal);
   add_parameters(dialog, analysis_arguments(), diagonal);
   return dialog;
@@ -78,6 +80,13 @@ Outcome AnalysisFilter::apply(const RichParameterList& parameters, MeshDocument&
   AnalysisOptions options;
   options.parameters = read_parameters(parameters, analysis_.parameters, diagonal);
   options.faces = cloud.faces;
+  LayerCloud other;
+  if (analysis_.takes_other) {
+    other = read_cloud(chosen_other_layer(parameters, document), false, false,
+                       given.boolean("use_faces"));
+    options.other = other.points;
+    options.other_faces = other.faces;
+  }
   if (analysis_.takes_colours) options.colours = read_colours(layer, cloud);
   const Context context(progress, static_cast<int>(given.integer("threads")));
   const AnalysisResult result = analyse(analysis_.name, cloud.points, options, context);

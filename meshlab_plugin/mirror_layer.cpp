@@ -22,7 +22,7 @@ struct DrawnMirror {
 };
 
 constexpr const char* drawn_mirror = "symsurf mirror";
-constexpr const char* mirror_layer = "mirror_layer";
+constexpr const char *const mirror_layer = "mirror_layer", *const other_layer = "other_layer";
 
 // How much the scales of a transform along the axes may differ: single precision, some products of
 // matrices long.
@@ -142,11 +142,31 @@ void add_mirror_choice(RichParameterList& dialog, const MeshDocument& document, 
   dialog.addParam(RichMesh(mirror_layer, default_layer, &document, "Mirror layer", tooltip));
 }
 
-MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& document) {
-  const auto id = static_cast<int>(dialog.getMeshId(mirror_layer));
+void add_other_choice(RichParameterList& dialog, const MeshDocument& document) {
+  dialog.addParam(RichMesh(other_layer, document.mm() ? document.mm()->id() : 0, &document,
+                           "Other layer",
+                           "The second of two shapes of a pair, such as a right bone, in a pose of "
+                           "its own. For the operations the current layer itself is none."));
+}
+
+namespace {
+
+MeshModel& chosen_layer(const RichParameterList& dialog, MeshDocument& document, const char* name,
+                        const char* use) {
+  const auto id = static_cast<int>(dialog.getMeshId(name));
   for (auto it = document.meshBegin(); it != document.meshEnd(); ++it)
     if (it->id() == id) return *it;
-  throw InvalidParameter("there is no layer " + std::to_string(id) + " to take the mirror from");
+  throw InvalidParameter("there is no layer " + std::to_string(id) + " to take " + use + " from");
+}
+
+}  // namespace
+
+MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& document) {
+  return chosen_layer(dialog, document, mirror_layer, "the mirror");
+}
+
+MeshModel& chosen_other_layer(const RichParameterList& dialog, MeshDocument& document) {
+  return chosen_layer(dialog, document, other_layer, "the second shape");
 }
 
 }  // namespace symsurf::meshlab

@@ -45,4 +45,10 @@ void add_mirror_choice(RichParameterList& dialog, const MeshDocument& document, 
 /// The layer chosen. Throws InvalidParameter where there is no such layer any more.
 MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& document);
 
+/// Appends the choice of the layer of the second of two shapes.
+void add_other_choice(RichParameterList& dialog, const MeshDocument& document);
+
+/// Throws InvalidParameter where the document has no such layer.
+MeshModel& chosen_other_layer(const RichParameterList& dialog, MeshDocument& document);
+
 }  // namespace symsurf::meshlab

@@ -106,6 +106,7 @@ RichParameterList OperationFilter::parameters(const MeshDocument& document) cons
   add_mirror_choice(dialog, document, mirror ? mirror->id() : 0,
                     "A layer made by one of the mirror filters, or any layer whose vertices lie on "
                     "a plane or a sphere. The current layer itself: its mirror is found first.");
+  if (operation_.takes_other) add_other_choice(dialog, document);
   add_parameters(dialog, operation_.parameters, diagonal);
   add_parameters(dialog, own_parameters(), diagonal);
   return dialog;
@@ -129,8 +130,17 @@ Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument
     input.mask =
         read_mask(layer, cloud, own.boolean("only_selected"), own.boolean("weigh_by_quality"));
 
+  std::optional<LayerCloud> other;
+  if (operation_.takes_other)
+    if (const MeshModel& second = chosen_other_layer(parameters, document); &second != &layer)
+      other = read_cloud(second, false, false, true);
+  if (other) {
+    input.other = other->points;
+    input.other_faces = other->faces;
+  }
+
   const Context context(progress, static_cast<int>(own.integer("threads")));
-  const bool is_needed = needs_mirror(operation_.name, values);
+  const bool is_needed = !other && needs_mirror(operation_.name, values);
   const bool is_found_first = is_needed && (own.boolean("find_mirror") || &holder == &layer);
   std::optional<OperationMirror> mirror;
   if (is_found_first)

@@ -65,10 +65,17 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     const PointArray points = points_of(shape);
     if (are_elsewhere(processes, points.view().size(), "an operation")) return;
     const TriangleArray faces(shape);
-    const symsurf::OperationInput input{points.view(), faces.view(),
-                                        mask_of(shape, call.mask_array)};
+    vtkPolyData* const second = vtkPolyData::GetData(inputs[2]);
+    const PointArray other = points_of(second);
+    const TriangleArray other_faces(second);
+    symsurf::OperationInput input{points.view(), faces.view(), mask_of(shape, call.mask_array)};
+    input.other = other.view();
+    input.other_faces = other_faces.view();
     const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
-    const bool is_needed = symsurf::needs_mirror(call.operation, call.parameters);
+    if (second && given)
+      throw symsurf::InvalidInput(
+          "a mirror and a second shape are connected; allowed is one of them");
+    const bool is_needed = !second && symsurf::needs_mirror(call.operation, call.parameters);
     const double found_at = given || !is_needed ? 0 : 0.6;
     std::shared_ptr<symsurf::Mirror> mirror;
     if (is_needed)

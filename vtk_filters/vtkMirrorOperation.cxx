@@ -5,11 +5,11 @@
 #include "vtkInformation.h"
 
 vtkMirrorOperation::vtkMirrorOperation() : Method(symsurf::methods().front().name) {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 int vtkMirrorOperation::FillInputPortInformation(int port, vtkInformation* info) {
-  if (port == 1) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  if (port > 0) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return this->Superclass::FillInputPortInformation(port, info);
 }
 

@@ -7,6 +7,10 @@
  * the shape. Without it the mirror is found first, by Method; where its verdict is "none", it is
  * used with a warning that says why, unless RequireFound is on.
  *
+ * Input 2, optional, is the second of two shapes of a pair, such as a right bone, in a pose of its
+ * own: in place of a mirror, for the asymmetry, the correspondences and the completion of the
+ * first, with which the reflection of the second is compared. Both are meshes, or both bare clouds.
+ *
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
  * those of the input, with the data of the points and cells that they are made from. Normals are
@@ -42,6 +46,12 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
    * Leaves input 1 without a connection: the mirror is found first.
    */
   void RemoveMirror() { this->SetInputConnection(1, nullptr); }
+
+  /**
+   * Connects the second of two shapes, input 2, or leaves it without a connection.
+   */
+  void SetOtherConnection(vtkAlgorithmOutput* other) { this->SetInputConnection(2, other); }
+  void RemoveOther() { this->SetInputConnection(2, nullptr); }
 
   ///@{
   /**

@@ -145,7 +145,15 @@ void set_transformations(vtkPolyData* output, symsurf::PointsView shape,
 
 }  // namespace
 
-vtkSymmetryAnalysis::vtkSymmetryAnalysis() { this->SetNumberOfOutputPorts(3); }
+vtkSymmetryAnalysis::vtkSymmetryAnalysis() {
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
+}
+
+int vtkSymmetryAnalysis::FillInputPortInformation(int port, vtkInformation* info) {
+  if (port == 1) info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return this->Superclass::FillInputPortInformation(port, info);
+}
 
 int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                      vtkInformationVector* outputs) {
@@ -158,6 +166,11 @@ int vtkSymmetryAnalysis::RequestData(vtkInformation*, vtkInformationVector** inp
     symsurf::AnalysisOptions options;
     options.parameters = chosen_parameters(this);
     options.faces = faces.view();
+    vtkPolyData* const second = vtkPolyData::GetData(inputs[1]);
+    const PointArray other = points_of(second);
+    const TriangleArray other_faces(this->UseFaces ? second : nullptr);
+    options.other = other.view();
+    options.other_faces = other_faces.view();
     options.refuse_nonfinite = this->RefuseNonfinite;
     if (is_on(options.parameters, "texture"))
       options.colours = colours_of(input, this->ColourArray);

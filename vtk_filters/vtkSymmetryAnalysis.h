@@ -2,7 +2,8 @@
  * @class vtkSymmetryAnalysis
  * @brief Finds symmetries of a shape other than one mirror: its point group, its repeated parts.
  *
- * Analysis chooses what is sought; each has its own parameters. The outputs are
+ * Analysis chooses what is sought; each has its own parameters. Input 1, optional, is the second of
+ * two shapes, for match_pair alone. The outputs are
  *
  * - 0 "Shape": the input. Point data: what the analysis gives each point, in arrays that begin with
  *   its title ("PartialSymmetriesTransformation"), one of them the active scalars. Field data:
@@ -32,6 +33,16 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
   static vtkSymmetryAnalysis* New();
   vtkTypeMacro(vtkSymmetryAnalysis, vtkSymmetryAnalysisParameters);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Connects the second of two shapes, input 1.
+   */
+  void SetOtherConnection(vtkAlgorithmOutput* other) { this->SetInputConnection(1, other); }
+
+  /**
+   * Leaves input 1 without a connection.
+   */
+  void RemoveOther() { this->SetInputConnection(1, nullptr); }
 
   enum OutputPorts { SHAPE = 0, ELEMENTS = 1, TRANSFORMATIONS = 2 };
 
@@ -66,6 +77,7 @@ class VTKSYMSURFFILTERS_EXPORT vtkSymmetryAnalysis : public vtkSymmetryAnalysisP
   vtkSymmetryAnalysis();
   ~vtkSymmetryAnalysis() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool UseFaces = true;

@@ -12,7 +12,9 @@ namespace {
 
 HomologousPoints pairs_of(const OperationInput& input, const SymmetryMap& map, PointsView images,
                           bool estimates, const Context& context) {
-  const auto& [points, faces, mask, pairs] = input;
+  const PointsView points = input.points;
+  const TrianglesView faces = input.faces;
+  const Eigen::MatrixXd& pairs = input.landmark_pairs;
   const DistinctPoints distinct = distinct_points(points, context.stage(0, 0.05));
   const Eigen::RowVector3d origin = points.matrix().colwise().mean();
   const double unit = box_of_radii * std::sqrt((points.matrix().rowwise() - origin).squaredNorm() /

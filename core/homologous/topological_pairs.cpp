@@ -383,7 +383,8 @@ std::string count_of(Index some, Index all) {
 
 HomologousPoints topological_pairs(const OperationInput& input, const SymmetryMap& map,
                                    PointsView images, const Context& context) {
-  const auto& [given, given_faces, mask, pairs] = input;
+  const PointsView given = input.points;
+  const TrianglesView given_faces = input.faces;
   if (given_faces.empty())
     throw InvalidInput("the pairing topology needs faces; none given for " +
                        std::to_string(given.size()) + " points");

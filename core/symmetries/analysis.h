@@ -12,6 +12,7 @@ namespace symsurf {
 /// What an analysis is given.
 struct ColouredCloud : Cloud {
   Eigen::MatrixXd colours;  ///< one row a point, or none
+  Cloud other;              ///< validated as well, where the analysis takes one
 };
 
 /// An analysis and how it runs.
@@ -28,6 +29,7 @@ AnalysisImplementation symmetry_embedding_analysis();
 AnalysisImplementation intrinsic_symmetry_analysis();
 AnalysisImplementation partial_symmetries_analysis();
 AnalysisImplementation recurring_parts_analysis();
+AnalysisImplementation match_pair_analysis();
 
 /// Throws InvalidInput unless there are no colours, or one a point, finite where the point is.
 void require_colours(PointsView points, const Eigen::MatrixXd& colours);

@@ -20,7 +20,7 @@ from accuracy.posing import posed
 from accuracy.repeated import facade
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "python"))
-from shapes import head, vertebra
+from shapes import _rod, head, vertebra
 
 
 def nut():
@@ -56,6 +56,39 @@ def labelled_bottle():
     return symsurf.symmetries(points, faces=faces, colours=colours, texture=True)
 
 
+def bone(cells=90):
+    """A shaft with a head on a neck, a trochanter and two condyles."""
+    low, high = np.array([-0.5, -0.5, -1.4]), np.array([0.6, 0.5, 1.5])
+    axes = [np.linspace(*ends, cells) for ends in zip(low, high, strict=True)]
+    x = np.meshgrid(*axes, indexing="ij")
+    rods = [((0, 0, -1), (0.03, 0.08, 0), 0.1), ((0.03, 0.08, 0), (0, 0, 0.9), 0.1),
+            ((0, 0, 0.9), (0.25, 0.08, 1.1), 0.13), ((0.25, 0.08, 1.1), (0.27, 0.09, 1.12), 0.18),
+            ((0, 0, 0.9), (-0.13, -0.06, 0.97), 0.14), ((0, 0, -1), (0.16, -0.06, -1.04), 0.16),
+            ((0, 0, -1), (-0.14, -0.1, -1.0), 0.13)]  # fmt: skip
+    field = np.min([_rod(x, *rod) for rod in rods], axis=0)
+    grid = pyvista.ImageData(dimensions=field.shape, origin=low, spacing=(high - low) / (cells - 1))
+    return grid.contour([0.0], scalars=field.ravel(order="F")).triangulate().clean()
+
+
+def write_pair(path):
+    """A left and a right bone, of which the head is missing, and the left one laid onto the right."""
+    left = bone()
+    right = left.reflect((1, 0, 0)).clip("z", origin=(0, 0, 0.95)).triangulate()
+    right = right.rotate_y(35).rotate_z(20).translate((1.6, 0, 0))
+    found = symsurf.match_pair(left, right)
+    plotter = pyvista.Plotter(off_screen=True, window_size=(1280, 960))
+    plotter.add_mesh(left, color="#d8b08c", smooth_shading=True)
+    plotter.add_mesh(right, color="#7fa7c9", smooth_shading=True)
+    plotter.add_mesh(right.translate((1.8, 0, 0)), color="#7fa7c9", smooth_shading=True)
+    image = left.transform(found.matrix, inplace=False).translate((1.8, 0, 0))
+    plotter.add_mesh(image, color="#d8b08c", opacity=0.45, smooth_shading=True)
+    plotter.view_xz()
+    plotter.camera.zoom(1.6)
+    plotter.screenshot(path)
+    image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
+    image.save(path, optimize=True)
+
+
 def write(result, path, camera=None):
     result.plot(path, camera=camera)
     image = Image.open(path).convert("RGB").resize((640, 480), Image.Resampling.LANCZOS)
@@ -77,6 +110,7 @@ def main(folder):
     body = BODIES["animal"]
     points = posed(body, np.random.default_rng(1), 0.9)
     write(symsurf.intrinsic_symmetry(points, faces=body.faces), folder / "intrinsic_symmetry.png")
+    write_pair(folder / "match_pair.png")
 
 
 if __name__ == "__main__":

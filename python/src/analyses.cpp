@@ -24,13 +24,17 @@ Points ends_of(const std::array<Vector3, 2>& segment) {
 py::dict analyse_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, bool refuse_nonfinite,
                         const std::optional<Eigen::MatrixXd>& colours, const py::object& threads,
-                        const py::object& progress, const py::dict& parameters) {
+                        const py::object& progress, const py::dict& parameters,
+                        const std::optional<PointsArgument>& other,
+                        const FacesArgument& other_faces) {
   const Analysis& described = analysis(name);
   AnalysisOptions options;
   options.parameters = values_from(parameters, described.parameters);
   options.faces = view_of(faces);
   options.refuse_nonfinite = refuse_nonfinite;
   if (colours) options.colours = *colours;
+  if (other) options.other = *other;
+  options.other_faces = view_of(other_faces);
   const Context context = context_from(progress, threads);
   const AnalysisResult result =
       without_gil([&] { return analyse(name, points, options, context); });
@@ -68,6 +72,7 @@ void bind_analyses(py::module_& module) {
       .def_readonly("minimum_points", &Analysis::minimum_points)
       .def_readonly("takes_colours", &Analysis::takes_colours,
                     "Whether colours of the points may count.")
+      .def_readonly("takes_other", &Analysis::takes_other, "Whether it needs a second shape.")
       .def_readonly("finds_elements", &Analysis::finds_elements,
                     "Whether it may give planes and axes.")
       .def_readonly("finds_transforms", &Analysis::finds_transforms,
@@ -85,7 +90,8 @@ void bind_analyses(py::module_& module) {
       "All analyses by name, in the order to show them in.");
   module.def("analyse", &analyse_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
              py::arg("refuse_nonfinite"), py::arg("colours"), py::arg("threads"),
-             py::arg("progress"), py::arg("parameters"), "The fields of an analysis' result.");
+             py::arg("progress"), py::arg("parameters"), py::arg("other") = py::none(),
+             py::arg("other_faces") = py::none(), "The fields of an analysis' result.");
 }
 
 }  // namespace symsurf::python

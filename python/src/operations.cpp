@@ -21,11 +21,15 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
                         const FacesArgument& faces, const std::optional<const Mirror*>& mirror,
                         const std::optional<Eigen::VectorXd>& mask, const py::object& threads,
                         const py::object& progress, const py::dict& parameters,
-                        const std::optional<Eigen::MatrixXd>& landmark_pairs) {
+                        const std::optional<Eigen::MatrixXd>& landmark_pairs,
+                        const std::optional<PointsArgument>& other,
+                        const FacesArgument& other_faces) {
   const Operation& described = operation(name);
   OperationInput input{points, view_of(faces)};
   if (mask) input.mask = *mask;
   if (landmark_pairs) input.landmark_pairs = *landmark_pairs;
+  if (other) input.other = *other;
+  input.other_faces = view_of(other_faces);
   const Values values = values_from(parameters, described.parameters);
   const Context context = context_from(progress, threads);
   OperationResult result =
@@ -83,6 +87,8 @@ void bind_operations(py::module_& module) {
       .def_readonly("needs_faces", &Operation::needs_faces, "Whether bare clouds are refused.")
       .def_readonly("carries_values", &Operation::carries_values,
                     "Whether points and faces stay and what the input has at its points moves.")
+      .def_readonly("takes_other", &Operation::takes_other,
+                    "Whether a second shape may take the place of a mirror.")
       .def_readonly("takes_any_mirror", &Operation::takes_any_mirror,
                     "Whether the mirror may be that of another thing, near or far.")
       .def("__repr__", [](const Operation& each) { return "<Operation " + each.name + ">"; });
@@ -109,6 +115,7 @@ void bind_operations(py::module_& module) {
   module.def("operate", &operate_fields, py::arg("name"), py::arg("points"), py::arg("faces"),
              py::arg("mirror"), py::arg("mask"), py::arg("threads"), py::arg("progress"),
              py::arg("parameters"), py::arg("landmark_pairs") = py::none(),
+             py::arg("other") = py::none(), py::arg("other_faces") = py::none(),
              "The fields of an operation's result.");
 }
 

@@ -27,6 +27,7 @@ from . import (
     light,
     nearly_symmetric,
     operations,
+    pairs,
     partial,
     planes,
     point_groups,
@@ -46,7 +47,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           given_surfaces, halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, partial, point_groups,
+           given_surfaces, halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, pairs, partial, point_groups,
            pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, topology,
            without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}

@@ -48,7 +48,9 @@ std::vector<LongCall> long_calls() {
   }
   for (const Analysis& analysis : analyses())
     calls.push_back({analysis.name, [&analysis](const Context& context) {
-                       analyse(analysis.name, few, {}, context);
+                       AnalysisOptions options;
+                       if (analysis.takes_other) options.other = few;
+                       analyse(analysis.name, few, options, context);
                      }});
   for (const Operation& operation : operations())
     calls.push_back({operation.name, [&operation](const Context& context) {

@@ -52,10 +52,13 @@ void fuzz(Source& source) {
   options.parameters = parameters(source, analysis.parameters);
   options.faces = triangles;
   options.refuse_nonfinite = one_in(source, 2);
+  const Points other = analysis.takes_other ? cloud(source, most_for_searches) : Points(0, 3);
+  options.other = other;
   show("analysis", '"' + analysis.name + '"');
   show("parameters", options.parameters);
   show_rows("points", points);
   show_rows("faces", triangles);
+  show_rows("other", other);
   expect_as_described(analyse(analysis.name, points, options, impatient(source)), analysis,
                       points.rows());
 }

@@ -77,3 +77,22 @@ def test_every_analysis_gives_the_vertices_what_it_describes(name: str) -> None:
                 assert len(mesh.vertex_custom_point_attribute_matrix(name_)) == 8
             else:
                 assert len(mesh.vertex_custom_scalar_attribute_array(name_)) == 8
+
+
+def test_a_layer_is_laid_on_another_and_compared_with_it() -> None:
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(2000, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    x, y, z = points.T
+    points *= np.exp(0.2 * (np.sin(3 * x + 1) + np.cos(4 * y - z) + np.sin(2 * z + 2 * x * y)))[:, None]  # fmt: skip
+    matrix = np.array([[0, 0, 1, 3], [0, -1, 0, 1], [-1, 0, 0, 2], [0, 0, 0, 1.0]])
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(points))
+    mesh_set.add_mesh(pymeshlab.Mesh(points @ matrix[:3, :3].T + matrix[:3, 3]))
+    mesh_set.set_current_mesh(0)
+    found = mesh_set.apply_filter("compute_match_pair", other_layer=1)
+    assert found["verdict"] == "found"
+    np.testing.assert_allclose(found["matrix_0"], matrix, atol=1e-6)
+    gaps = mesh_set.apply_filter("compute_mirror_asymmetry", other_layer=1)
+    assert gaps["maximum"] < 1e-6 and "mirror_layer" not in gaps
+    assert len(mesh_set) == 2

@@ -53,6 +53,7 @@ def test_parameters_of_analyses_are_those_described(analysis):
     described = symsurf.analyses()[analysis].parameters
     shown = cloud().mesh_set().filter_parameter_values(f"compute_{analysis}")
     of_the_host = {"only_selected", "use_faces", "threads"}
+    of_the_host |= {"other_layer"} if symsurf.analyses()[analysis].takes_other else set()
     assert set(shown) == {p.name for p in described} | of_the_host
     assert_defaults(shown, described)
 
@@ -77,6 +78,7 @@ def test_parameters_of_operations_are_those_described(operation):
     of_the_host = {"mirror_layer", "find_mirror", "require_found", "threads"}
     if described.takes_mask:
         of_the_host |= {"only_selected", "weigh_by_quality"}
+    of_the_host |= {"other_layer"} if described.takes_other else set()
     names = [p.name for p in described.parameters]
     assert set(shown) == set(names) | of_the_host and len(shown) == len(names) + len(of_the_host)
     assert_defaults(shown, described.parameters)

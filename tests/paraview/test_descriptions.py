@@ -119,7 +119,14 @@ def test_xml_is_the_description(
 
 def test_xml_of_the_analyses_is_their_descriptions(server_manager_xml: Path) -> None:
     proxy = xml_properties(server_manager_xml / "SymmetryAnalysis.xml")
-    own = INPUT | {"Analysis", "UseFaces", "ColourArray", "RefuseNonfinite", "NumberOfThreads"}
+    own = INPUT | {
+        "Analysis",
+        "Other",
+        "UseFaces",
+        "ColourArray",
+        "RefuseNonfinite",
+        "NumberOfThreads",
+    }
     described = {
         camel_case(analysis.name, parameter.name): (analysis.name, parameter)
         for analysis in symsurf.analyses().values()
@@ -155,8 +162,9 @@ def test_xml_is_the_description_of_the_operation(
         check(proxy[name], name, parameter)
     check(proxy["RequireFound"], "RequireFound", symsurf._core.require_found_parameter())
     own = INPUT | {"Mirror", "Method", "RequireFound", "NumberOfThreads"}
-    mask = {"MaskArray"} if operation.takes_mask else set()
-    assert set(proxy) == own | mask | {camel_case(each.name) for each in operation.parameters}
+    own |= {"MaskArray"} if operation.takes_mask else set()
+    own |= {"Other"} if operation.takes_other else set()
+    assert set(proxy) == own | {camel_case(each.name) for each in operation.parameters}
     assert proxy["Mirror"].find("Hints/Optional") is not None
     offered = [item.get("value") for item in proxy["Method"].iter("String")]
     assert offered == list(symsurf.methods())

@@ -40,9 +40,10 @@ def test_clouds_in_python(cloud):
 @pytest.mark.parametrize("cloud", named(tables.clouds()))
 def test_clouds_of_analyses(cloud):
     nonfinite = "refuse" if cloud.refuses_nonfinite else "skip"
-    for name in symsurf.analyses():
+    for name, analysis in symsurf.analyses().items():
+        shapes = [array(cloud.points)] * (1 + analysis.takes_other)
         with pytest.raises(symsurf.InvalidInput) as error:
-            getattr(symsurf, name)(array(cloud.points), nonfinite=nonfinite)
+            getattr(symsurf, name)(*shapes, nonfinite=nonfinite)
         assert cloud.reason in str(error.value)
     assert_python_lives()
 

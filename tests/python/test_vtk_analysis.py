@@ -68,6 +68,8 @@ def test_bad_input_is_an_error_of_the_filter() -> None:
 def test_every_analysis_runs(name: str) -> None:
     described = symsurf.analyses()[name]
     found = SymmetryAnalysis(input_data=box(), analysis=name)
+    if described.takes_other:
+        found.other_data = box()
     assert error_of(found) == ""
     given = box().GetPointData().GetNumberOfArrays()
     assert found.output.GetPointData().GetNumberOfArrays() == given + len(described.arrays)

@@ -13,6 +13,7 @@
 #include "vtkCubeSource.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkMirrorAsymmetry.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
@@ -95,6 +96,32 @@ TEST(SymmetryAnalysis, WarnsOfPointsThatAreNotFinite) {
   EXPECT_NE(errors.message().find("point 0 is"), std::string::npos);
 }
 
+TEST(SymmetryAnalysis, LaysAShapeOnASecondOne) {
+  vtkNew<vtkCubeSource> second;
+  second->SetXLength(3);
+  second->SetYLength(2);
+  second->SetZLength(4);
+  vtkNew<vtkSymmetryAnalysis> filter;
+  filter->SetInputData(box());
+  filter->SetAnalysis("match_pair");
+  const ErrorListener errors(filter);
+  filter->Update();
+  EXPECT_NE(errors.message().find("needs a second shape"), std::string::npos);
+  filter->SetOtherConnection(second->GetOutputPort());
+  filter->Update();
+  vtkPolyData* shape = filter->GetOutput();
+  EXPECT_EQ(text_of(shape->GetFieldData(), "Verdict"), "found");
+  EXPECT_LT(shape->GetPointData()->GetArray("PairMatchingDistance")->GetRange()[1], 1e-6);
+  filter->RemoveOther();
+  vtkNew<vtkMirrorAsymmetry> asymmetry;
+  asymmetry->SetInputData(box());
+  asymmetry->SetOtherConnection(second->GetOutputPort());
+  asymmetry->Update();
+  EXPECT_LT(
+      asymmetry->GetOutput()->GetPointData()->GetArray("MirrorAsymmetryDistance")->GetRange()[1],
+      1e-6);
+}
+
 // Every analysis runs, and gives each point what it describes.
 TEST(SymmetryAnalysis, RunsEveryAnalysis) {
   const vtkNew<vtkPolyData> shape = box();
@@ -103,6 +130,7 @@ TEST(SymmetryAnalysis, RunsEveryAnalysis) {
     vtkNew<vtkSymmetryAnalysis> filter;
     filter->SetInputData(shape);
     filter->SetAnalysis(analysis.name.c_str());
+    if (analysis.takes_other) filter->SetInputDataObject(1, shape);
     const ErrorListener errors(filter);
     filter->Update();
     EXPECT_EQ(errors.message(), "");

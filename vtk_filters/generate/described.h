@@ -59,7 +59,8 @@ std::string operation_source(const Described& described);
 
 /// A template of server-manager XML with its marks filled in. @PARAMETERS@ gives way to the
 /// properties with its whole line, @INPUT@ to the shape and what chooses the points of an image,
-/// @FOUND_MIRROR@ to how a mirror is found first, and @OUTPUTS@ and @COLOURS@ to an operation's;
+/// @FOUND_MIRROR@ to how a mirror is found first, @OTHER@ to the second of two shapes, and
+/// @OUTPUTS@ and @COLOURS@ to an operation's;
 /// @NAME@, @LABEL@ and @SUMMARY@ are its own.
 std::string server_manager_xml(const Described& described, std::string text);
 

@@ -191,6 +191,29 @@ std::string found_mirror_properties() {
          property("RequireFound", kind_of(require_found), documentation(require_found), "", true);
 }
 
+// The second of two shapes. `hint`: what else is said of when it is shown.
+std::string other_input(int port, const std::string& hint) {
+  return R"(      <InputProperty name="Other" command="SetInputConnection" clean_command="RemoveOther"
+                     port_index=")" +
+         std::to_string(port) + R"(" panel_widget="input_selector">
+        <ProxyGroupDomain name="groups">
+          <Group name="sources"/>
+          <Group name="filters"/>
+        </ProxyGroupDomain>
+        <DataTypeDomain name="input_type">
+          <DataType value="vtkPolyData"/>
+        </DataTypeDomain>
+        <Documentation>
+          The second of two shapes of a pair, such as a right bone, in a pose of its own.
+        </Documentation>
+        <Hints>
+          <Optional/>
+)" + hint +
+         R"(        </Hints>
+      </InputProperty>
+)";
+}
+
 // What vtkShapeAlgorithm takes, and how it takes an image.
 const char* const shape_input =
     R"(      <InputProperty name="Input" command="SetInputConnection" port_index="0">
@@ -299,6 +322,15 @@ std::string server_manager_xml(const Described& d, std::string text) {
   fill_line(text, "@INPUT@", shape_input);
   fill_line(text, "@PARAMETERS@", properties(d));
   fill_line(text, "@FOUND_MIRROR@", found_mirror_properties());
+  fill_line(
+      text, "@OTHER@",
+      !d.operation
+          ? other_input(
+                1, R"(          <PropertyWidgetDecorator type="GenericDecorator" mode="visibility"
+                                   property="Analysis" value="match_pair"/>
+)")
+      : d.operation->takes_other ? other_input(2, "")
+                                 : "");
   if (!d.operation) return text;
   fill_line(text, "@OUTPUTS@", output_ports(*d.operation));
   fill_line(text, "@COLOURS@", colour_ranges(*d.operation));

@@ -43,6 +43,11 @@ Points PrincipalFrame::to_frame(PointsView points, const Context& context) const
 
 Vector3 PrincipalFrame::from_frame(const Vector3& x) const { return centroid + size * (axes * x); }
 
+PrincipalFrame PrincipalFrame::with_size(double other) const {
+  const double longer = size / other;
+  return {centroid, axes, other, variance, longer * low, longer * high};
+}
+
 PrincipalFrame principal_frame(PointsView points, const Context& context) {
   const double count = static_cast<double>(points.size());
   PrincipalFrame frame;

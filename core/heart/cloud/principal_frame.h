@@ -23,6 +23,9 @@ struct PrincipalFrame {
   Vector3 to_frame(const Vector3& x) const;
   Points to_frame(PointsView points, const Context& context) const;
   Vector3 from_frame(const Vector3& x) const;
+
+  /// The same axes with another unit, in input units.
+  PrincipalFrame with_size(double other) const;
 };
 
 /// Of at least one point; all must be finite. A cloud of equal points gets a size of 0.

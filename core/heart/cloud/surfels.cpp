@@ -240,7 +240,7 @@ const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Ve
   return flattest;
 }
 
-SurfelMap::SurfelMap(const Surfels& surfels) {
+SurfelMap::SurfelMap(const Surfels& surfels) : surfels_(surfels) {
   constexpr int steps = 2;            // how far a surfel reaches, in voxels
   constexpr double refinement = 1.5;  // voxels along a cell of the surfels
   const double edge = surfels.spacing() / refinement, reach = steps * edge;

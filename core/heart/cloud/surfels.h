@@ -86,7 +86,10 @@ const Surfel* flattest_at(std::initializer_list<const Surfels*> scales, const Ve
 /// Which surfel lies nearest to any position, to half a cell: one look-up instead of a search.
 class SurfelMap {
  public:
+  /// The surfels must outlive it.
   explicit SurfelMap(const Surfels& surfels);
+
+  const Surfel& operator[](Index i) const { return surfels_[i]; }
 
   /// The surfel nearest to x, or -1 when none lies within about a cell and a half of it.
   Index nearest(const Vector3& x) const {
@@ -95,6 +98,7 @@ class SurfelMap {
   }
 
  private:
+  const Surfels& surfels_;
   VoxelGrid grid_;
   std::vector<std::int32_t> near_;  // by voxel
 };

@@ -112,6 +112,9 @@ template Candidate<UnitSphere> refined_on_surfels(const Surfels&, const SurfelMa
 template Candidate<UnitCylinder> refined_on_surfels(const Surfels&, const SurfelMap&,
                                                     Candidate<UnitCylinder>, double, double, int,
                                                     Index, double);
+template Candidate<UnitPlacement> refined_on_surfels(const Surfels&, const SurfelMap&,
+                                                     Candidate<UnitPlacement>, double, double, int,
+                                                     Index, double);
 
 template void suppress_non_maxima(const std::vector<Vector3>&, std::vector<Candidate<UnitPlane>>&,
                                   double, Index);
@@ -121,11 +124,16 @@ template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitSphe
                                   Index);
 template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitCylinder>>&, double,
                                   Index);
+template void suppress_non_maxima(const Surfels&, std::vector<Candidate<UnitPlacement>>&, double,
+                                  Index);
 
 template std::vector<Candidate<UnitSphere>> best_of(const std::vector<UnitSphere>&, const Surfels&,
                                                     const SurfelMap&, Index, const Context&);
 template std::vector<Candidate<UnitCylinder>> best_of(const std::vector<UnitCylinder>&,
                                                       const Surfels&, const SurfelMap&, Index,
                                                       const Context&);
+template std::vector<Candidate<UnitPlacement>> best_of(const std::vector<UnitPlacement>&,
+                                                       const Surfels&, const SurfelMap&, Index,
+                                                       const Context&);
 
 }  // namespace symsurf

@@ -45,7 +45,8 @@ void sort_best_first(std::vector<Candidate<Shape>>& candidates) {
 /// Share of the surfels whose images agree with the cloud, less `contradiction` times those whose
 /// images come beside it, out of those the mirror moves (at least `least_moved` of all, so that a
 /// mirror the cloud lies along explains nothing). Surfels without an image count as moved; an image
-/// in the void says nothing: that part may be missing. `stride` k looks at every k-th surfel.
+/// in the void says nothing: that part may be missing. `map`: of the surfels, or of those of
+/// another cloud that the shape maps these onto. `stride` k looks at every k-th surfel.
 template <typename Shape>
 double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& shape,
                      double tolerance, Index stride = 1, double contradiction = 0,
@@ -60,16 +61,15 @@ double support_share(const Surfels& surfels, const SurfelMap& map, const Shape& 
     const Vector3 image = shape.reflect(s.position);
     const Index j = map.nearest(image);
     if (j < 0) continue;
-    const Correspondence correspondence(image - surfels[j].position,
-                                        shape.reflect_direction(s.position, s.normal), s.flatness,
-                                        surfels[j]);
+    const Correspondence correspondence(
+        image - map[j].position, shape.reflect_direction(s.position, s.normal), s.flatness, map[j]);
     const double agrees = correspondence.weight(tolerance);
     support += weight * (agrees - contradiction * (1 - agrees));
   }
   return support / std::max(moved, least_moved * static_cast<double>(looked));
 }
 
-/// The surfels themselves as the cloud that images meet.
+/// Surfels as the cloud that images of surfels meet: the same, or another's.
 class PatchMatcher {
  public:
   /// Looks at every `stride`-th surfel.
@@ -87,7 +87,7 @@ class PatchMatcher {
       for (Index i = 0; i < surfels_.size(); i += stride_) {
         const Surfel& own = surfels_[i];
         const Index j = map_.nearest(maps[k].reflect(own.position));
-        if (j >= 0) found.push_back({own.position, own, surfels_[j].position, surfels_[j], k});
+        if (j >= 0) found.push_back({own.position, own, map_[j].position, map_[j], k});
       }
     return found;
   }
@@ -158,7 +158,7 @@ class PointMatcher {
     for (const Vector3& x : positions_) {
       const Vector3 image = maps.front().reflect(x);
       if (!image.allFinite()) continue;
-      found.push_back({x, {}, x, {}});
+      found.push_back({x, {Vector3::Zero(), 0}, x, {Vector3::Zero(), 0}});
       images.push_back(frame_.from_frame(image));
     }
     const std::vector<Vector3> partners = points_.nearest(images, limit * frame_.size);

@@ -116,22 +116,27 @@ Candidate<Shape> Refinement::fitted(const Candidate<Shape>& start, const Fit& fi
 }
 
 template <typename Shape>
-Shape Refinement::refined(const Shape& start) const {
+Shape Refinement::refined(const Shape& start, const Refinement& onto) const {
   constexpr double wide = 0.01;
   constexpr Index many = 1000;
   constexpr int steps = 12;
-  const double narrow = std::clamp(noise_.deviation(), 0.003, wide);  // noise agrees no closer
-  const Shape close = fitted(fitted(start, {many, wide, steps}), {many, narrow, steps});
-  return exact(fitted(close, {static_cast<Index>(samples_.size()), narrow, 2}));
+  const double noise = std::max(noise_.deviation(), onto.noise_.deviation());
+  const double narrow = std::clamp(noise, 0.003, wide);  // noise agrees no closer
+  std::vector<Shape> shape{start};
+  for (const Fit& fit : {Fit{many, wide, steps}, Fit{many, narrow, steps},
+                         Fit{static_cast<Index>(samples_.size()), narrow, 2}})
+    shape = fitted(shape, fit, onto);
+  return exact(shape.front(), onto);
 }
 
 template <typename Shape>
-Shape Refinement::exact(const Shape& start) const {
+Shape Refinement::exact(const Shape& start, const Refinement& onto) const {
   constexpr Index wanted = 1000;
   std::vector<Vector3> positions;
   for (std::size_t i = 0; i < samples_.size(); i += stride_for(wanted))
     positions.push_back(samples_[i].point);
-  return fitted_to_exact_pairs(start, positions, points_, cloud_.frame, spacing_).value_or(start);
+  return fitted_to_exact_pairs(start, positions, onto.points_, onto.cloud_.frame, onto.spacing_)
+      .value_or(start);
 }
 
 template <typename Shape>
@@ -199,19 +204,18 @@ PlaneBend Refinement::bend_of(const UnitPlane& plane) const {
           principal.values[1 - most]};
 }
 
-template UnitPlane Refinement::refined(const UnitPlane&) const;
-template UnitPlane Refinement::exact(const UnitPlane&) const;
+template UnitPlane Refinement::refined(const UnitPlane&, const Refinement&) const;
+template UnitPlane Refinement::exact(const UnitPlane&, const Refinement&) const;
 template Candidate<UnitPlane> Refinement::fitted(const Candidate<UnitPlane>&, const Fit&) const;
 template double Refinement::support(const UnitPlane&, Index) const;
 
-template UnitObliquePlane Refinement::refined(const UnitObliquePlane&) const;
+template UnitObliquePlane Refinement::refined(const UnitObliquePlane&, const Refinement&) const;
+template UnitPlacement Refinement::refined(const UnitPlacement&, const Refinement&) const;
 
-template UnitSphere Refinement::exact(const UnitSphere&) const;
 template Candidate<UnitSphere> Refinement::fitted(const Candidate<UnitSphere>&, const Fit&) const;
 template double Refinement::support(const UnitSphere&, Index) const;
 template Eigen::Matrix<double, Eigen::Dynamic, 2> Refinement::loosest(const UnitSphere&) const;
 
-template UnitCylinder Refinement::exact(const UnitCylinder&) const;
 template Candidate<UnitCylinder> Refinement::fitted(const Candidate<UnitCylinder>&,
                                                     const Fit&) const;
 template double Refinement::support(const UnitCylinder&, Index) const;

@@ -55,13 +55,22 @@ class Refinement {
   Candidate<Shape> fitted(const Candidate<Shape>& start, const Fit& fit) const;
 
   /// The mirror fitted to all that roughly agrees, then to what agrees closely, which nothing
-  /// beside a hole pulls away; to rounding where partners are exact.
+  /// beside a hole pulls away; to rounding where partners are exact. `onto`: the cloud that has the
+  /// images, where a map lays this one on another.
   template <typename Shape>
-  Shape refined(const Shape& start) const;
+  Shape refined(const Shape& start, const Refinement& onto) const;
+  template <typename Shape>
+  Shape refined(const Shape& start) const {
+    return refined(start, *this);
+  }
 
   /// The mirror of points that have exact partners over it; `start` where there are none.
   template <typename Shape>
-  Shape exact(const Shape& start) const;
+  Shape exact(const Shape& start, const Refinement& onto) const;
+  template <typename Shape>
+  Shape exact(const Shape& start) const {
+    return exact(start, *this);
+  }
 
   /// Share of about so many samples, out of those the mirror moves, whose images land on the cloud;
   /// of planes an image just beside it counts against them.
@@ -91,16 +100,17 @@ class Refinement {
   // Matches on every so many samples.
   class Matching {
    public:
-    Matching(const Refinement& cloud, Index stride) : cloud_(cloud), stride_(stride) {}
+    Matching(const Refinement& cloud, const Refinement& onto, Index stride)
+        : cloud_(cloud), onto_(onto), stride_(stride) {}
 
-    double spacing() const { return cloud_.spacing_; }
+    double spacing() const { return onto_.spacing_; }
     template <typename Map>
     std::vector<Match> matches(const std::vector<Map>& maps, double limit) const {
-      return cloud_.matches(maps, limit, stride_);
+      return cloud_.matches(maps, limit, stride_, onto_);
     }
 
    private:
-    const Refinement& cloud_;
+    const Refinement &cloud_, &onto_;
     Index stride_;
   };
 
@@ -108,11 +118,15 @@ class Refinement {
   Index stride_for(Index wanted) const;
   SurfaceNoise measured_noise() const;
   template <typename Map>
-  std::vector<Match> matches(const std::vector<Map>& maps, double limit, Index stride) const;
+  std::vector<Match> matches(const std::vector<Map>& maps, double limit, Index stride,
+                             const Refinement& onto) const;
   template <typename Shape>
   std::vector<Match> matches(const Shape& shape, double limit, Index stride) const {
-    return matches(std::vector<Shape>{shape}, limit, stride);
+    return matches(std::vector<Shape>{shape}, limit, stride, *this);
   }
+  template <typename Map>
+  std::vector<Map> fitted(const std::vector<Map>& maps, const Fit& fit,
+                          const Refinement& onto) const;
   template <typename Map>
   const Vector3& position(const Sample& sample) const;
 
@@ -139,8 +153,8 @@ const Vector3& Refinement::position(const Sample& sample) const {
 }
 
 template <typename Map>
-std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limit,
-                                       Index stride) const {
+std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limit, Index stride,
+                                       const Refinement& onto) const {
   struct Asked {
     const Sample& sample;
     std::size_t map;
@@ -152,30 +166,38 @@ std::vector<Match> Refinement::matches(const std::vector<Map>& maps, double limi
       const Vector3 image = maps[k].reflect(samples_[i].point);
       if (!image.allFinite()) continue;
       asked.push_back({samples_[i], k});
-      images.push_back(cloud_.frame.from_frame(image));
+      images.push_back(onto.cloud_.frame.from_frame(image));
     }
-  const std::vector<Vector3> partners = points_.nearest(images, limit * cloud_.frame.size);
+  const std::vector<Vector3> partners =
+      onto.points_.nearest(images, limit * onto.cloud_.frame.size);
   std::vector<Match> found;
   found.reserve(asked.size());
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!partners[k].allFinite()) continue;
-    const Vector3 x = cloud_.frame.to_frame(partners[k]);
-    const Surfel* surfel = surfel_at(x);
+    const Vector3 x = onto.cloud_.frame.to_frame(partners[k]);
+    const Surfel* surfel = onto.surfel_at(x);
     if (!surfel) continue;
     found.push_back({position<Map>(asked[k].sample),
                      *asked[k].sample.surfel,
-                     Map::is_affine ? noise_.smoothed(x, *surfel) : x,
-                     {surfel->normal, surfel->flatness_without(noise_.deviation())},
+                     Map::is_affine ? onto.noise_.smoothed(x, *surfel) : x,
+                     {surfel->normal, surfel->flatness_without(onto.noise_.deviation())},
                      asked[k].map});
   }
   return found;
 }
 
 template <typename Map>
-std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit) const {
-  return symsurf::fitted(maps, Matching(*this, stride_for(fit.samples)),
-                         {fit.tolerance, fit.narrowest, fit.steps}, SurfaceKernel{spacing_, 0.01})
+std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit,
+                                    const Refinement& onto) const {
+  return symsurf::fitted(maps, Matching(*this, onto, stride_for(fit.samples)),
+                         {fit.tolerance, fit.narrowest, fit.steps},
+                         SurfaceKernel{onto.spacing_, 0.01})
       .maps;
+}
+
+template <typename Map>
+std::vector<Map> Refinement::fitted(const std::vector<Map>& maps, const Fit& fit) const {
+  return fitted(maps, fit, *this);
 }
 
 }  // namespace symsurf

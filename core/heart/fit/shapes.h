@@ -24,6 +24,20 @@ inline Vector3 across(const Vector3& unit, int k) {
   return k == 0 ? first : unit.cross(first);
 }
 
+/// The matrix of v x.
+inline Matrix3 cross_matrix(const Vector3& v) {
+  Matrix3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// The rotation about a vector by its length, radians.
+inline Matrix3 turn_by(const Vector3& turn) {
+  const double angle = turn.norm();
+  if (!(angle > 0)) return Matrix3::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
 /// A circular cylinder while it is searched for, in the principal frame; |axis| = 1.
 struct UnitCylinder {
   /// What is added to the point and to the axis, along either side each, and to the radius.
@@ -143,6 +157,41 @@ struct UnitObliquePlane {
   static constexpr bool is_affine = true;
 
   Vector3 side(int k) const { return across(normal, k); }
+};
+
+/// A reflection and rigid placement of one shape on another while it is searched for: from the
+/// principal frame of one into that of the other, in one unit.
+struct UnitPlacement {
+  /// A small turn about the origin, then a shift.
+  using Change = Eigen::Vector<double, 6>;
+
+  Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
+
+  /// Whatever point: it is a mirror to none of them.
+  double distance(const Vector3& /*x*/) const { return infinity; }
+  Vector3 reflect(const Vector3& x) const { return map * x; }
+  Vector3 reflect_direction(const Vector3& /*x*/, const Vector3& n) const {
+    return map.linear() * n;
+  }
+
+  /// By how much each number moves the image of x.
+  Eigen::Matrix<double, 3, 6> slopes(const Vector3& x) const {
+    Eigen::Matrix<double, 3, 6> slopes;
+    slopes << -cross_matrix(map * x), Matrix3::Identity();
+    return slopes;
+  }
+
+  /// Changed by no more than a small turn, and by how much.
+  std::pair<UnitPlacement, double> stepped(const Change& by) const {
+    constexpr double longest = 0.2;  // radians, diagonals
+    const double length = by.norm();
+    const Change cut = length > longest ? Change(longest / length * by) : by;
+    const Eigen::Isometry3d turn(turn_by(cut.head<3>()));
+    return {{Eigen::Translation3d(cut.tail<3>()) * turn * map}, std::min(length, longest)};
+  }
+  void follow(const UnitPlacement& moved) { *this = moved; }
+  static constexpr double ridge = 1e-5;  // directions that slide stay as they are
+  static constexpr bool is_affine = true;
 };
 
 /// A sphere, or where its curvature is 0 a plane, while it is searched for, in the principal frame:

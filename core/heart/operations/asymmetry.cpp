@@ -143,7 +143,7 @@ void report_sides(Values& statistics, const OperationInput& input, const Mirror&
 
 void run_asymmetry(const Matchers& matchers, const OperationInput& input, const Mirror& mirror,
                    const ParameterValues& values, const Context& context, OperationResult& result) {
-  const PointsView points = input.points;
+  const PointsView points = input.own();
   const Index count = points.size();
   const double diagonal = diagonal_of(points);
   const Counterparts counterparts(input, mirror, limits_of(values, points), context.stage(0, 0.8),
@@ -161,11 +161,11 @@ void run_asymmetry(const Matchers& matchers, const OperationInput& input, const 
     const Vector3 normal = counterparts.normals().row(i).transpose();
     outward[i] = to_place.dot(normal);
     tangential[i] = (to_place - outward[i] * normal).norm();
-    lateral[i] = to_place.dot(from_mirror.stableNormalized());
+    lateral[i] = input.own_points > 0 ? NAN : to_place.dot(from_mirror.stableNormalized());
     matched[i] = counterpart.matched ? 1 : 0;
     face[i] = counterpart.matched ? static_cast<double>(counterpart.face) : -1;
     weights.row(i) = counterpart.weights.transpose();
-    confidence[i] = counterparts.confidence(i, points);
+    confidence[i] = counterparts.confidence(i, input.points);
   });
   Values& statistics = result.statistics;
   statistics["matched_share"] =
@@ -176,7 +176,8 @@ void run_asymmetry(const Matchers& matchers, const OperationInput& input, const 
   if (!input.faces.empty()) {
     of_surface.setConstant(std::numeric_limits<double>::quiet_NaN());
     for (Index f = 0; f < input.faces.size(); ++f)
-      for (int k = 0; k < 3; ++k) of_surface[input.faces[f][k]] = distance[input.faces[f][k]];
+      for (int k = 0; k < 3; ++k)
+        if (const Index i = input.faces[f][k]; i < count) of_surface[i] = distance[i];
   }
   report_distances(statistics, of_surface, outward, diagonal, context);
   if (!input.faces.empty())
@@ -186,9 +187,9 @@ void run_asymmetry(const Matchers& matchers, const OperationInput& input, const 
                    {"confidence", confidence}};
   if (const HomologousPoints* homologous = counterparts.homologous()) {
     const auto is_known = distance.array().isFinite();  // others have no vector
-    const Eigen::VectorXd& deviations = homologous->deviations;
+    const Eigen::VectorXd deviations = homologous->deviations.head(count);
     result.arrays["vector_sd"] = is_known.select(deviations, distance);
-    result.arrays["known"] = is_known.select(homologous->known, distance);
+    result.arrays["known"] = is_known.select(homologous->known.head(count), distance);
     report_length(statistics, "detectable_tangential",
                   detected * median(std::vector(deviations.begin(), deviations.end())), diagonal);
   }
@@ -219,7 +220,7 @@ OperationImplementation asymmetry_operation(const Matchers& matchers) {
       {"tangential", ParameterType::Real, 1,
        "Component of the vector along the surface, input units."},
       {"lateral", ParameterType::Real, 1,
-       "Component of the vector away from the mirror, input units.", true},
+       "Component of the vector away from the mirror, input units; NaN of two shapes.", true},
       {"matched", ParameterType::Boolean, 1,
        "Whether the point has a counterpart: none beyond a boundary of the surface, too far away, "
        "or with a different normal."},
@@ -239,6 +240,7 @@ OperationImplementation asymmetry_operation(const Matchers& matchers) {
        "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "signed";
+  operation.takes_other = true;
   operation.run = std::bind_front(run_asymmetry, matchers);
   return operation;
 }

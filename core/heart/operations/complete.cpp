@@ -261,7 +261,8 @@ class Completion {
     const TriangleMesh whole(result.points, result.faces, context);
     std::vector<bool> is_boundary = whole.is_boundary();
     const auto goes_on = [&](Index i) {  // the surface, beyond the rim
-      if (!is_boundary[i]) return false;
+      const bool is_other = i >= input_.own().size() && i < count;
+      if (!is_boundary[i] || is_other) return false;
       if (i >= count) return bool(meets_mesh_[sources_[i - count]]);
       const Counterpart& c = counterparts_[i];
       return c.face >= 0 && !c.past_rim && (!c.on_rim || c.nearest == i);
@@ -373,21 +374,23 @@ class Completion {
 }  // namespace
 
 void complete_by(const SymmetryMap& map, const ParameterValues& values, const Context& context,
-                 OperationResult& result) {
+                 OperationResult& result, Index own_points) {
   const Points given = result.points;
   const Triangles given_faces = result.faces;
   const std::vector<Index> point_sources = result.point_sources, face_sources = result.face_sources;
-  const OperationInput input{given, given_faces};
-  const Counterparts counterparts(input, map, limits_of(values, input.points),
-                                  context.stage(0, 0.6));
-  std::vector<bool> missing = missing_points(
-      input, counterparts, limits_of(values, input.points).distance, context.stage(0.6, 0.7));
+  OperationInput input{given, given_faces};
+  input.own_points = own_points;
+  const Counterparts::Limits limits = limits_of(values, input.own());
+  const Counterparts counterparts(input, map, limits, context.stage(0, 0.6));
+  std::vector<bool> missing =
+      missing_points(input, counterparts, limits.distance, context.stage(0.6, 0.7));
+  std::fill(missing.begin(), missing.begin() + own_points, false);
   const Index points = given.rows(), faces = given_faces.rows();
 
   // What is nearest to a turned point of a cloud may be the other side of a wall; sides that differ
   // as those of a mirror do there are none.
   const bool is_bent = map.is_reflection() || faces > 0;
-  const double reach = is_bent ? values.real("blend") * diagonal_of(input.points) : 0;
+  const double reach = is_bent ? values.real("blend") * diagonal_of(input.own()) : 0;
   std::optional<Completion> completion;
   std::vector<bool> joined;
   Index patch = 0;
@@ -475,7 +478,9 @@ void run_complete(const OperationInput& input, const Mirror& mirror, const Param
                   const Context& context, OperationResult& result) {
   start_completion(input, result);
   if (values.boolean("search"))
-    complete_by(mirror, values, context, result);
+    complete_by(mirror, values, context, result, input.own_points);
+  else if (input.own_points > 0)
+    throw InvalidParameter("search is false beside a second shape; allowed is true");
   else
     add_image(input, mirror, context, result);
 }
@@ -506,7 +511,7 @@ OperationImplementation complete_operation() {
   operation.arrays = {{"origin", ParameterType::Integer, 1,
                        "0: a point of the input; 1: an image; 2: an image at the seam."}};
   operation.shown = "origin";
-  operation.adds_points = true;
+  operation.adds_points = operation.takes_other = true;
   operation.run = run_complete;
   return operation;
 }

@@ -10,7 +10,7 @@ void run_correspondences(const Matchers& matchers, const OperationInput& input,
                          const Context& context, OperationResult& result) {
   const PointsView points = input.points;
   const Index count = points.size();
-  const Counterparts counterparts(input, mirror, limits_of(values, points), context,
+  const Counterparts counterparts(input, mirror, limits_of(values, input.own()), context,
                                   pairing_of(values, matchers));
   Eigen::VectorXd index(count), confidence(count), face(count);
   Points weights(count, 3);
@@ -29,8 +29,9 @@ void run_correspondences(const Matchers& matchers, const OperationInput& input,
         confidence[i] = 0;
       }
   }
-  const auto paired = static_cast<double>((index.array() >= 0).count());
-  result.statistics["paired_share"] = paired / static_cast<double>(count);
+  const Index own = input.own().size();
+  const auto paired = static_cast<double>((index.head(own).array() >= 0).count());
+  result.statistics["paired_share"] = paired / static_cast<double>(own);
   counterparts.report(result.statistics);
   result.arrays = {{"index", index}, {"confidence", confidence}};
   if (!input.faces.empty()) {
@@ -66,6 +67,7 @@ OperationImplementation correspondences_operation(const Matchers& matchers) {
        "For a mesh: barycentric coordinates of the counterpart on that face."},
   };
   operation.shown = "confidence";
+  operation.takes_other = true;
   operation.run = std::bind_front(run_correspondences, matchers);
   return operation;
 }

@@ -90,6 +90,7 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
     : map_(map),
       limits_(limits),
       is_homologous_(homologous != nullptr),
+      own_(input.own().size()),
       all_(input.points.size()),
       images_(map.images(input.points, context.stage(0, 0.3))) {
   require_images(images_, map.kind());
@@ -114,8 +115,8 @@ Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
       if (const double side = homologous_.sides[i]; std::isfinite(side))
         distances_[i] = side * std::max(std::abs(distances_[i]), beside);
   }
-  matched_ =
-      std::count_if(all_.begin(), all_.end(), [](const Counterpart& c) { return c.matched; });
+  matched_ = std::count_if(all_.begin(), all_.begin() + own_,
+                           [](const Counterpart& c) { return c.matched; });
 }
 
 void Counterparts::settle(Index i, double cosine) {
@@ -143,9 +144,9 @@ double Counterparts::confidence(Index i, PointsView points) const {
 
 void Counterparts::report(Values& statistics) const {
   const auto share = [&](const auto& is_so) {
-    const auto count = std::count_if(all_.begin(), all_.end(),
+    const auto count = std::count_if(all_.begin(), all_.begin() + own_,
                                      [&](const Counterpart& c) { return !c.matched && is_so(c); });
-    return static_cast<double>(count) / static_cast<double>(all_.size());
+    return static_cast<double>(count) / static_cast<double>(own_);
   };
   const auto has_none = [](const Counterpart& c) { return c.nearest < 0 && !c.past_rim; };
   const auto is_far = [&](const Counterpart& c) {

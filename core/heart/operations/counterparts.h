@@ -114,6 +114,7 @@ class Counterparts {
                const Context& context, HomologousMatcher homologous = nullptr);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
+  /// Of the points that the operation is done to, as report() has it.
   Index matched() const { return matched_; }
 
   /// 0 to 1: the cosine between the normals, halved where the closest image of a point is a spacing
@@ -171,6 +172,7 @@ class Counterparts {
   const SymmetryMap map_;
   const Limits limits_;
   const bool is_homologous_;
+  const Index own_;              // points that the operation is done to
   HomologousPoints homologous_;  // where these are asked for
   std::vector<Counterpart> all_;
   std::optional<TriangleMesh> mesh_;

@@ -131,6 +131,8 @@ FinitePart::FinitePart(const OperationInput& whole, const Operation& operation)
   faces_.resize(static_cast<Index>(kept_faces_.size()), 3);
   for (Index f = 0; f < faces_.rows(); ++f)
     for (int c = 0; c < 3; ++c) faces_(f, c) = number[whole.faces[kept_faces_[f]][c]];
+  part_.own_points = std::lower_bound(kept_points_.begin(), kept_points_.end(), whole.own_points) -
+                     kept_points_.begin();
   part_.points = points_;
   part_.faces = faces_;
   if (whole.mask.size() > 0) part_.mask = whole.mask(kept_points_);

@@ -34,8 +34,9 @@ OperationImplementation transfer_operation(const Matchers& matchers);
 void start_completion(const OperationInput& input, OperationResult& result);
 
 /// Adds to the shape in `result` the preimages under a map of what they are missing from.
+/// `own_points`: as OperationInput has it; only these are completed.
 void complete_by(const SymmetryMap& map, const ParameterValues& values, const Context& context,
-                 OperationResult& result);
+                 OperationResult& result, Index own_points = 0);
 
 /// Whether an operation with these values is done over a mirror, not about an axis.
 bool is_over_mirror(const OperationImplementation& operation, const ParameterValues& values);
@@ -45,6 +46,12 @@ bool is_over_mirror(const OperationImplementation& operation, const ParameterVal
 OperationResult run_operation(const OperationImplementation& operation, const OperationInput& given,
                               const Mirror* mirror, const Values& parameters,
                               const Context& context);
+
+/// Runs an operation on the first of two shapes. A rigid motion lays the second where a plane
+/// beside the first mirrors it onto the first, by `map`, which takes the first onto the second:
+/// both together are one shape with that mirror. Throws what operate() does.
+OperationResult run_on_pair(const OperationImplementation& operation, const OperationInput& given,
+                            const Matrix4& map, const Values& parameters, const Context& context);
 
 /// What an operation works on where some points are not finite, as in clouds of depth cameras: the
 /// others and the faces between them. The points left out keep their places in the result, without

@@ -62,6 +62,11 @@ struct RigidImage {
   RigidImage moved(const Eigen::Isometry3d& by) const { return {by * map * by.inverse()}; }
 };
 
+// The same on another surface, where that moves.
+struct PlacedImage : RigidImage {
+  PlacedImage moved(const Eigen::Isometry3d& by) const { return {by * map}; }
+};
+
 // The same over any mirror, that is moved by a motion.
 struct MirrorImage {
   const Mirror& mirror;
@@ -82,8 +87,28 @@ struct MirrorImage {
   MirrorImage moved(const Eigen::Isometry3d& next) const { return {mirror, frame, next * by}; }
 };
 
-// The motions that turn a mirror about four axes in it, and shift it across itself, by groups: a
-// sheet slides in one way only.
+// The motions that turn a map about these axes through a point, and shift it, by groups: a sheet
+// slides in one way only.
+std::vector<std::vector<Eigen::Isometry3d>> chance_motions(const Vector3& pivot,
+                                                           const std::vector<Vector3>& axes,
+                                                           const std::vector<Vector3>& ways) {
+  std::vector<std::vector<Eigen::Isometry3d>> groups;
+  for (const Vector3& axis : axes) {
+    groups.emplace_back();
+    for (const double degrees : {-55, -25, 25, 55})
+      groups.back().push_back(Eigen::Translation3d(pivot) *
+                              Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis) *
+                              Eigen::Translation3d(-pivot));
+  }
+  for (const Vector3& way : ways) {
+    groups.emplace_back();
+    for (const double shift : {-0.12, -0.06, 0.06, 0.12})
+      groups.back().push_back(Eigen::Isometry3d(Eigen::Translation3d(shift * way)));
+  }
+  return groups;
+}
+
+// Those of a mirror: about four axes in it, and across itself.
 std::vector<std::vector<Eigen::Isometry3d>> chance_motions(const std::vector<PointFit>& fits,
                                                            const SampledSurface& surface,
                                                            const Cloud& cloud) {
@@ -104,18 +129,7 @@ std::vector<std::vector<Eigen::Isometry3d>> chance_motions(const std::vector<Poi
   const Matrix3 within =
       eigen_of(Matrix3(across * cloud.frame.variance.asDiagonal() * across)).vectors;
   const Vector3 u = within.col(1), v = within.col(2);
-  std::vector<std::vector<Eigen::Isometry3d>> groups;
-  for (const Vector3& axis : {u, v, Vector3((u + v).normalized()), Vector3((u - v).normalized())}) {
-    groups.emplace_back();
-    for (const double degrees : {-55, -25, 25, 55})
-      groups.back().push_back(Eigen::Translation3d(pivot) *
-                              Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis) *
-                              Eigen::Translation3d(-pivot));
-  }
-  groups.emplace_back();
-  for (const double shift : {-0.12, -0.06, 0.06, 0.12})
-    groups.back().push_back(Eigen::Isometry3d(Eigen::Translation3d(shift * normal)));
-  return groups;
+  return chance_motions(pivot, {u, v, (u + v).normalized(), (u - v).normalized()}, {normal});
 }
 
 }  // namespace
@@ -155,7 +169,8 @@ void MirrorScore::with_fit_of(const Mirror& mirror, Index stride, const Take& ta
   with_image_of(mirror, [&](const auto& image) {
     const std::optional<double> prior = prior_of(mirror.kind());
     MirrorSides sides(held_out);
-    const std::vector<PointFit> fits = point_fits(image, stride, prior ? &sides : nullptr);
+    const std::vector<PointFit> fits =
+        point_fits(image, stride, surface_, prior ? &sides : nullptr);
     MirrorFit found = whole_of(fits, stride);
     if (prior) found.log_odds = *prior + sides.evidence() - contradiction * contradicted_of(found);
     if (mesh_ && found.share > 0 && (*mesh_)(mirror, cloud_.points))
@@ -172,12 +187,28 @@ MirrorFit MirrorScore::fit(const Mirror& mirror, Index stride) const {
 }
 
 std::vector<PointFit> MirrorScore::point_fits(const Eigen::Isometry3d& map, Index stride) const {
-  return point_fits(RigidImage{map}, stride);
+  return point_fits(RigidImage{map}, stride, surface_);
+}
+
+MirrorFit MirrorScore::fit(const Eigen::Isometry3d& map, const MirrorScore& onto,
+                           Index stride) const {
+  return whole_of(point_fits(PlacedImage{map}, stride, onto.surface_), stride);
+}
+
+double MirrorScore::evidence(const Eigen::Isometry3d& map, const MirrorScore& onto) const {
+  const PlacedImage image{map}, back{map.inverse()};
+  const std::vector<Vector3> axes{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  return evidence(image, point_fits(image, 1, onto.surface_),
+                  chance_motions(map.translation(), axes, axes), onto.surface_,
+                  onto.unmapped(onto.point_fits(back, 1, surface_)))
+      .sure;
 }
 
 template <typename Image>
 std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index stride,
+                                              const SampledSurface& onto,
                                               MirrorSides* sides) const {
+  const bool is_other = &onto != &surface_;
   std::vector<std::pair<Index, ImagePoint>> images;
   std::vector<PointFit> fits;
   std::vector<double> distances{0};
@@ -188,7 +219,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index strid
       fits.push_back({k, sample.ceiling, 0, sample.ceiling});
       continue;
     }
-    const double distance = (image.position - sample.position).norm() / 2;
+    const double distance = is_other ? infinity : (image.position - sample.position).norm() / 2;
     if (distance < single_rounding) continue;
     images.push_back({k, image});
     distances.push_back(distance);
@@ -198,7 +229,7 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index strid
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto& [k, image] = images[i];
     const SampledSurface::Sample& sample = surface_[k];
-    const SampledSurface::Landing landing = surface_.landing(sample, image);
+    const SampledSurface::Landing landing = onto.landing(sample, image);
     PointFit fit{k, 1, 1, 0, 0, landing.exact, image.position};
     if (!landing.exact) fit.residual = landing.residual;
     fit.normal = landing.facet.normal;
@@ -236,21 +267,27 @@ MirrorFit MirrorScore::whole_of(const std::vector<PointFit>& points, Index strid
           median(std::move(deviations)) * cloud_.frame.size};
 }
 
+std::vector<double> MirrorScore::unmapped(const std::vector<PointFit>& fits) const {
+  std::vector<double> unmapped(surface_.size(), 0);
+  for (const PointFit& fit : fits) unmapped[fit.point] = 1 - fit.mapped();
+  return unmapped;
+}
+
 template <typename Image>
-MirrorScore::Evidence MirrorScore::evidence(const Image& image,
-                                            const std::vector<PointFit>& fits) const {
+MirrorScore::Evidence MirrorScore::evidence(const Image& image, const std::vector<PointFit>& fits,
+                                            const Motions& motions, const SampledSurface& onto,
+                                            const std::vector<double>& unmapped_there) const {
   constexpr Index stride = 3;        // three hundred samples say what chance maps
   constexpr double doubted = 0.9;    // chance that maps more is a symmetry as well: vases, balls
   constexpr double least = 0.01;     // of its weight, that a sample has whatever chance maps of it
   constexpr Index around_image = 8;  // samples
-  std::vector<double> unmapped(surface_.size(), 0), chance(surface_.size(), 0);
-  for (const PointFit& fit : fits) unmapped[fit.point] = 1 - fit.mapped();
+  std::vector<double> chance(surface_.size(), 0);
   double greatest = 0;
-  for (const auto& group : chance_motions(fits, surface_, cloud_)) {
+  for (const auto& group : motions) {
     std::vector<double> mapped(surface_.size(), 0);
     for (const Eigen::Isometry3d& by : group) {
       std::vector<double> share(surface_.size(), 0);
-      for (const PointFit& fit : point_fits(image.moved(by), stride))
+      for (const PointFit& fit : point_fits(image.moved(by), stride, onto))
         share[fit.point] = fit.mapped();
       double sum = 0, weights = 0;
       for (const PointFit& fit : fits)
@@ -266,18 +303,18 @@ MirrorScore::Evidence MirrorScore::evidence(const Image& image,
   double mapped = 0, contradicted = 0, support = 0, weights = 0, deciding = 0, looked_at = 0;
   for (const PointFit& fit : fits) {
     weights += fit.weight;
-    support += fit.weight * (1 - unmapped[fit.point]);
+    support += fit.weight * fit.mapped();
     if (fit.point % stride != 0) continue;
     const double tells = fit.weight * (least + 1 - chance[fit.point]);
     deciding += tells;
     looked_at += fit.weight;
-    mapped += tells * (1 - unmapped[fit.point]);
+    mapped += tells * fit.mapped();
     if (!fit.image.allFinite()) continue;
     // Where the shape goes on around the image, or is itself unmapped there; else it is missing.
-    const std::vector<Index> near = surface_.nearest(fit.image, around_image);
+    const std::vector<Index> near = onto.nearest(fit.image, around_image);
     double there = fit.weight > fit.support ? 1 - fit.missing / (fit.weight - fit.support) : 1;
-    for (const Index j : near) there += unmapped[j] / static_cast<double>(near.size());
-    contradicted += tells * unmapped[fit.point] * std::min(1.0, there);
+    for (const Index j : near) there += unmapped_there[j] / static_cast<double>(near.size());
+    contradicted += tells * (1 - fit.mapped()) * std::min(1.0, there);
   }
   if (!(mapped > 0)) return {};
   const double top = std::min(doubted, greatest), share = std::min(1.0, support / weights);
@@ -431,8 +468,9 @@ struct Uncertainty {
 double MirrorScore::nats(const Mirror& freer, const Mirror& simpler, double freedom) const {
   const auto over = [&](const Mirror& mirror) {
     Residuals all;
-    with_image_of(mirror,
-                  [&](const auto& image) { all = residuals_of(point_fits(image, 1), surface_); });
+    with_image_of(mirror, [&](const auto& image) {
+      all = residuals_of(point_fits(image, 1, surface_), surface_);
+    });
     return all;
   };
   Residuals less = over(simpler), more = over(freer);
@@ -472,9 +510,11 @@ void MirrorScore::fill(const Mirror& mirror, Result& result) const {
   constexpr double certain = 0.97, too_little = 0.3;
   with_fit_of(mirror, 1, [&](const MirrorFit& its, const auto& fits, const auto& image) {
     tell(mirror.kind(), its, result);
-    const Evidence found = its.share > certain      ? Evidence{1}
-                           : its.share < too_little ? Evidence{0}
-                                                    : evidence(image, fits);
+    const Evidence found = its.share > certain ? Evidence{1}
+                           : its.share < too_little
+                               ? Evidence{0}
+                               : evidence(image, fits, chance_motions(fits, surface_, cloud_),
+                                          surface_, unmapped(fits));
     result.statistics["evidence"] = found.sure;
     result.statistics["deciding_share"] = found.deciding;
     const Uncertainty uncertainty(fits, surface_);

@@ -67,6 +67,12 @@ class MirrorScore {
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, Index stride = 1) const;
 
+  /// Of a map that lays the cloud on another, which moves every sample, between their principal
+  /// frames, of one size.
+  MirrorFit fit(const Eigen::Isometry3d& map, const MirrorScore& onto, Index stride = 1) const;
+  /// Whether it does so better than the same one turned and shifted, 0..1.
+  double evidence(const Eigen::Isometry3d& map, const MirrorScore& onto) const;
+
   /// The nats that speak for one mirror against another, by the residuals of the samples: those of
   /// a mirror are Student's of 3 degrees, as wide as the noise and the body's own asymmetry, but
   /// for a share without a partner, both at their likeliest; samples count as independent as the
@@ -85,23 +91,27 @@ class MirrorScore {
                 const std::vector<std::shared_ptr<Mirror>>& mirrors) const;
 
  private:
+  // `onto`: of this cloud or another.
   template <typename Image>
-  std::vector<PointFit> point_fits(const Image& image_of, Index stride,
+  std::vector<PointFit> point_fits(const Image& image_of, Index stride, const SampledSurface& onto,
                                    MirrorSides* sides = nullptr) const;
   MirrorFit whole_of(const std::vector<PointFit>& points, Index stride) const;
   template <typename Take>
   void with_image_of(const Mirror& mirror, const Take& take) const;
   template <typename Take>
   void with_fit_of(const Mirror& mirror, Index stride, const Take& take) const;
-  // Whether a mirror maps the shape better than the same one turned and shifted, 0..1: the mean of
-  // two. What it maps of the samples that tell it from those, over that and what contradicts it;
-  // and how far its share lies between the greatest of theirs and 1. `deciding`: the samples that
-  // tell, over all.
+  // Whether a map maps the shape better than the same one moved, 0..1: the mean of two. What it
+  // maps of the samples that tell it from those, over that and what contradicts it; and how far its
+  // share lies between the greatest of theirs and 1. `deciding`: the samples that tell, over all.
+  // `unmapped`: of the samples of `onto`, by the map back.
   struct Evidence {
     double sure = 0, deciding = 1;
   };
+  using Motions = std::vector<std::vector<Eigen::Isometry3d>>;
   template <typename Image>
-  Evidence evidence(const Image& image, const std::vector<PointFit>& fits) const;
+  Evidence evidence(const Image& image, const std::vector<PointFit>& fits, const Motions& motions,
+                    const SampledSurface& onto, const std::vector<double>& unmapped_there) const;
+  std::vector<double> unmapped(const std::vector<PointFit>& fits) const;
   void add_sides(const PointFit& fit, Index partner, MirrorSides& sides) const;
 
   const Cloud& cloud_;

@@ -91,6 +91,7 @@ struct Analysis {
   std::string shown;  ///< the array to colour points by; empty: none
   Index minimum_points = 4;
   bool takes_colours = false;     ///< AnalysisOptions::colours
+  bool takes_other = false;       ///< AnalysisOptions::other, which it needs
   bool finds_elements = false;    ///< AnalysisResult::planes and axes
   bool finds_transforms = false;  ///< AnalysisResult::transformations
 };
@@ -122,6 +123,8 @@ struct AnalysisOptions {
   /// faces: AnalysisResult::statistics has their number.
   bool refuse_nonfinite = false;
   Eigen::MatrixXd colours = {};  ///< optional, one row a point, for the parameter "texture"
+  PointsView other = {};         ///< a second shape, read in place too
+  TrianglesView other_faces = {};
 };
 
 struct AnalysisResult {
@@ -140,8 +143,8 @@ struct AnalysisResult {
 
 /// Runs an analysis. The points are read in place and must stay alive for the call. No symmetry is
 /// a result too. Throws InvalidInput as detect() does, and for colours that are not one a point or
-/// not finite, or missing where texture is true; InvalidParameter for an unknown name, parameter or
-/// value; Cancelled.
+/// not finite, or missing where texture is true; for another shape where none is taken, and for
+/// none where one is; InvalidParameter for an unknown name, parameter or value; Cancelled.
 AnalysisResult analyse(std::string_view name, PointsView points,
                        const AnalysisOptions& options = {}, const Context& context = {});
 

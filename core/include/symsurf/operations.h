@@ -24,6 +24,7 @@ struct PointArray {
   bool is_signed = false;     ///< 0 belongs in the middle of a colour map
   bool names_points = false;  ///< the values are indices of points, -1 for none
   bool names_faces = false;   ///< likewise of faces
+  bool names_other = false;   ///< likewise of points of the other of two shapes
 };
 
 /// The one description of what is done with a mirror. Front ends are made by looping over
@@ -43,6 +44,7 @@ struct Operation {
   bool needs_faces = false;             ///< bare clouds are refused
   /// Points and faces stay, what the input has at its points moves: OperationResult::point_parents.
   bool carries_values = false;
+  bool takes_other = false;       ///< OperationInput::other, in place of a mirror
   bool takes_any_mirror = false;  ///< not of the points alone: one of another thing, near or far
 };
 
@@ -60,6 +62,14 @@ struct OperationInput {
   /// Optional, with homologous pairing: landmarks that mirror each other. A row per pair: x, y, z
   /// of both and the standard deviation of placing them, 0 or more; input units.
   Eigen::MatrixXd landmark_pairs = {};
+  /// Optional, in place of a mirror: the second of two shapes of a pair, in a pose of its own, a
+  /// mesh where the first is one. The operation is done to the first.
+  PointsView other = {};
+  TrianglesView other_faces = {};
+  Index own_points = 0;  ///< where points from this one on are those of such a shape; 0: none is
+
+  /// Those that the operation is done to.
+  PointsView own() const { return own_points > 0 ? PointsView(points.data(), own_points) : points; }
 };
 
 struct OperationResult {
@@ -91,7 +101,9 @@ struct OperationResult {
 /// finite or one has a coordinate beyond 1e50, a face names no point, the mask is not one value in
 /// [0, 1] a point or the operation takes none, landmark pairs are not as said above, the mirror has
 /// images for less than half of the points, or, but where it takes any, lies more than ten
-/// diagonals away from them; Cancelled.
+/// diagonals away from them; a second shape is given to an operation that takes none, with a
+/// mirror, or it is no mesh beside one, has points that are not finite or is what match_pair
+/// refuses; Cancelled.
 OperationResult operate(std::string_view name, const OperationInput& input, const Mirror& mirror,
                         const Values& parameters = {}, const Context& context = {});
 

@@ -10,16 +10,6 @@
 
 namespace symsurf {
 
-namespace {
-
-Matrix3 cross_matrix(const Vector3& v) {
-  Matrix3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
-
 Eigen::Isometry3d GroupPose::placed(const Matrix3& element) const {
   return map_taking(axes * element * axes.transpose(), centre, centre);
 }
@@ -48,9 +38,7 @@ std::pair<PosedElement, double> PosedElement::stepped(const Change& by) const {
   const double length = by.norm();
   const Change cut = length > longest ? Change(longest / length * by) : by;
   GroupPose next = pose_;
-  const double angle = cut.head<3>().norm();
-  if (angle > 0)
-    next.axes = Eigen::AngleAxisd(angle, cut.head<3>() / angle).toRotationMatrix() * pose_.axes;
+  next.axes = turn_by(cut.head<3>()) * pose_.axes;
   next.centre += cut.tail<3>();
   return {{next, element_}, std::min(length, longest)};
 }

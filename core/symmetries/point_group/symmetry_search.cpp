@@ -559,8 +559,9 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     const double limit = options.tolerance > 0   ? options.tolerance
                          : deviation.is_closed() ? farthest * cloud.diagonal
                                                  : 0;
+    double done = 0.1;
     const auto accepts = [&](Symmetries& group) {
-      return deviates_little(group, deviation, limit, running.stage(1, 1));
+      return deviates_little(group, deviation, limit, running.stage(done, done));
     };
     found = exact_symmetries(cloud, deviation, is_cloud, options.tolerance, running.stage(0, 0.1));
     const bool is_exact = accepts(found) && found.elements.size() > 1;

@@ -67,6 +67,8 @@ class FileTask(Reading, Search):
     """Of an operation: a mirror with the verdict "none" is an error."""
     mirror: Mirror | None = None
     """Of an operation: the one to use, in place of that which the method finds."""
+    other: Path | None = None
+    """Of what takes two shapes: the second."""
     use_faces: bool = True
     use_normals: bool = False
     """Hand those of the file to the method; a file without any is an error."""
@@ -159,7 +161,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if task.operation in analyses():
         _analyse(task, shape, record, progress)
         return
-    if task.operation != DETECT and (task.mirror is not None or not _needs_mirror(task)):
+    if task.operation != DETECT and (task.mirror or task.other or not _needs_mirror(task)):
         given_mirror = mirror_record(task.mirror)
         record |= {"verdict": None, "reason": None, "mirror": given_mirror, "score": None}
         _operate(task, shape, task.mirror, record, progress)
@@ -244,10 +246,15 @@ def _needs_mirror(task: FileTask) -> bool:
     )
 
 
+def _other(task: FileTask) -> Shape | None:
+    return None if task.other is None else read(task.other, **part(Reading, task))
+
+
 def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | None) -> None:
     found = analyse(
         task.operation,
         shape,
+        _other(task),
         nonfinite=task.nonfinite,
         threads=task.threads,
         progress=progress,
@@ -268,6 +275,8 @@ def _operate(
         task.operation,
         shape,
         mirror,
+        other=_other(task),
+        require_found=task.require_found,
         nonfinite=task.nonfinite,
         threads=task.threads,
         progress=progress,

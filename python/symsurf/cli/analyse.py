@@ -20,6 +20,7 @@ from ..saving.shape_files import formats_of
 from .batch_options import (
     add_batch_options,
     add_files,
+    add_other,
     input_tasks,
     run_tasks,
     tell,
@@ -51,6 +52,8 @@ class AnalysisCommand:
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         add_files(parser)
+        if self._analysis.takes_other:
+            add_other(parser, "onto which the first is laid", required=True)
         group = parser.add_argument_group("output")
         add_output(
             group,

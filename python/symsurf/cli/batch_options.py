@@ -57,6 +57,16 @@ def add_files(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_other(parser: argparse.ArgumentParser, use: str, required: bool = False) -> None:
+    parser.add_argument(
+        "--other",
+        type=Path,
+        metavar="PATH",
+        required=required,
+        help=f"second of two shapes of a pair, {use}: a file, or a folder with a file of the same name",
+    )
+
+
 def input_tasks(
     arguments: argparse.Namespace, parameters: Mapping[str, Any], **fields: Any
 ) -> list[FileTask]:
@@ -69,18 +79,23 @@ def input_tasks(
         parameters=parameters | arguments.absolute,
         threads=threads_of_each(whole(arguments.threads), _jobs(arguments)),
         unit=arguments.unit,
+        other=getattr(arguments, "other", None),
         **given_options(arguments) | fields,
     )
     tasks = []
     for path in files_in(arguments.files):
         if path != STANDARD_INPUT:
-            tasks.append(replace(asked, file=path))
+            tasks.append(replace(asked, file=path, other=_beside(asked.other, path)))
         elif input_format is None:
             raise InvalidParameter("- is standard input, which needs --input-format, such as ply")
         else:
             content = standard_input()
             tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
     return tasks
+
+
+def _beside(other: Path | None, path: Path) -> Path | None:
+    return other / path.name if other is not None and other.is_dir() else other
 
 
 def add_batch_options(parser: argparse.ArgumentParser, output: Group) -> None:

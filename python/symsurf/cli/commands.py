@@ -50,6 +50,7 @@ _EXAMPLES = {
     "transfer": "mesh.ply --side positive -o both.ply",
     "illuminate": "screen.ply --mirror mirror.json --light 0,0,2 -o lit.vtp",
     "symmetries": "part.ply -o group.json",
+    "match_pair": "left.ply --other right.ply",
     "report": "scan.ply -o report.html",
     "table": "merge first.csv second.csv -o all.csv",
     "cohort": "landmarks/*.csv --table anova.csv",

@@ -20,6 +20,7 @@ from .batch_options import (
     add_batch_options,
     add_files,
     add_mirror_options,
+    add_other,
     input_tasks,
     run_tasks,
     with_outputs,
@@ -62,6 +63,8 @@ class OperationCommand:
             'a file, JSON written by detect or {"mirror": {"kind": "sphere", "centre": [0, 0, 0], '
             '"radius": 1}}',
         )
+        if self._operation.takes_other:
+            add_other(parser, "in place of a mirror")
         add_parameters(parser, self._operation)
 
     def run(self, arguments: argparse.Namespace) -> int:

@@ -25,6 +25,9 @@ _DOCUMENTED = {
     'have no counterpart: ``statistics["nonfinite_points"]`` is their number.',
     "mirror": "a result of ``detect``, a mirror of any kind, or a plane across an axis such as "
     '"x=0" or "y=-1.5", in the unit and pose of the points; None: the mirror is found first.',
+    "other": "the second of two shapes of a pair, in a pose of its own, in place of a mirror: "
+    "``match_pair`` lays its reflection on ``shape``, which is compared with it. Arrays have the rows of "
+    "``shape``, counterparts the indices of ``other``; both are meshes, or both clouds.",
     "mask": "(n,) in [0, 1], or booleans: how far each point may move.",
     "pairs": 'landmarks that mirror each other, with ``pairing="homologous"``: (k, 2) indices of '
     "points, or (k, 2, 3) places in input units. Without effect where both sides have one "
@@ -56,6 +59,7 @@ def _lacking(operation: Operation) -> list[str]:
     """The arguments that the operation does not take."""
     is_paired = any(parameter.name == "pairing" for parameter in operation.parameters)
     return [
+        *([] if operation.takes_other else ["other"]),
         *([] if operation.takes_mask else ["mask"]),
         *([] if is_paired else ["pairs", "pairs_sd"]),
     ]

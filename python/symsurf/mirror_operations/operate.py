@@ -16,7 +16,7 @@ from ..base.lengths import as_fractions, diagonal_of
 from ..base.options import Reading, Search, part
 from ..base.progress import Progress, share
 from ..detection import detect
-from ..reading.inputs import as_input, refuses, require_finite, warn_of
+from ..reading.inputs import Input, as_input, refuses, require_finite, warn_of
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.operation_results import RESULTS, require_one_a_point
 
@@ -29,6 +29,7 @@ def operate(
     shape: object,
     mirror: Result | Mirror | Axis | str | None = None,
     *,
+    other: object = None,
     mask: ArrayLike | None = None,
     pairs: ArrayLike | None = None,
     pairs_sd: ArrayLike = 0,
@@ -59,9 +60,13 @@ def operate(
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
     used, found, own = None, None, progress
-    if mirror is not None or not _core.needs_mirror(name, parameters):
+    second = Input(None, None) if other is None else as_input(other, None, reading)
+    if other is not None and mirror is not None:
+        raise InvalidParameter("mirror and other are both given; allowed is one of them")
+    needs_mirror = other is None and _core.needs_mirror(name, parameters)
+    if mirror is not None or not needs_mirror:
         require_no_search(search)
-    if _core.needs_mirror(name, parameters):
+    if needs_mirror:
         if mirror is None:
             finding, own = share(progress, 0, FOUND_AT), share(progress, FOUND_AT, 1)
             options = part(Search, search)
@@ -88,7 +93,11 @@ def operate(
         own,
         parameters,
         _landmark_pairs(pairs, pairs_sd, given.points),
+        second.points,
+        second.faces,
     )
+    if require_found and made["statistics"].get("pair_verdict") == "none":
+        raise InvalidInput(made["statistics"]["warning"])
     if "warning" in made["statistics"]:
         warn_of([made["statistics"]["warning"]])
     return RESULTS[name].from_fields(

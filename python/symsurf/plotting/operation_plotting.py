@@ -213,7 +213,7 @@ def _draw_pairs(plotter: pyvista.Plotter, result: Correspondences) -> None:
     points = result.shape.points
     pairs = np.column_stack([np.arange(len(points)), result.index])
     pairs = pairs[(result.index > pairs[:, 0]) & np.isfinite(points).all(axis=1)]
-    if not len(pairs):
+    if not len(pairs) or result.mirror is None:  # of two shapes: the others are not here
         return
     chosen = pairs[:: max(1, len(pairs) // seen)]
     plotter.add_mesh(

@@ -3,6 +3,7 @@
 from .analysis_results import (
     AnalysisResult,
     IntrinsicSymmetry,
+    PairMatch,
     PartialSymmetries,
     RecurringParts,
     Symmetries,
@@ -36,6 +37,7 @@ __all__ = [
     "Illuminated",
     "IntrinsicSymmetry",
     "OperationResult",
+    "PairMatch",
     "PartialSymmetries",
     "RecurringParts",
     "Remeshed",

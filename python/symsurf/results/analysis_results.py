@@ -443,6 +443,46 @@ class RecurringParts(AnalysisResult):
         return f"RecurringParts({self.shape!r}, instances of each part: {counts or 'none'})"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class PairMatch(AnalysisResult):
+    """Two shapes of a pair, as a left and a right bone, laid onto each other.
+
+    ``transformations`` has the one map, of the points of ``shape``, the left one.
+    """
+
+    analysis = "match_pair"
+    FIRST = ("verdict", "reason", "score", "evidence")
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """(4, 4), determinant -1: the reflection and rigid placement of left onto right, on columns
+        (x, y, z, 1) in input units."""
+        return self.transformations[0].matrix
+
+    @property
+    def score(self) -> float:
+        """Share of both shapes that lies on the other, 0 to 1."""
+        return float(self.statistics["score"])
+
+    @property
+    def verdict(self) -> str:
+        """ "found" or "none"."""
+        return str(self.statistics["verdict"])
+
+    @property
+    def reason(self) -> str:
+        """Why the verdict is what it is."""
+        return str(self.statistics["reason"])
+
+    @property
+    def index(self) -> NDArray[np.int64]:
+        """(n,) of each point of left: the nearest point of right to its image; -1 for none."""
+        return self.arrays["index"]
+
+    def __repr__(self) -> str:
+        return f"PairMatch({self.shape!r}, {self.verdict}, score {self.score:.3f})"
+
+
 RESULTS: dict[str, type[AnalysisResult]] = {
     kind.analysis: kind
     for kind in (
@@ -451,5 +491,6 @@ RESULTS: dict[str, type[AnalysisResult]] = {
         RecurringParts,
         SymmetryEmbedding,
         IntrinsicSymmetry,
+        PairMatch,
     )
 }

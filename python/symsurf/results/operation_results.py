@@ -194,7 +194,9 @@ class OperationResult(BaseResult):
 @dataclass(frozen=True, eq=False, repr=False)
 class _OverMirror(OperationResult):
     mirror: Mirror
-    """The mirror that was used; one made by hand gets the shape as its footprint."""
+    """The mirror that was used; one made by hand gets the shape as its footprint. None of two shapes
+    of a pair, whose ``statistics`` have "pair_score", "pair_verdict" and "pair_matrix", of the shape
+    onto the other."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -225,7 +227,7 @@ class Asymmetry(_OverMirror):
     tangential: NDArray[np.float64]
     """(n,) component of the vector along the surface."""
     lateral: NDArray[np.float64]
-    """(n,) component of the vector away from the mirror."""
+    """(n,) component of the vector away from the mirror; NaN of two shapes."""
     matched: NDArray[np.bool_]
     """(n,) whether the point has a counterpart: none beyond a boundary of the surface, too far
     away, or with a different normal."""

@@ -10,13 +10,14 @@ from .._core import InvalidInput, InvalidParameter
 from ..base.lengths import as_fractions, diagonal_of
 from ..base.options import Reading, part
 from ..base.progress import Progress
-from ..reading.inputs import as_input, refuses, warn
+from ..reading.inputs import Input, as_input, refuses, warn
 from ..results.analysis_results import RESULTS, AnalysisResult
 
 
 def analyse(
     name: str,
     shape: object,
+    other: object = None,
     *,
     faces: ArrayLike | None = None,
     colours: ArrayLike | None = None,
@@ -41,8 +42,18 @@ def analyse(
         if not _core.analyses()[name].takes_colours:
             raise TypeError(f"{name}() got an unexpected keyword argument 'colours'")
         raise InvalidParameter("colours are given, but texture is not; allowed is texture=True")
+    second = Input(None, None) if other is None else as_input(other, None, reading)
     made = _core.analyse(
-        name, given.points, given.faces, refuses(nonfinite), counted, threads, progress, parameters
+        name,
+        given.points,
+        given.faces,
+        refuses(nonfinite),
+        counted,
+        threads,
+        progress,
+        parameters,
+        second.points,
+        second.faces,
     )
     warn(made["statistics"])
     found = given.as_shape(made["points"], colours=counted)

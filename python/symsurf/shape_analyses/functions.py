@@ -13,6 +13,7 @@ from ..base.options import Reading, Search, documentation
 from ..results.analysis_results import RESULTS, AnalysisResult
 from .analyse import analyse
 
+_PAIR = ("left", "right")
 _ARGUMENTS = inspect.signature(analyse).parameters
 
 _COLOURS = (
@@ -32,13 +33,21 @@ _DOCUMENTED = {
 
 def _left_out(analysis: Analysis) -> set[str]:
     """What ``analyse`` takes, and the function of the analysis does not."""
-    return {"name", "parameters"} | (set() if analysis.takes_colours else {"colours"})
+    return {
+        "name",
+        "parameters",
+        *([] if analysis.takes_colours else ["colours"]),
+        *(["faces"] if analysis.takes_other else ["other"]),
+    }
 
 
 def _signature(analysis: Analysis) -> inspect.Signature:
     shared = {name: word for name, word in _ARGUMENTS.items() if name not in _left_out(analysis)}
     own = {parameter.name: keyword(parameter) for parameter in analysis.parameters}
-    words = {"shape": shared.pop("shape")} | own | shared
+    shape = shared.pop("shape")
+    shared.pop("other", None)
+    names = _PAIR if analysis.takes_other else ("shape",)
+    words = {name: shape.replace(name=name) for name in names} | own | shared
     returned = RESULTS[analysis.name].__name__
     return inspect.Signature(list(words.values()), return_annotation=returned)
 
@@ -48,7 +57,10 @@ def _documentation(analysis: Analysis) -> list[str]:
         textwrap.fill(analysis.summary, 96),
         "",
         "Args:",
-        argument_text("shape: points, a mesh or a file, as ``detect`` takes them."),
+        argument_text(
+            f"{', '.join(_PAIR) if analysis.takes_other else 'shape'}: points, a mesh or a file, as "
+            "``detect`` takes them."
+        ),
         *parameter_texts(analysis.parameters),
         *(
             argument_text(f"{name}: {text}")
@@ -67,8 +79,15 @@ def _function(analysis: Analysis) -> Callable[..., AnalysisResult]:
     def function(shape: Any, **options: Any) -> AnalysisResult:
         return analyse(analysis.name, shape, **options)
 
+    def of_two(left: Any, right: Any, **options: Any) -> AnalysisResult:
+        return analyse(analysis.name, left, right, **options)
+
     return name_function(
-        function, analysis.name, __name__, _signature(analysis), _documentation(analysis)
+        of_two if analysis.takes_other else function,
+        analysis.name,
+        __name__,
+        _signature(analysis),
+        _documentation(analysis),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from .._core import Analysis, InvalidParameter, analyses
 from ..reading.inputs import InputWarning
 from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
+from ..shapes import Shape
 from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
 from .algorithm import REFUSE_NONFINITE, THREADS, Algorithm, Property, selected
 from .arrays import add_values, set_vertices, vtk_cells
@@ -30,11 +31,18 @@ class SymmetryAnalysis(Algorithm):
     any turn). Output 2 "Transformations": a vertex for each, at the image of the centroid of what it
     maps; point data Kind, Score, Matrix (16 numbers, row by row), FromPoints and OntoPoints.
 
+    Input 1, ``other_data``, is the second of two shapes: for ``match_pair`` alone.
+
     Points that are not finite are left out, with a warning; in arrays they have NaN, -1 or 0.
     """
 
     SHAPE, ELEMENTS, TRANSFORMATIONS = range(3)
     _output_count = 3
+    _optional_inputs = (1,)
+    _inputs: ClassVar = {
+        **Algorithm._inputs,
+        "other_data": "The second of two shapes, where no filter makes it.",
+    }
     _properties = selected(
         "analysis",
         "Which symmetries are sought.",
@@ -54,7 +62,7 @@ class SymmetryAnalysis(Algorithm):
     )
 
     def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
-        (source,) = inputs
+        source, other = inputs
         shape, elements, transformations = outputs
         options = self._options
         chosen = self._chosen("analysis", analyses())
@@ -63,8 +71,8 @@ class SymmetryAnalysis(Algorithm):
             warnings.simplefilter("ignore", InputWarning)  # said below as VTK says it
             result = analyse(
                 options["analysis"],
-                points_of(source),
-                faces=faces_of(source).corners if options["use_faces"] else None,
+                self._shape(source),
+                None if other is None else self._shape(other),
                 nonfinite="refuse" if options["refuse_nonfinite"] else "skip",
                 threads=options["number_of_threads"],
                 progress=self._progress,
@@ -77,6 +85,10 @@ class SymmetryAnalysis(Algorithm):
         add_values(shape.GetFieldData(), result.statistics | {"analysis": result.analysis})
         _set_elements(elements, result)
         _set_transformations(transformations, result)
+
+    def _shape(self, data: vtkPolyData) -> Shape:
+        faces = faces_of(data).corners if self._options["use_faces"] else None
+        return Shape(points_of(data), faces)
 
 
 def _colours(shape: vtkPolyData, name: str) -> NDArray[Any]:

@@ -48,6 +48,9 @@ class MirrorOperation(Algorithm):
     unit and pose of the shape. Without it the mirror is found first, by ``method``; where its verdict
     is "none", it is used with a warning that says why, unless ``require_found`` is set.
 
+    Input 2, optional, is the second of two shapes of a pair, in a pose of its own, in place of a mirror:
+    for the operations that take one, see ``operations()``.
+
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
     from. Normals are not passed on where points are moved or added. Figures about the whole are
@@ -56,10 +59,11 @@ class MirrorOperation(Algorithm):
 
     operation: ClassVar[Operation]
 
-    _optional_inputs = (1,)
+    _optional_inputs = (1, 2)
     _inputs: ClassVar = {
         "input_data": "The shape, where no filter makes it.",
         "mirror_data": 'The output "Mirror" of a detection, where no filter makes it.',
+        "other_data": "The second of two shapes, where no filter makes it.",
     }
 
     def SetMirrorConnection(self, mirror: vtkAlgorithmOutput | None) -> None:
@@ -67,7 +71,9 @@ class MirrorOperation(Algorithm):
         self.SetInputConnection(1, mirror)
 
     def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
-        shape, given = inputs
+        shape, given, other = inputs
+        if given is not None and other is not None:
+            raise InvalidParameter("a mirror and a second shape are given; allowed is one of them")
         options, operation = self._options, self.operation
         points, faces = points_of(shape), faces_of(shape)
         if options["refuse_nonfinite"]:
@@ -76,7 +82,7 @@ class MirrorOperation(Algorithm):
         parameters = {each.name: options[each.name] for each in operation.parameters}
         mirror: Mirror | None = None
         before: float = 0
-        if _core.needs_mirror(operation.name, parameters):
+        if other is None and _core.needs_mirror(operation.name, parameters):
             mirror = self._found_mirror(points, faces) if given is None else mirror_of(given)
             before = _FOUND_AT if given is None else 0
         result = _core.operate(
@@ -88,6 +94,8 @@ class MirrorOperation(Algorithm):
             options["number_of_threads"],
             lambda fraction: self._progress(before + (1 - before) * fraction),
             parameters,
+            other=None if other is None else points_of(other),
+            other_faces=None if other is None else faces_of(other).corners,
         )
         self._warn_of(result["statistics"])
         added = _set_operated(outputs[0], shape, faces, operation, result)

@@ -76,8 +76,11 @@ class Case:
 
     def _analyse(self) -> Any:
         name = one_of(symsurf.analyses(), self.random)
-        given = drawn_values(symsurf.analyses()[name].parameters, self.random)
+        analysis = symsurf.analyses()[name]
+        given = drawn_values(analysis.parameters, self.random)
         self._say(name, given)
+        if analysis.takes_other:
+            return getattr(symsurf, name)(self.points, self.points[::-1], threads=1, **given)
         return getattr(symsurf, name)(self.points, faces=self.faces, threads=1, **given)
 
 

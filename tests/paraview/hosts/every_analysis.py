@@ -12,7 +12,8 @@ box = simple.Box(XLength=4, YLength=3, ZLength=2)
 
 answers = {}
 for name in sys.argv[2:]:
-    analysis = simple.SymmetryAnalysis(Input=box, Analysis=name)
+    other = {"Other": box} if name == "match_pair" else {}
+    analysis = simple.SymmetryAnalysis(Input=box, Analysis=name, **other)
     shape, elements, transformations = (
         fetched(analysis, port) for port in (SHAPE, ELEMENTS, TRANSFORMATIONS)
     )
