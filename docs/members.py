@@ -9,6 +9,7 @@ import itertools
 import re
 import textwrap
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import Any
 
 Row = tuple[str, str]
@@ -47,7 +48,9 @@ def class_rows(described: type, known: Iterable[type]) -> list[Row]:
         fields = {name: (f"`{name}`", _sentence(text)) for name, text in _field_texts(base).items()}
         methods = {
             name: (
-                f"`{name}`" if isinstance(member, property) else _called(name, member),
+                f"`{name}`"
+                if isinstance(member, property | cached_property)
+                else _called(name, member),
                 first_sentence(member),
             )
             for name, member in ((name, inspect.getattr_static(base, name)) for name in vars(base))

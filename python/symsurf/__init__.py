@@ -33,6 +33,7 @@ from ._core import (
     methods,
     operations,
 )
+from .base.input_warning import InputWarning
 from .detection import detect, detectors, fit_mirror, match
 from .detection.chunks import ChunkMatches, detect_chunks, match_chunks
 from .detection.detectors import *  # detect_<method>, one for each in methods()
@@ -51,7 +52,6 @@ from .morphometrics import (
     plane_of_landmarks,
 )
 from .reading import read
-from .reading.inputs import InputWarning
 from .reading.landmarks import read_landmark_sets, read_landmarks
 from .results import (
     Alignment,

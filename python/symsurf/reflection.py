@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,29 @@ from numpy.typing import NDArray
 
 from ._core import Mirror
 from .shapes import Shape, objects
+from .shapes.kinds import UNDIRECTED, Carry, affine_jacobian, jacobian, moved
+
+
+def is_flat(mirror: Mirror) -> bool:
+    """Whether its reflection is affine."""
+    return mirror.kind in ("plane", "oblique plane")
+
+
+def carry_over(mirror: Mirror, points: NDArray[np.float64]) -> Carry:
+    """What takes values of points (n, 3) to their images."""
+
+    @cache
+    def own() -> NDArray[np.float64]:
+        return (
+            affine_jacobian(mirror.reflect) if is_flat(mirror) else jacobian(mirror.reflect, points)
+        )
+
+    def carried(values: NDArray[Any], kind: str, name: object) -> NDArray[Any]:
+        if kind in UNDIRECTED:
+            return values
+        return moved(values, kind, mirror.reflect, own(), name).astype(values.dtype)
+
+    return carried
 
 
 def reflected(mesh: Any, mirror: Mirror) -> Any:
@@ -19,9 +43,12 @@ def reflected(mesh: Any, mirror: Mirror) -> Any:
     parts = objects.parts_of(mesh)
     if parts is None:
         return mirror.reflect(np.asarray(objects.points_of(mesh)))
-    images = mirror.reflect(np.asarray(parts.points))
+    points = np.asarray(parts.points, dtype=float)
+    images = mirror.reflect(points)
     faces = None if parts.faces is None else _turned(np.asarray(parts.faces))
-    return objects.remade(mesh, objects.Remade(images, faces, turned=True))
+    carried = carry_over(mirror, points)
+    made = objects.Remade(images, faces, turned=True, carried=carried, turns=True)
+    return objects.remade(mesh, made)
 
 
 def _turned(faces: NDArray[np.int64]) -> NDArray[np.int64]:

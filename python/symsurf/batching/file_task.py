@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import InvalidInput, InvalidParameter, Mirror, analyses, needs_mirror
+from ..base.input_warning import InputWarning
 from ..base.options import Reading, Search, part
 from ..base.plain import plain
 from ..base.printable import printable
@@ -25,7 +26,7 @@ from ..detection.sampling import downsample
 from ..mirror_operations.operate import FOUND_AT, operate
 from ..reading import read, suffix_of
 from ..reading.in_chunks import chunks_of, is_chunked
-from ..reading.inputs import InputWarning, nonfinite_message
+from ..reading.inputs import nonfinite_message
 from ..report.page import shape_page
 from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
 from ..results.base_result import mirror_record

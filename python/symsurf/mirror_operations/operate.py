@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from .._core import InvalidInput, InvalidParameter, Mirror, Parameter
+from ..base.input_warning import warn_of
 from ..base.lengths import as_fractions, diagonal_of
 from ..base.options import Reading, Search, part
 from ..base.progress import Progress, share
@@ -19,6 +20,7 @@ from ..detection import detect
 from ..reading.inputs import Input, as_input, refuses, require_finite, warn_of
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.operation_results import RESULTS, require_one_a_point
+from ..shapes.kinds import require_kinds
 
 FOUND_AT = 0.8
 """The share of the progress that finding the mirror takes."""
@@ -34,6 +36,7 @@ def operate(
     pairs: ArrayLike | None = None,
     pairs_sd: ArrayLike = 0,
     faces: ArrayLike | None = None,
+    kinds: Mapping[str, str] | None = None,
     absolute: bool = False,
     require_found: bool = False,
     method: str = "auto",
@@ -53,6 +56,7 @@ def operate(
     given = as_input(shape, faces, reading)
     if refuses(nonfinite):
         require_finite(given.points)
+    known_kinds = require_kinds(kinds)
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         mirror, parameters = _named_symmetry(mirror, parameters)
@@ -107,6 +111,7 @@ def operate(
             "given": given.as_shape(made["given"]),
             "mirror": used,
             "found": found,
+            "kinds": known_kinds,
         }
     )
 
@@ -126,7 +131,7 @@ def with_values(made: Transferred, values: Any) -> Transferred:
 def _carried(made: OperationResult, values: ArrayLike, name: object) -> NDArray[Any]:
     array = np.asarray(values)
     require_one_a_point(array, made.given, name)
-    return made.carried(array)
+    return made.carried(array, made.kinds.get(str(name), "scalar"), name)
 
 
 def _named_symmetry(

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
-import warnings
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -13,14 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter
+from ..base.input_warning import warn_of
 from ..base.options import Reading, part
 from ..shapes import Shape, objects
 from . import read
-
-
-class InputWarning(UserWarning):
-    """Part of the input was ignored or may be interpreted differently than intended, the method is
-    not suited to it, or the verdict on its mirror is "none"."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,15 +112,6 @@ def warn(statistics: dict[str, Any]) -> None:
     if "warning" in statistics:
         messages.append(statistics["warning"])
     warn_of(messages)
-
-
-def warn_of(messages: Iterable[str]) -> None:
-    """An InputWarning each, which names the line that called the package."""
-    level, frame, package = 1, sys._getframe(), __name__.split(".")[0]
-    while frame.f_back and frame.f_globals["__name__"].split(".")[0] == package:
-        level, frame = level + 1, frame.f_back
-    for message in messages:
-        warnings.warn(message, InputWarning, stacklevel=level)
 
 
 def nonfinite_message(count: int) -> str:

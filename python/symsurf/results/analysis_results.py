@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import InvalidInput, InvalidParameter, Plane
-from ..reading.inputs import warn_of
+from ..base.input_warning import warn_of
 from ..shapes import Shape
 from .base_result import BaseResult
 from .elements import Axis, Transformation

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from numpy.typing import NDArray
 
 from .._core import Mirror
+from ..base.input_warning import warn_of
 from ..base.plain import plain
-from ..reading.inputs import warn_of
 from ..shapes import Shape
 from ..shapes.objects import Remade, remade_like
 from .outputs import save

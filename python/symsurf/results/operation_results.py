@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _core
 from .._core import InvalidInput, Mirror, Plane, operations
+from ..reflection import is_flat
 from ..shapes import Shape
+from ..shapes.kinds import (
+    UNDIRECTED,
+    Move,
+    PointMap,
+    affine_jacobian,
+    jacobian,
+    moved,
+    with_lengths,
+)
 from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
 from .base_result import BaseResult, mirror_record
@@ -55,6 +67,8 @@ class OperationResult(BaseResult):
     new mesh, as of ``symmetrize`` with ``triangles="mirrored"``, or values are transferred."""
     shares: NDArray[np.float64] | None
     """(n, k) interpolation weights of these points; each row sums to 1."""
+    kinds: dict[str, str] = field(default_factory=dict, kw_only=True)
+    """What arrays of the input's points are, by name, as given: see ``carried``."""
 
     @classmethod
     def from_fields(cls, made: dict[str, Any]) -> Self:
@@ -91,6 +105,7 @@ class OperationResult(BaseResult):
             face_sources=face_sources,
             parents=made["point_parents"] if has_parents else None,
             shares=made["point_shares"] if has_parents else None,
+            kinds=made.get("kinds", {}),
             **made["arrays"],
             **made["face_arrays"],
             **cls._own_fields(made),
@@ -106,15 +121,84 @@ class OperationResult(BaseResult):
         """True if the result is a new mesh that shares no vertices or faces with the input."""
         return self.parents is not None and not operations()[self.operation].carries_values
 
-    def carried(self, values: NDArray[Any]) -> NDArray[Any]:
+    def carried(
+        self, values: NDArray[Any], kind: str = "scalar", name: object = "values"
+    ) -> NDArray[Any]:
         """Values at the points of ``shape`` from values at the input points, such as colours or
         texture coordinates: (n, ...) from (k, ...). Real numbers and colours of three or four bytes
-        are interpolated between a point's ``parents``; others are those of its source. Raises
-        InvalidInput for another number of values."""
-        require_one_a_point(values, self.given, "values")
-        if self.parents is None or self.shares is None:
+        are interpolated between a point's ``parents``; others are those of its source.
+
+        Args:
+            kind: "scalar"; "label": always that of the source; "weight": interpolated; "position",
+                "vector", "normal", "tensor" (symmetric: 6 numbers in VTK's order or 9), "quaternion"
+                (w, x, y, z) or "harmonics" (of degrees 1 to 3, of three colours): turned and
+                reflected as the points are, curved mirrors by their local Jacobian.
+
+        Raises InvalidInput for another number of values, or of components for the kind.
+        """
+        require_one_a_point(values, self.given, name)
+        if kind == "label":
             return values[self.sources]
-        return carried_values(values, self.sources, self.parents, self.shares)
+        if kind == "weight" and values.dtype.kind != "f":
+            values = values.astype(float)
+        if kind in UNDIRECTED or not self._moves:
+            if self.parents is None or self.shares is None:
+                return values[self.sources]
+            return carried_values(values, self.sources, self.parents, self.shares)
+        rows = values[self._rows].astype(float)
+        for move in self._moves:
+            rows[move.chosen] = moved(rows[move.chosen], kind, move.apply, move.jacobian, name)
+        if self.shares is None:
+            made = rows[:, 0]
+        else:
+            counts = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
+            if kind == "quaternion":  # q and -q are one rotation
+                rows *= np.where((rows * rows[:, :1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+            made = (np.where(counts == 0, 0, rows) * counts).sum(axis=1)
+            if kind in ("normal", "quaternion"):
+                lengths = np.linalg.norm(rows, axis=-1)
+                made = with_lengths(made, (lengths * (self.shares > 0)).max(axis=1))
+        return made.astype(values.dtype if values.dtype.kind == "f" else float)
+
+    @property
+    def _rows(self) -> NDArray[np.int64]:
+        """(n, k) the input points whose values each point gets."""
+        return self.sources[:, None] if self.parents is None else self.parents
+
+    @property
+    def turns(self) -> bool:
+        """Whether directions change, of some points at least."""
+        return any(chosen.any() for chosen, _, _ in self._maps())
+
+    @cached_property
+    def _moves(self) -> list[Move]:
+        """How rows of values are moved; rows of none stay as they are."""
+        moves = []
+        for chosen, apply, is_affine in self._maps():
+            if not chosen.any():
+                continue
+            if is_affine:
+                own = affine_jacobian(apply)
+            else:
+                used, rows = np.unique(self._rows[chosen], return_inverse=True)
+                own = jacobian(apply, self.given.points[used])[rows]
+            moves.append(Move(chosen, apply, own))
+        return moves
+
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        """The maps of the rows, each with the rows (n, k) that it moves and whether it is affine."""
+        matrix = self.statistics.get("matrix")
+        if matrix is None:
+            return []
+        turn, shift = np.asarray(matrix)[:3, :3], np.asarray(matrix)[:3, 3]
+        return [(np.ones(self._rows.shape, bool), lambda points: points @ turn.T + shift, True)]
+
+    def _images(self, chosen: NDArray[np.bool_]) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        """The map of rows that are images over the mirror."""
+        if self.mirror is None:
+            return []
+        wide = np.broadcast_to(chosen.reshape(len(chosen), -1), self._rows.shape)
+        return [(wide, self.mirror.reflect, is_flat(self.mirror))]
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -138,7 +222,10 @@ class OperationResult(BaseResult):
             moved=is_other or described.moves_points,
             face_sources=self.face_sources if is_other else None,
             given_faces=0 if self.given.faces is None else len(self.given.faces),
-            carried=self.carried if is_other or described.carries_values else None,
+            carried=self.carried,
+            keeps=not (is_other or described.carries_values),
+            turns=self.turns,
+            kinds=self.kinds,
             keeps_texture=described.carries_values,
             arrays=self.arrays,
             face_arrays={} if self.shape.faces is None else self.face_arrays,
@@ -291,6 +378,9 @@ class Symmetrized(_OverMirror):
     partner: NDArray[np.int64] | None = None
     """(n,) with mirrored triangles: index of the point that is its image, its own on the mirror."""
 
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        return [] if self.partner is None else self._images(is_image(self.partner))
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Remeshed(_OverMirror):
@@ -301,6 +391,9 @@ class Remeshed(_OverMirror):
 
     partner: NDArray[np.int64]
     """(n,) index of the point that is its image, its own on the mirror."""
+
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        return self._images(is_image(self.partner))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -327,6 +420,10 @@ class Transferred(_OverMirror):
     """(n,) whether the point has no counterpart to take values from: it keeps its own."""
     values: Any = None
     """What was given: an array (n, ...), or a dictionary of them; None where nothing was."""
+
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        assert self.shares is not None
+        return self._images((self.shares > 0) & (np.arange(self.shares.shape[1]) > 0))
 
     def displaced(self, vectors: NDArray[Any]) -> NDArray[np.float64]:
         """Displacements (n, 3) of the points, as shape keys have them, carried likewise: what comes
@@ -377,6 +474,12 @@ class Straightened(_OverMirror):
         None over other mirrors."""
         return self.statistics.get("matrix")
 
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        if self.matrix is not None or self.mirror.kind == "plane":
+            return super()._maps()
+        bend = partial(_core.bend, mirror=self.mirror, back=self.parameters["back"])
+        return [(np.ones(self._rows.shape, bool), bend, False)]
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Completed(OperationResult):
@@ -411,6 +514,23 @@ class Completed(OperationResult):
             return None
         return Axis(given["axis_point"], given["axis_direction"], given["axis_order"], self._ends)
 
+    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
+        axis = self.axis
+        if axis is None:
+            return self._images(self.origin > 0)
+        direction = axis.direction / np.linalg.norm(axis.direction)
+        before, after = (
+            p - axis.point for p in (self.given.points[self.sources], self.shape.points)
+        )
+        sines = np.cross(before, after) @ direction
+        cosines = (before * after).sum(axis=1) - (before @ direction) * (after @ direction)
+        step = 2 * np.pi / (axis.order or 360 * 3600)  # of a continuous axis: to the arc second
+        turns = (np.arctan2(sines, cosines) / step).round().astype(int) * (self.origin > 0)
+        return [
+            ((turns == turn)[:, None], partial(_turned, axis.point, direction, turn * step), True)
+            for turn in np.unique(turns[turns != 0])
+        ]
+
     @property
     def _ends(self) -> NDArray[np.float64]:
         """Of the axis as it is drawn: a tenth beyond the shape."""
@@ -424,6 +544,25 @@ class Completed(OperationResult):
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
         first = len(made["faces"]) - added_faces(made["statistics"])
         return {"patch": _patch(made["points"], len(made["given"].points), made["faces"][first:])}
+
+
+def _turned(
+    centre: NDArray[np.float64],
+    direction: NDArray[np.float64],
+    angle: float,
+    points: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Points turned about an axis (Rodrigues)."""
+    arms = points - centre
+    along = np.outer(arms @ direction, direction)
+    return (
+        centre + along + np.cos(angle) * (arms - along) + np.sin(angle) * np.cross(direction, arms)
+    )
+
+
+def is_image(partner: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Images follow the points that they are images of."""
+    return partner < np.arange(len(partner))
 
 
 def added_faces(statistics: dict[str, Any]) -> int:

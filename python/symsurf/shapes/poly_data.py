@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 from .._core import InvalidInput
@@ -62,6 +62,17 @@ def require_sound_cells(data: vtkPolyData) -> None:
     """Raises InvalidInput where a cell names a point that is not there."""
     for cells in (data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()):
         require_points(vtk_to_numpy(cells.GetConnectivityArray()), data.GetNumberOfPoints())
+
+
+def kinds_of(data: vtkDataSetAttributes) -> dict[str, str]:
+    """The kinds of the arrays that are the active vectors, normals and tensors, by their names."""
+    active = {
+        "vector": data.GetVectors(),
+        "normal": data.GetNormals(),
+        "tensor": data.GetTensors(),
+        "scalar": data.GetTCoords(),
+    }
+    return {array.GetName(): kind for kind, array in active.items() if array and array.GetName()}
 
 
 def vtk_points(rows: NDArray[np.float64]) -> vtkPoints:

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .._core import Analysis, InvalidParameter, analyses
-from ..reading.inputs import InputWarning
+from ..base.input_warning import InputWarning
 from ..results import AnalysisResult
 from ..shape_analyses.analyse import analyse
 from ..shapes import Shape

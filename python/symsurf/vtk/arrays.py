@@ -18,12 +18,14 @@ from vtkmodules.vtkCommonDataModel import (
     vtkDataObject,
     vtkDataSetAttributes,
     vtkFieldData,
+    vtkPointData,
     vtkPolyData,
 )
 
 from .._core import InvalidInput, Mirror, make_mirror
-from ..results.operation_results import carried_values
-from ..shapes.poly_data import vtk_points
+from ..results import OperationResult
+from ..shapes.kinds import Carry
+from ..shapes.poly_data import kinds_of, vtk_points
 from .names import camel_case
 
 
@@ -126,21 +128,30 @@ def copy_rows(
     to.CopyData(source, _ids(rows), _ids(np.arange(len(rows))))
 
 
-def blend_rows(
-    to: vtkDataSetAttributes,
-    source: vtkDataSetAttributes,
-    result: dict[str, Any],
+def carry_rows(
+    to: vtkDataSetAttributes, source: vtkDataSetAttributes, made: OperationResult
 ) -> None:
-    """Makes the data that between rows of another, real numbers and colours by their shares; others
-    are those of the source."""
-    sources, parents, shares = (
-        result[f"point_{rows}"] for rows in ("sources", "parents", "shares")
-    )
-    copy_rows(to, source, sources)
+    """Makes the data those of the points of a result: active vectors and tensors are turned with their
+    points; of others real numbers and colours are interpolated where points lie between several."""
+    copy_rows(to, source, made.sources)
+    _set_carried(to, source, made.carried)
+
+
+def turn_rows(data: vtkDataSetAttributes, carried: Carry) -> None:
+    """Turns active vectors and tensors, in arrays of their own."""
+    before = vtkPointData()
+    before.ShallowCopy(data)
+    copy_rows(data, before, np.arange(before.GetNumberOfTuples()))
+    _set_carried(data, before, carried)
+
+
+def _set_carried(to: vtkDataSetAttributes, source: vtkDataSetAttributes, carried: Carry) -> None:
+    kinds = kinds_of(source)
     for i in range(source.GetNumberOfArrays()):
         if (array := source.GetArray(i)) is not None and array.GetDataType() != VTK_BIT:
+            name = array.GetName()
             values = vtk_to_numpy(array)
-            vtk_to_numpy(to.GetArray(i))[:] = carried_values(values, sources, parents, shares)
+            vtk_to_numpy(to.GetArray(i))[:] = carried(values, kinds.get(name, "scalar"), name)
 
 
 def _ids(rows: NDArray[np.int64]) -> vtkIdList:

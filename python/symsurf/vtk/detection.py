@@ -10,8 +10,8 @@ from vtkmodules.numpy_interface.dataset_adapter import numpyTovtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .._core import InvalidInput, Plane, methods
+from ..base.input_warning import InputWarning
 from ..detection import detect
-from ..reading.inputs import InputWarning
 from ..results import Result
 from ..shapes.poly_data import faces_of, points_of, rows_of, vtk_points
 from .algorithm import REFUSE_NONFINITE, SEED, THREADS, Algorithm, Property, selected

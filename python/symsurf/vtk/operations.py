@@ -22,14 +22,17 @@ from .._core import (
     operations,
     require_found_parameter,
 )
+from ..base.input_warning import InputWarning
 from ..detection import detect
-from ..reading.inputs import InputWarning, require_finite
+from ..reading.inputs import require_finite
 from ..results import found_mirror
+from ..results.operation_results import RESULTS
+from ..shapes import Shape
 from ..shapes.poly_data import Faces, faces_of, points_of, vtk_points
 from .algorithm import REFUSE_NONFINITE, SEED, THREADS, Algorithm, Property, described
 from .arrays import (
     add_values,
-    blend_rows,
+    carry_rows,
     copy_rows,
     drop_normals,
     mirror_of,
@@ -98,7 +101,7 @@ class MirrorOperation(Algorithm):
             other_faces=None if other is None else faces_of(other).corners,
         )
         self._warn_of(result["statistics"])
-        added = _set_operated(outputs[0], shape, faces, operation, result)
+        added = _set_operated(outputs[0], shape, faces, operation, mirror, result)
         if operation.adds_points:
             _set_patch(outputs[1], added, len(points))
 
@@ -155,6 +158,7 @@ def _set_operated(
     shape: vtkPolyData,
     faces: Faces,
     operation: Operation,
+    mirror: Mirror | None,
     result: dict[str, Any],
 ) -> vtkPolyData:
     """Makes the output the shape with what the operation gave. Gives what was added: the output's
@@ -162,9 +166,14 @@ def _set_operated(
     verts, vert_sources = _added_verts(shape, faces, result)
     polys, poly_sources = _added_polys(faces, result)
     output.ShallowCopy(shape)
+    made = RESULTS[operation.name].from_fields(
+        result
+        | {"given": Shape(points_of(shape), faces.corners), "mirror": mirror}
+        | {"found": None, "seconds": 0}
+    )
     if operation.carries_values:
         data = shape.GetPointData()
-        blend_rows(output.GetPointData(), data, result)
+        carry_rows(output.GetPointData(), data, made)
         output.GetPointData().SetNormals(data.GetNormals())
         output.GetPointData().SetTCoords(data.GetTCoords())
     elif _is_other(result):
@@ -173,19 +182,21 @@ def _set_operated(
             set_cells(vtkCellArray())
         output.SetVerts(verts)
         output.SetPolys(polys)
-        blend_rows(output.GetPointData(), shape.GetPointData(), result)
+        carry_rows(output.GetPointData(), shape.GetPointData(), made)
         rows = np.concatenate([vert_sources, poly_sources])
         copy_rows(output.GetCellData(), shape.GetCellData(), rows)
     elif len(result["point_sources"]):
         output.DeleteCells()
         output.SetVerts(_joined(shape.GetVerts(), verts))
         output.SetPolys(_joined(shape.GetPolys(), polys))
-        copy_rows(output.GetPointData(), shape.GetPointData(), result["point_sources"])
+        carry_rows(output.GetPointData(), shape.GetPointData(), made)
         old = np.arange(shape.GetNumberOfCells())
         ends = [shape.GetNumberOfVerts(), len(old) - shape.GetNumberOfStrips()]
         first, middle, last = np.split(old, ends)
         rows = np.concatenate([first, vert_sources, middle, poly_sources, last])
         copy_rows(output.GetCellData(), shape.GetCellData(), rows)
+    elif made.turns:
+        carry_rows(output.GetPointData(), shape.GetPointData(), made)
     if operation.moves_points or operation.adds_points:
         output.SetPoints(vtk_points(result["points"]))
         drop_normals(output)

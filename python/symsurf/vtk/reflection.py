@@ -9,9 +9,10 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 from vtkmodules.vtkFiltersCore import vtkReverseSense
 
-from ..shapes.poly_data import points_of
+from ..reflection import carry_over
+from ..shapes.poly_data import kinds_of, points_of
 from .algorithm import Algorithm
-from .arrays import mirror_of, set_subset
+from .arrays import mirror_of, set_subset, turn_rows
 
 
 class MirrorReflection(Algorithm):
@@ -19,7 +20,7 @@ class MirrorReflection(Algorithm):
 
     Input 0 is what is reflected, input 1 the mirror: output 1 of ``MirrorDetection``, whose field
     data says everything. Cells are turned over, so that the outside stays the outside; normals are
-    not passed on. Points that have no image over the mirror are left out, together with the cells
+    not passed on, active vectors and tensors are reflected, too. Points that have no image over the mirror are left out, together with the cells
     that need them.
     """
 
@@ -34,10 +35,13 @@ class MirrorReflection(Algorithm):
 
     def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
         shape, mirror = inputs
-        images = mirror_of(mirror).reflect(points_of(shape))
+        over, points = mirror_of(mirror), points_of(shape)
+        images = over.reflect(points)
         kept = np.flatnonzero(np.isfinite(images).all(axis=1))
         reflected = vtkPolyData()
         set_subset(reflected, shape, images[kept], kept)
+        if kinds_of(shape.GetPointData()):
+            turn_rows(reflected.GetPointData(), carry_over(over, points[kept]))
         reverse = vtkReverseSense()
         reverse.SetInputData(reflected)
         reverse.ReverseCellsOn()

@@ -20,7 +20,7 @@ def parts_of(given: Any) -> Parts:
 def remade(given: Any, made: Remade) -> Any:
     """Its triangles, with the arrays of its points. Quadrangles are divided."""
     cells = [] if made.faces is None else [("triangle", made.faces)]
-    kept = {name: made.of_points(values) for name, values in given.point_data.items()}
+    kept = {name: made.of_points(values, name) for name, values in given.point_data.items()}
     of_faces = (
         {name: [np.asarray(values)] for name, values in made.face_arrays.items()} if cells else {}
     )

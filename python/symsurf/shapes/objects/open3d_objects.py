@@ -72,7 +72,7 @@ def _remade_tensors(given: Any, made: Remade) -> Any:
         elif name == "normals" and made.moved:
             del of_points[name]
         else:
-            of_points[name] = _tensor(made.of_points(_array(values)), values)
+            of_points[name] = _tensor(made.of_points(_array(values), name), values)
     for name, array in made.arrays.items():
         of_points[name] = open3d.core.Tensor(np.ascontiguousarray(array), device=given.device)
     if hasattr(copy, "triangle"):

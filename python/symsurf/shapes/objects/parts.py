@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ...base.input_warning import warn_of
+from ..kinds import UNDIRECTED, Carry, is_ambiguous, kept_as_number
 
 
 class Parts(NamedTuple):
@@ -38,8 +41,14 @@ class Remade:
     faces are the object's own."""
     given_faces: int = 0
     """How many faces ``face_sources`` are numbers of."""
-    carried: Callable[[NDArray[Any]], NDArray[Any]] | None = None
+    carried: Carry | None = None
     """Attributes of the points, from those of the object's; None: they stay."""
+    keeps: bool = True
+    """Whether attributes without directions stay as they are."""
+    turns: bool = False
+    """Whether directions change."""
+    kinds: Mapping[str, str] = field(default_factory=dict)
+    """Those of attributes of the points, by name, that are given."""
     keeps_texture: bool = False
     """Whether texture coordinates stay as they are, whatever is carried."""
     arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
@@ -54,10 +63,18 @@ class Remade:
         """Whether points and faces are others than those of the object."""
         return self.face_sources is not None
 
-    def of_points(self, values: Any) -> NDArray[Any]:
-        """Attributes of the points, from those of the object's."""
+    def of_points(self, values: Any, name: object = "", kind: str | None = None) -> NDArray[Any]:
+        """Attributes of the points, from those of the object's. Their kind is the one given for their
+        name, or else that which the object knows; an InputWarning names those that may be
+        directions of which neither says it."""
         array = np.asarray(values)
-        return array if self.carried is None else self.carried(array)
+        known = self.kinds.get(str(name), kind)
+        if known is None and self.turns and is_ambiguous(str(name), array):
+            warn_of([kept_as_number(str(name))])
+        stays = self.keeps and (known in (None, *UNDIRECTED) or not self.turns)
+        return (
+            array if self.carried is None or stays else self.carried(array, known or "scalar", name)
+        )
 
     def of_faces(self, values: Any) -> NDArray[Any]:
         """Attributes of the faces, from those of the object's."""

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pyvista
-from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkStringArray
 
 from ..grids import (
@@ -19,9 +15,8 @@ from ..grids import (
     require_sound_cells,
     turned_inside_out,
 )
+from ..poly_data import kinds_of
 from .parts import Parts, Remade
-
-_Carried = Callable[[NDArray[Any]], NDArray[Any]]
 
 
 def parts_of(given: pyvista.DataSet) -> Parts:
@@ -51,42 +46,46 @@ def remade(given: pyvista.DataSet, made: Remade) -> pyvista.DataSet:
 
 
 def _copy(given: pyvista.DataSet, made: Remade) -> pyvista.DataSet:
-    if made.turned:
-        return turned_inside_out(given, made.points)
-    copy = given.copy()
-    if made.moved:
+    copy = turned_inside_out(given, made.points) if made.turned else given.copy()
+    if made.moved and not made.turned:
         copy.points = made.points
         drop_normals(copy)
-    if made.carried is not None:
+    if not made.keeps or made.turns:
         kept = copy.point_data.active_texture_coordinates_name if made.keeps_texture else None
-        _carry(given.point_data, copy.point_data, made.of_points, kept)
+        _carry_points(given.point_data, copy.point_data, made, kept)
     return copy
 
 
 def _other(given: pyvista.DataSet, made: Remade) -> pyvista.PolyData:
     mesh = poly_data(made.points, made.faces)
-    _carry(given.point_data, mesh.point_data, made.of_points)
+    _carry_points(given.point_data, mesh.point_data, made)
     if made.given_faces:
         require_sound_cells(given)  # ``faces`` may stand in place of them
         triangles = given.triangulate()
         if triangles.n_cells == made.given_faces:  # neither lines nor vertices beside
-            _carry(triangles.cell_data, mesh.cell_data, made.of_faces)
+            for name, values in triangles.cell_data.items():
+                if name != triangles.cell_data.active_normals_name:
+                    mesh.cell_data[name] = made.of_faces(values)
     return mesh
 
 
-def _carry(
+def _carry_points(
     before: pyvista.DataSetAttributes,
     after: pyvista.DataSetAttributes,
-    carried: _Carried,
+    made: Remade,
     kept: str | None = None,
 ) -> None:
-    """Carries the attributes along, but for one; normals, which would be wrong, not."""
+    """Carries the attributes along, but for one; active normals, which would be wrong, not."""
+    known = kinds_of(before.VTKObject)
     for name, values in before.items():
         if name in (before.active_normals_name, kept):
             continue
-        after[name] = carried(np.asarray(values))
+        after[name] = made.of_points(values, name, known.get(name))
         if name == before.active_texture_coordinates_name:
             after.active_texture_coordinates = after[name]
+        if known.get(name) in ("vector", "tensor"):
+            activate = after.SetActiveVectors if known[name] == "vector" else after.SetActiveTensors
+            activate(name)
 
 
 def _text(name: str, value: str) -> vtkStringArray:

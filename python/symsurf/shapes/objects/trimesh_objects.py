@@ -29,7 +29,7 @@ def remade(given: Any, made: Remade) -> Any:
     mesh = trimesh.Trimesh(made.points, faces, process=False, metadata=dict(given.metadata))
     mesh.visual = _visual(given.visual, mesh, made)
     for name, values in given.vertex_attributes.items():
-        mesh.vertex_attributes[name] = made.of_points(values)
+        mesh.vertex_attributes[name] = made.of_points(values, name)
     for name, values in given.face_attributes.items():
         mesh.face_attributes[name] = made.of_faces(values)
     mesh.vertex_attributes.update(made.arrays)

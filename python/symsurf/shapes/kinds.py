@@ -1,0 +1,248 @@
+"""Transformation rules of attributes: how vectors, normals, tensors and rotations go along where points move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import InvalidInput, InvalidParameter
+
+PointMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+
+COMPONENTS: dict[str, tuple[int, ...]] = {
+    "scalar": (),
+    "label": (),
+    "weight": (),
+    "position": (3,),
+    "vector": (3,),
+    "normal": (3,),
+    "tensor": (6, 9),
+    "quaternion": (4,),
+    "harmonics": (9, 24, 45),
+}
+"""The kinds of arrays, with how many components each may have; none: any."""
+
+UNDIRECTED = ("scalar", "label", "weight")
+
+# The components of a symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
+_SYMMETRIC = (np.array([0, 1, 2, 0, 1, 0]), np.array([0, 1, 2, 1, 2, 2]))
+
+# Of the extent of the points. The error of the differences is its sixth power and rounding over it.
+_STEP = 2e-3
+_WEIGHTS = ((1, 45 / 60), (2, -9 / 60), (3, 1 / 60))
+
+
+class Carry(Protocol):
+    """Values of points from those of others, by the rule of a kind."""
+
+    def __call__(self, values: NDArray[Any], kind: str, name: object) -> NDArray[Any]: ...
+
+
+class Move(NamedTuple):
+    """How some rows of values, which come from points of a shape, are moved."""
+
+    chosen: NDArray[np.bool_]
+    """(n, k) of which rows."""
+    apply: PointMap
+    jacobian: NDArray[np.float64]
+    """(3, 3), or (count of the chosen, 3, 3)."""
+
+
+def require_kinds(kinds: Mapping[str, str] | None) -> dict[str, str]:
+    """Raises InvalidParameter for an unknown kind."""
+    for name, kind in (kinds or {}).items():
+        if kind not in COMPONENTS:
+            raise InvalidParameter(
+                f"kinds gives {name!r} the kind {kind!r}; allowed are {', '.join(COMPONENTS)}"
+            )
+    return dict(kinds or {})
+
+
+def is_ambiguous(name: str, values: NDArray[Any]) -> bool:
+    """Whether an array of no known kind looks as if it had directions."""
+    is_colour = any(word in name.lower() for word in _COLOURS)
+    is_directed = values.dtype.kind == "f" and values.shape[1:] in ((3,), (9,), (3, 3))
+    return bool(name) and is_directed and not is_colour
+
+
+_COLOURS = ("colo", "rgb", "coord", "texture", "uv")
+
+
+def kept_as_number(name: str) -> str:
+    """What to say of such an array where directions change."""
+    return (
+        f"{name} is not turned with the shape, as its kind is unknown; allowed are "
+        f'kinds={{"{name}": "vector"}}, "normal", "tensor" or "scalar"'
+    )
+
+
+def affine_jacobian(apply: PointMap) -> NDArray[np.float64]:
+    """(3, 3) of an affine map."""
+    images = apply(np.vstack([np.zeros(3), np.eye(3)]))
+    return (images[1:] - images[0]).T
+
+
+def jacobian(apply: PointMap, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3, 3) derivatives of a map at points, by central differences of the sixth order; NaN beside
+    points without an image."""
+    finite = points[np.isfinite(points).all(axis=1)]
+    extent = float(np.linalg.norm(np.ptp(finite, axis=0))) if len(finite) else 0.0
+    step = _STEP * (extent or 1.0)
+    columns = []
+    for axis in np.eye(3):
+        pairs = (
+            (w, apply(points + i * step * axis), apply(points - i * step * axis))
+            for i, w in _WEIGHTS
+        )
+        columns.append(sum(w * (after - before) for w, after, before in pairs) / step)
+    return np.stack(columns, axis=-1)
+
+
+def moved(
+    values: ArrayLike,
+    kind: str,
+    apply: PointMap,
+    matrices: NDArray[np.float64],
+    name: object = "values",
+) -> NDArray[np.float64]:
+    """Values (n, ...) of a kind after their points were moved by a map.
+
+    Args:
+        matrices: (3, 3) or (n, 3, 3), the Jacobian J of the map at the points.
+
+    Returns: positions p as apply(p), vectors v as J v, normals n as the direction of J^-T n with the
+        length of n, symmetric tensors T as J T J^T, (n, 9) or, in VTK's order xx yy zz xy yz xz, (n, 6);
+        quaternions (w, x, y, z) of rotations R as those of M R, or M R diag(-1, 1, 1) where M, the
+        orthogonal matrix closest to J, is a reflection; coefficients of spherical harmonics of
+        degrees 1 to 3 as those of the function turned by M.
+
+    Raises InvalidInput for another number of components.
+    """
+    rows = np.asarray(values, dtype=float)
+    flat = rows.reshape(len(rows), -1)
+    if COMPONENTS[kind] and flat.shape[1] not in COMPONENTS[kind]:
+        allowed = " or ".join(map(str, COMPONENTS[kind]))
+        raise InvalidInput(
+            f"{name} of the kind {kind} have {flat.shape[1]} components; allowed is {allowed}"
+        )
+    if kind in UNDIRECTED:
+        return rows
+    if kind == "position":
+        made = apply(flat)
+    elif kind == "vector":
+        made = _times(matrices, flat)
+    elif kind == "normal":
+        cofactors = np.stack(  # J^-T but for its determinant: sound where J has no inverse
+            [np.cross(matrices[..., (i + 1) % 3], matrices[..., (i + 2) % 3]) for i in range(3)],
+            axis=-1,
+        )
+        sign = np.where(np.linalg.det(matrices) < 0, -1.0, 1.0)[..., None]
+        made = with_lengths(sign * _times(cofactors, flat), np.linalg.norm(flat, axis=1))
+    elif kind == "tensor":
+        whole = _full(flat)
+        made = matrices @ whole @ np.swapaxes(matrices, -1, -2)
+        made = made.reshape(-1, 9) if flat.shape[1] == 9 else made[:, _SYMMETRIC[0], _SYMMETRIC[1]]
+    else:
+        closest = orthogonal(matrices)
+        made = _turned(closest, flat) if kind == "quaternion" else _harmonics(closest, flat)
+    return made.reshape(rows.shape)
+
+
+def with_lengths(vectors: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows of these lengths; those of length 0 stay."""
+    own = np.linalg.norm(vectors, axis=1)
+    factors = np.divide(lengths, own, out=np.ones_like(own), where=(own != 0))
+    return vectors * factors[:, None]
+
+
+def orthogonal(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The orthogonal matrices closest to those given; NaN of what is not finite."""
+    finite = np.isfinite(matrices).all(axis=(-2, -1), keepdims=True)
+    left, _, right = np.linalg.svd(np.where(finite, matrices, np.eye(3)))
+    return np.where(finite, left @ right, np.nan)
+
+
+def _times(matrices: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    return (matrices @ vectors[..., None])[..., 0]
+
+
+def _full(tensors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3, 3)"""
+    if tensors.shape[1] == 9:
+        return tensors.reshape(-1, 3, 3)
+    whole = np.empty((len(tensors), 3, 3))
+    for i, (row, column) in enumerate(zip(*_SYMMETRIC, strict=True)):
+        whole[:, row, column] = whole[:, column, row] = tensors[:, i]
+    return whole
+
+
+def _turned(matrices: NDArray[np.float64], quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Those of M R, or of M R diag(-1, 1, 1) = (-M) R diag(1, -1, -1) where M is a reflection: behind
+    R half a turn about x."""
+    reflects = np.linalg.det(matrices) < 0
+    proper = np.where(reflects[..., None, None], -matrices, matrices)
+    made = _product(_quaternion(proper), quaternions)
+    return np.where(reflects[..., None], _product(made, np.array([0.0, 1, 0, 0])), made)
+
+
+def _product(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+    w, v, a, u = first[..., :1], first[..., 1:], second[..., :1], second[..., 1:]
+    real = w * a - (v * u).sum(axis=-1, keepdims=True)
+    return np.concatenate([real, w * u + a * v + np.cross(v, u)], axis=-1)
+
+
+def _quaternion(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(..., 4) of rotations: the longest row of 4 q q^T."""
+    r = rotations
+    trace = np.trace(r, axis1=-2, axis2=-1)
+    outer = np.empty((*trace.shape, 4, 4))
+    outer[..., 0, 0] = 1 + trace
+    odd = [r[..., (i + 2) % 3, (i + 1) % 3] - r[..., (i + 1) % 3, (i + 2) % 3] for i in range(3)]
+    outer[..., 0, 1:] = outer[..., 1:, 0] = np.stack(odd, axis=-1)
+    outer[..., 1:, 1:] = r + np.swapaxes(r, -1, -2) + (1 - trace)[..., None, None] * np.eye(3)
+    best = np.argmax(np.diagonal(outer, axis1=-2, axis2=-1), axis=-1)
+    row = np.take_along_axis(outer, best[..., None, None], axis=-2)[..., 0, :]
+    return row / np.linalg.norm(row, axis=-1, keepdims=True)
+
+
+def _harmonics(
+    matrices: NDArray[np.float64], coefficients: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Of c the c' with c' Y(M d) = c Y(d) for all directions d, found from enough of them. Coefficients
+    are those of three colours, one after the other, as splats have them."""
+    count = coefficients.shape[1] // 3
+    turns = np.arange(2 * _HARMONICS) * np.pi * (3 - np.sqrt(5))
+    heights = np.linspace(-1, 1, 2 * _HARMONICS + 1)[:-1] + 0.5 / _HARMONICS
+    radii = np.sqrt(1 - heights**2)
+    directions = np.column_stack([radii * np.cos(turns), radii * np.sin(turns), heights])
+    inverse = np.linalg.pinv(_basis(directions)[:, :count])
+    before = directions @ matrices  # the rows M^T d
+    turn = inverse @ _basis(before)[..., :count]
+    colours = coefficients.reshape(-1, 3, count)
+    return (colours @ np.swapaxes(turn, -1, -2)).reshape(coefficients.shape)
+
+
+_HARMONICS = 15
+
+
+def _basis(directions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(..., 15) real spherical harmonics of degrees 1 to 3 in the order and with the signs that 3D
+    Gaussian Splatting (Kerbl et al. 2023) gives them."""
+    x, y, z = np.moveaxis(directions, -1, 0)
+    xx, yy, zz = x * x, y * y, z * z
+    first = [-y, z, -x]
+    second = [x * y, -y * z, (2 * zz - xx - yy) / np.sqrt(12), -x * z, (xx - yy) / 2]
+    third = [
+        -y * (3 * xx - yy) / np.sqrt(24),
+        x * y * z,
+        -y * (4 * zz - xx - yy) / np.sqrt(40),
+        z * (2 * zz - 3 * xx - 3 * yy) / np.sqrt(60),
+        -x * (4 * zz - xx - yy) / np.sqrt(40),
+        z * (xx - yy) / 2,
+        -x * (xx - 3 * yy) / np.sqrt(24),
+    ]
+    scales = np.sqrt(np.array([3] * 3 + [15] * 5 + [105] * 7) / (4 * np.pi))
+    return np.stack([*first, *second, *third], axis=-1) * scales
