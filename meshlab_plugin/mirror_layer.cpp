@@ -82,7 +82,8 @@ void draw_mirror(MeshModel& layer, std::shared_ptr<const Mirror> mirror, const M
       face->V(corner) = &drawn.vert[mesh.triangles(i, corner)];
   Allocator::GetPerMeshAttribute<DrawnMirror>(drawn, drawn_mirror)() = {
       std::move(mirror), mesh.vertices, std::move(bent)};
-  drawn.C() = mirror_colour;
+  layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+  for (CVertexO& each : drawn.vert) each.C() = mirror_colour;
   layer.updateBoxAndNormals();
 }
 
