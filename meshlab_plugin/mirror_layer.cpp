@@ -25,7 +25,7 @@ constexpr const char* drawn_mirror = "symsurf mirror";
 constexpr const char *const mirror_layer = "mirror_layer", *const other_layer = "other_layer";
 
 // Light blue: MeshLab's grey is hardly seen before its dark background.
-const vcg::Color4b mirror_colour(126, 176, 232, 255);
+const vcg::Color4b mirror_colour(170, 210, 255, 255);
 
 // How much the scales of a transform along the axes may differ: single precision, some products of
 // matrices long.
