@@ -61,6 +61,12 @@ def class_rows(described: type, known: Iterable[type]) -> list[Row]:
     return [row for name, row in rows.items() if not name.startswith("_") and row[1]]
 
 
+def paragraphs(described: Any) -> str:
+    """Its docstring in Markdown."""
+    text = (inspect.getdoc(described) or "").replace("``", "`")
+    return "\n\n".join(" ".join(each.split()) for each in text.split("\n\n"))
+
+
 def first_sentence(described: Any) -> str:
     """In Markdown."""
     text = inspect.getdoc(described) or ""
@@ -74,8 +80,9 @@ _COMPILED = re.compile(
 
 
 def _sentence(text: str) -> str:
-    line = " ".join(text.split("\n\n")[0].split())
-    return re.split(r"(?<=[.])\s(?=[A-Z])", line)[0].replace("``", "`")
+    first, *others = text.split("\n\n")
+    line = " ".join([*first.split(), *(others[0].split() if first.endswith(":") else ())])
+    return re.split(r"(?<=[.])\s(?=[A-Z`])", line.replace("``", "`"))[0]
 
 
 def _called(name: str, function: Any) -> str:

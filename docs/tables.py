@@ -126,7 +126,7 @@ def class_(page: Path, name: str) -> str:
     pages = {base: page.with_name(f"{base.__name__}.md") for base in described.__mro__[1:]}
     elsewhere = [base for base, its_page in pages.items() if its_page.exists()]
     rows = members.class_rows(described, elsewhere)
-    texts = [members.first_sentence(described)]
+    texts = [members.paragraphs(described)]
     texts += [
         f"With the members of [`{base.__name__}`]({pages[base].name})." for base in elsewhere[:1]
     ]

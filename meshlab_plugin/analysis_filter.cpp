@@ -17,7 +17,7 @@ const std::vector<Parameter>& analysis_arguments() {
   static const std::vector<Parameter> described{
       only_selected_parameter(),
       Parameter::boolean("use_faces", true,
-                         "Use the layer's faces, where it has some; otherwise its vertices alone."),
+                         "Use the faces of the layer, if it has any; otherwise only its vertices."),
       threads_parameter(),
   };
   return described;
@@ -42,10 +42,12 @@ std::string AnalysisFilter::info() const {
   std::string text = analysis_.summary;
   if (analysis_.finds_elements)
     text +=
-        "<br>Each mirror plane becomes a new layer, which the operations take for a mirror; the "
-        "axes of rotation become one layer of edges.";
+        "<br>Each mirror plane becomes a new layer, which operations can use as a mirror; the axes "
+        "of rotation become one layer of edges.";
   if (analysis_.finds_transforms)
-    text += "<br>The log has what maps the shape, or a part of it, onto another part.";
+    text +=
+        "<br>The log lists the transformations that map the shape, or a part of it, onto another "
+        "part.";
   if (!analysis_.arrays.empty()) text += "<br>Attributes of the vertices:";
   for (const PointArray& array : analysis_.arrays)
     text += "<br><i>" + array.name + "</i>: " + array.doc;

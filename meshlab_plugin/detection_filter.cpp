@@ -19,17 +19,17 @@ namespace {
 const std::vector<Parameter>& common_parameters() {
   static const std::vector<Parameter> described{
       only_selected_parameter(),
-      Parameter::boolean("use_normals", false,
-                         "Hand the layer's vertex normals to the method, which otherwise estimates "
-                         "its own where it needs them."),
+      Parameter::boolean(
+          "use_normals", false,
+          "Pass the vertex normals of the layer to the method, in place of estimates."),
       Parameter::boolean(
           "use_faces", true,
-          "Let samples spread evenly over the layer's faces find the mirror, where it "
-          "has faces; otherwise its vertices alone do."),
+          "Search with samples spread evenly over the faces of the layer, if it has any; "
+          "otherwise with its vertices."),
       Parameter::boolean("show_candidates", false,
                          "Add a layer for each of the other mirrors that were found."),
       Parameter::integer("seed", 0, 0, std::numeric_limits<int>::max(), "",
-                         "Of the methods that draw at random."),
+                         "Random seed, for randomized methods."),
       threads_parameter(),
   };
   return described;
@@ -39,12 +39,12 @@ const std::vector<Parameter>& common_parameters() {
 
 std::string DetectionFilter::info() const {
   return method_.summary +
-         "<br>The mirror and the surface points (midpoints of the pairs) become new layers, in the "
-         "place of those that this filter left for the current layer before. On the current layer "
-         "each vertex gets its residual, the distance from its image to its partner, as quality, "
-         "coloured from blue, none, to red, and the attributes <i>partner</i> and <i>side</i>; "
-         "vertices without a partner are grey. The log has the verdict and its reason, the score, "
-         "0 (no symmetry) to 1 (exact), and the mirror's numbers, in the layer's own coordinates.";
+         "<br>Adds the mirror and the surface points (midpoints of the pairs) as layers, in place "
+         "of those of an earlier run on the current layer. The vertices of the current layer get "
+         "the distance from image to partner as quality, coloured from blue (0) to red, and the "
+         "attributes <i>partner</i> and <i>side</i>; vertices without a partner are grey. The log "
+         "has the verdict and its reason, the score from 0 (no symmetry) to 1 (exact), and the "
+         "numbers of the mirror, in the coordinates of the layer.";
 }
 
 FilterPlugin::FilterClass DetectionFilter::menus() const {

@@ -89,7 +89,7 @@ std::map<std::string, QVariant> SymsurfPlugin::applyFilter(const QAction* action
   } catch (const Cancelled&) {
     fail(title, "cancelled; the document is as it was");
   } catch (const std::bad_alloc&) {
-    fail(title, "the machine's memory does not suffice");
+    fail(title, "there is not enough memory");
   } catch (const std::exception& error) {
     fail(title, error.what());
   } catch (...) {

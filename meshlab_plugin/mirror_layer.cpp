@@ -24,6 +24,9 @@ struct DrawnMirror {
 constexpr const char* drawn_mirror = "symsurf mirror";
 constexpr const char *const mirror_layer = "mirror_layer", *const other_layer = "other_layer";
 
+// Light blue: MeshLab's grey is hardly seen before its dark background.
+const vcg::Color4b mirror_colour(170, 210, 255, 255);
+
 // How much the scales of a transform along the axes may differ: single precision, some products of
 // matrices long.
 constexpr double equal_scales = 1e-5;
@@ -79,6 +82,8 @@ void draw_mirror(MeshModel& layer, std::shared_ptr<const Mirror> mirror, const M
       face->V(corner) = &drawn.vert[mesh.triangles(i, corner)];
   Allocator::GetPerMeshAttribute<DrawnMirror>(drawn, drawn_mirror)() = {
       std::move(mirror), mesh.vertices, std::move(bent)};
+  layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+  for (CVertexO& each : drawn.vert) each.C() = mirror_colour;
   layer.updateBoxAndNormals();
 }
 

@@ -35,23 +35,20 @@ std::string OperationFilter::python_name() const {
 
 std::string OperationFilter::info() const {
   std::string text = operation_.summary +
-                     "<br>The mirror is that of the <i>Mirror layer</i>. Where this is the current "
-                     "layer itself, or <i>Find mirror</i> is on, it is found first, as <i>Mirror "
-                     "auto</i> does, and becomes a new layer.";
+                     "<br>Uses the mirror of the <i>Mirror layer</i>. If this is the current layer "
+                     "itself, or with <i>Find mirror</i>, the mirror is found first, as by "
+                     "<i>Mirror auto</i>, and becomes a new layer.";
   if (operation_.moves_points)
-    text += "<br>The vertices of the current layer are moved; the layers of its mirror go along.";
-  if (operation_.makes_shape)
-    text += "<br>Where they are others altogether, they take the attributes of those before.";
+    text += "<br>Moves the vertices of the current layer, and the layers of its mirror with them.";
+  if (operation_.makes_shape) text += "<br>New vertices get their attributes from the former ones.";
   if (operation_.carries_values)
     text +=
-        "<br>Vertices and faces stay; colours, quality and attributes of the vertices are carried. "
-        "Vertices without a counterpart are then selected.";
-  for (const PointArray& array : operation_.face_arrays)
-    text += "<br>Selected are then the faces of which this is so: " + array.doc;
+        "<br>Vertices and faces stay; colours, quality and attributes of the vertices are copied. "
+        "Vertices without a counterpart are selected.";
+  for (const PointArray& array : operation_.face_arrays) text += "<br>Selects faces: " + array.doc;
   if (operation_.adds_points)
     text +=
-        "<br>What is added to the current layer is then what is selected; its vertices and "
-        "faces stay as they are.";
+        "<br>The vertices and faces of the current layer stay; those that are added are selected.";
   if (!operation_.arrays.empty()) text += "<br>Attributes of the vertices:";
   for (const PointArray& array : operation_.arrays)
     text += "<br><i>" + array.name + "</i>: " + array.doc;
@@ -91,7 +88,7 @@ std::vector<Parameter> OperationFilter::own_parameters() const {
         "only_selected", false, "Move only selected vertices and the corners of selected faces."));
     described.push_back(Parameter::boolean(
         "weigh_by_quality", false,
-        "Move each vertex by the share of the way that its quality is, 0 to 1."));
+        "Move each vertex by its quality, 0 to 1, as a share of the full displacement."));
   }
   described.push_back(threads_parameter());
   return described;

@@ -98,14 +98,14 @@ Value read(const RichParameterList& dialog, const Parameter& parameter, double d
 
 Parameter only_selected_parameter() {
   return Parameter::boolean("only_selected", false,
-                            "Look only at the selected vertices and the corners of selected faces; "
-                            "percentages are then of the selection's diagonal.");
+                            "Use only the selected vertices and the corners of selected faces; "
+                            "percentages are then of the diagonal of the selection.");
 }
 
 Parameter threads_parameter() {
   return Parameter::integer(
       "threads", 0, 0, std::numeric_limits<int>::max(), "",
-      "To compute with, 0: as many as the machine has; the result is the same.");
+      "Number of threads; 0: all of the machine. The result does not depend on it.");
 }
 
 void add_parameters(RichParameterList& dialog, const std::vector<Parameter>& described,

@@ -54,10 +54,10 @@ void remove_vertices(CMeshO& mesh, const std::vector<char>& doomed) {
 }  // namespace
 
 std::string ReflectionFilter::info() const {
-  return "Mirrors the current layer over a mirror found before and puts the image into a new layer."
+  return "Reflects the current layer over a mirror that was found before, into a new layer."
          "<br>Each vertex x becomes x + 2 (foot - x), where foot is the point of the mirror that x "
-         "maps through; vertices that have no image, and their faces, are left out. Faces are "
-         "turned round, so that their fronts stay outside; a cloud loses its normals.";
+         "maps through; vertices without an image, and their faces, are left out. The orientation "
+         "of faces is reversed, so that their fronts stay outside; a cloud loses its normals.";
 }
 
 FilterPlugin::FilterClass ReflectionFilter::menus() const {

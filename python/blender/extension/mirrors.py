@@ -10,7 +10,7 @@ from mathutils import Matrix
 import symsurf
 
 _KEY = "symsurf_mirror"
-_COLOUR = (0.1, 0.55, 0.6, 0.4)
+_COLOUR = (0.45, 0.7, 0.95, 0.5)
 # Off the identity, matrices that objects inherit from their parents are by rounding in single precision.
 _SAME = 1e-5
 _UPRIGHT = 1e-6  # likewise, off a coordinate axis

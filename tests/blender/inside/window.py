@@ -16,6 +16,11 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 PICTURES = sys.argv[sys.argv.index("--") + 1]
 SEEN = {}
+# A click on the title of Mirror symmetrization, in a window of 1280 x 800.
+OPENING = [
+    (kind, value, 850, 448)
+    for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE"))
+]
 
 
 def _view():
@@ -49,7 +54,8 @@ def _until(condition, seconds=60):
 def _steps():
     from heads import coordinates, dented, head, set_coordinates
 
-    bpy.context.preferences.view.show_splash = False
+    _press("ESC")  # closes what Blender shows at its first start
+    yield 0.5
     for each in list(bpy.data.objects):
         bpy.data.objects.remove(each)
     shape, _ = head(200, 100)
@@ -84,20 +90,23 @@ def _steps():
     last = bpy.context.window_manager.operators[-1]
     SEEN["last_operator"] = last.bl_idname
 
-    # The sidebar's tab, which reads the settings of the next run.
+    # The sidebar's tab, which reads the settings of the next run, and those of one operation.
     region = next(each for each in _view()["area"].regions if each.type == "UI")
     region.active_panel_category = "Symmetry"
-    space.shading.color_type = "VERTEX"
-    _invoke("asymmetry")
-    yield from _until(lambda: not bpy.context.window_manager.windows[0].modal_operators)
     with bpy.context.temp_override(**_view()):
         bpy.ops.view3d.view_axis(type="FRONT", align_active=True)
         bpy.ops.view3d.view_orbit(angle=0.5, type="ORBITRIGHT")
         bpy.ops.view3d.view_all()
     region.tag_redraw()
     yield 1
+    window = bpy.context.window_manager.windows[0]
+    for kind, value, x, y in (*OPENING, ("MOUSEMOVE", "NOTHING", 300, 100)):
+        window.event_simulate(type=kind, value=value, x=x, y=y)
+        yield 0.5
     # Blender's own screenshots are black where no graphics card draws.
     subprocess.run(["import", "-window", "root", f"{PICTURES}/blender-window.png"], check=False)
+    _invoke("asymmetry")
+    yield from _until(lambda: not bpy.context.window_manager.windows[0].modal_operators)
 
     # Undo takes one step for each.
     for _ in range(2):
