@@ -203,7 +203,7 @@ constexpr std::array kinds{KindThrough{"plane", 3, plane_of}, KindThrough{"spher
 double numbers_of(const KindThrough& kind, const PointsOfMirror& points) {
   if (kind.through != free_form_of) return kind.numbers;
   return 6 * static_cast<double>(points.search.size()) /
-         static_cast<double>(perpendicular::around_a_patch(points.search));
+         static_cast<double>(perpendicular::points_a_patch(points.search));
 }
 
 const KindThrough* asked(std::string_view name, bool has_direction) {

@@ -26,6 +26,13 @@ struct Smoothing {
   double most_missed;   // a patch whose data miss by more, in the median, is none
 };
 
+// So many that noise averages out.
+Index around_a_patch(const SearchCloud& cloud) {
+  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
+  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
+  return static_cast<Index>(std::min(most, least * excess * excess));
+}
+
 double median_miss(const std::vector<Carried>& data) {
   std::vector<double> squared;
   for (const Carried& c : data) squared.push_back(c.miss.squaredNorm());
@@ -122,12 +129,6 @@ double local_spacing(const SearchCloud& cloud, Index i) {
 
 }  // namespace
 
-Index around_a_patch(const SearchCloud& cloud) {
-  constexpr double least = 75, most = 110, averaged = 0.3;  // noise in spacings
-  const double excess = std::max(1.0, cloud.noise / (averaged * cloud.spacing));
-  return static_cast<Index>(std::min(most, least * excess * excess));
-}
-
 void orient(SearchCloud& cloud) {
   struct Edge {
     double alike;
@@ -156,13 +157,17 @@ void orient(SearchCloud& cloud) {
   }
 }
 
+Index points_a_patch(const SearchCloud& cloud) {
+  constexpr Index around_exact = 14;
+  return cloud.noisy() ? around_a_patch(cloud) : around_exact;
+}
+
 std::shared_ptr<FreeForm> surface_through(const SearchCloud& cloud) {
   std::vector<Carried> own;
   for (Index i = 0; i < cloud.size(); ++i)
     own.push_back({cloud.point(i), cloud.normal(i), 0, Vector3::Zero(), cloud.normal(i)});
-  return fitted(cloud, own,
-                cloud.noisy() ? Smoothing{around_a_patch(cloud), 1, 0.6 * cloud.spacing, 1}
-                              : Smoothing{14, 1, 0.02 * cloud.spacing, 1});
+  const double off = (cloud.noisy() ? 0.6 : 0.02) * cloud.spacing;
+  return fitted(cloud, own, {points_a_patch(cloud), 1, off, 1});
 }
 
 double reach(const GrownSurface& surface) { return surface.exact ? 0.8 : 1.3; }

@@ -150,12 +150,10 @@ void match(const SearchCloud& cloud, double precision, GrownSurface& surface);
 /// Gives neighbours normals of one side, from the most alike on (Hoppe et al. 1992).
 void orient(SearchCloud& cloud);
 
-/// So many that noise averages out.
-Index around_a_patch(const SearchCloud& cloud);
-
 /// The surface on which the points themselves lie, which orient() has seen; null where no patches
-/// could be fitted.
+/// could be fitted. Each is fitted to so many points.
 std::shared_ptr<FreeForm> surface_through(const SearchCloud& cloud);
+Index points_a_patch(const SearchCloud& cloud);
 
 /// How far from its image a partner may be, in spacings.
 double reach(const GrownSurface& surface);

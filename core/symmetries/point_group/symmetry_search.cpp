@@ -567,6 +567,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     const bool is_exact = accepts(found) && found.elements.size() > 1;
     constexpr Index least_searched = 30;  // points: fewer show no surface
     if (is_cloud ? !is_exact && cloud.points.size() >= least_searched : true) {
+      done = 1;
       Symmetries searched = search_symmetries(cloud, options.minimum_score, options.tolerance > 0,
                                               accepts, running.stage(0.1, 1));
       if (!is_exact || has_more(searched, found, cloud.diagonal)) found = std::move(searched);

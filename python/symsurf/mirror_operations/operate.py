@@ -17,7 +17,7 @@ from ..base.lengths import as_fractions, diagonal_of
 from ..base.options import Reading, Search, part
 from ..base.progress import Progress, share
 from ..detection import detect
-from ..reading.inputs import Input, as_input, refuses, require_finite, warn_of
+from ..reading.inputs import Input, as_input, refuses, require_finite
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.operation_results import RESULTS, require_one_a_point
 from ..shapes.kinds import require_kinds
