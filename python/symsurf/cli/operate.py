@@ -29,6 +29,8 @@ from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .shared_options import given_options
 
+_KINDS = ("vector", "normal", "tensor")
+
 
 class OperationCommand:
     """What symsurf.cli takes for a command."""
@@ -66,15 +68,29 @@ class OperationCommand:
         if self._operation.takes_other:
             add_other(parser, "in place of a mirror")
         add_parameters(parser, self._operation)
+        arrays = parser.add_argument_group("arrays of the file")
+        for kind in _KINDS:
+            arrays.add_argument(
+                f"--{kind}",
+                action="append",
+                default=[],
+                metavar="NAME",
+                help=f"the {kind}s NAME, such as the columns NAME_x, NAME_y and NAME_z, turn with the "
+                "points; may be repeated"
+                if kind != "tensor"
+                else "the same of symmetric tensors: the columns NAME_0 to NAME_5, in the order xx yy zz "
+                "xy yz xz, or NAME_0 to NAME_8",
+            )
 
     def run(self, arguments: argparse.Namespace) -> int:
         name = self._operation.name
         mirror = arguments.mirror and _mirror(arguments.mirror)
         if mirror is not None:
             require_no_search(Search(**part(Search, given_options(arguments))))
+        kinds = {name: kind for kind in _KINDS for name in getattr(arguments, kind)}
         tasks = input_tasks(
             arguments,
-            given_values(arguments),
+            given_values(arguments) | ({"kinds": kinds} if kinds else {}),
             operation=name,
             mirror=mirror,
             require_found=arguments.require_found,

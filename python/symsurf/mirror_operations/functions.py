@@ -34,9 +34,9 @@ _DOCUMENTED = {
     "triangulation.",
     "pairs_sd": "standard deviation of placing each landmark, input units: a number, or (k,).",
     "faces": "(m, 3) indices of points, if ``shape`` has none of its own.",
-    "kinds": 'what arrays of the points are, such as ``{"wind": "vector"}``, for ``carried``, ``like`` '
-    'and ``save``: "scalar", "label", "weight", "position", "vector", "normal", "tensor", '
-    '"quaternion" or "harmonics"; None: what the object or the file says of them.',
+    "kinds": 'what arrays of the points are, by name, for ``carried``, ``like`` and ``save``: "scalar", '
+    '"label", "weight", "position", "vector", "normal", "tensor", "quaternion" or "harmonics", such as '
+    '``dict(wind="vector")``; None: what the object or the file says of them.',
     "absolute": "True: lengths are given in input units, not as fractions of the diagonal of the "
     "bounding box; ``parameters`` of the result has fractions.",
     "require_found": f"{require_found_parameter().doc} A given result is refused likewise.",

@@ -170,6 +170,12 @@ class OperationResult(BaseResult):
         """Whether directions change, of some points at least."""
         return any(chosen.any() for chosen, _, _ in self._maps())
 
+    @property
+    def is_rigid(self) -> bool:
+        """Whether what moves the points stretches nothing."""
+        squares = (move.jacobian @ np.swapaxes(move.jacobian, -1, -2) for move in self._moves)
+        return all(np.allclose(square, np.eye(3), atol=1e-6) for square in squares)
+
     @cached_property
     def _moves(self) -> list[Move]:
         """How rows of values are moved; rows of none stay as they are."""

@@ -206,6 +206,9 @@ def _new_shape(
         parents=result.parents,
         shares=result.shares,
         carried=None if result.parents is None else result.carried,
+        directed=result.carried if result.turns else None,
+        kinds=result.kinds,
+        is_rigid=result.is_rigid,
         polygons=result.shape.polygons,
         reached=reached,
     )
@@ -278,7 +281,13 @@ def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
         shape = Shape(new.points, new.faces if len(new.faces) else None, polygons=new.polygons)
         rows = np.arange(len(new.points))
         new = replace(
-            new, old_faces=len(new.faces), sources=rows, moved=False, is_other=False, carried=None
+            new,
+            old_faces=len(new.faces),
+            sources=rows,
+            moved=False,
+            is_other=False,
+            carried=None,
+            directed=None,
         )
     rewritten = REWRITERS[suffix](plain_content(shape, suffix, new.face_arrays), new)
     return rewritten._replace(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -77,6 +77,34 @@ def kept_as_number(name: str) -> str:
         f"{name} is not turned with the shape, as its kind is unknown; allowed are "
         f'kinds={{"{name}": "vector"}}, "normal", "tensor" or "scalar"'
     )
+
+
+def column_groups(
+    names: Sequence[str], kinds: Mapping[str, str]
+) -> list[tuple[str, str, list[str]]]:
+    """Columns of a table that are one array with directions: its name, its kind and the columns. Those
+    of the kinds, and the rotations and harmonics of Gaussian splats."""
+    if all(f"{name}_{i}" in names for name in ("rot", "scale") for i in range(3)):
+        kinds = {"rot": "quaternion", "f_rest": "harmonics"} | dict(kinds)
+    groups = []
+    for name, kind in kinds.items():
+        sizes = sorted(COMPONENTS[kind], reverse=True)
+        forms = [[f"{name}{mark}{end}" for end in "xyz"] for mark in ("_", "", ":") if 3 in sizes]
+        forms += [[f"{name}{mark}{i}" for i in range(n)] for n in sizes for mark in ("_", "", ":")]
+        there = (form for form in forms if set(form) <= set(names))
+        if (columns := next(there, None)) is not None:
+            groups.append((name, kind, columns))
+    return groups
+
+
+def unknown_groups(names: Sequence[str], kinds: Mapping[str, str]) -> list[str]:
+    """The names of triples of columns, such as wind_x, wind_y and wind_z, that may be directions."""
+    stems = [name[:-1] for name in names if name.endswith("x") and name not in ("x", "nx")]
+    return [
+        stem.rstrip("_:")
+        for stem in stems
+        if {stem + "y", stem + "z"} <= set(names) and stem.rstrip("_:") not in kinds
+    ]
 
 
 def affine_jacobian(apply: PointMap) -> NDArray[np.float64]:

@@ -31,7 +31,7 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
         new = replace(new, arrays={})
     coordinates, normals = _places(names, len(table[0]), table)
     stay = {*coordinates, *normals}
-    given_columns = zip(*table, strict=True)
+    given_columns = [*zip(*table, strict=True)]
     words = [
         [column[source] for source in new.sources.tolist()]
         if number in stay
@@ -47,8 +47,13 @@ def rewritten_columns(content: bytes, new: NewShape) -> Rewritten:
         for row, values in zip(made, row_texts(new.turned(given))):
             for column, value in zip(normals, values):
                 row[column] = value
+    plain = [] if names is None else _plain(names)
+    directed = new.directed_columns(plain, lambda name: given_columns[plain.index(name)])
+    for key, turned in directed.items():
+        for row, text in zip(made, texts(turned)):
+            row[plain.index(key)] = text
     drops = bool(normals) and not new.keeps_normals
-    lost = [LOST_NORMALS] if drops else []
+    lost = ([LOST_NORMALS] if drops else []) + new.unturned(plain)
     if names is not None:  # more columns are no normals where each has its name
         for name, added in new.columns().items():
             names = [*names, name.encode()]
@@ -74,6 +79,10 @@ def _commented_names(comments: list[bytes]) -> list[bytes] | None:
     return None
 
 
+def _plain(names: list[bytes]) -> list[bytes]:
+    return [name.replace(b'"', b"") for name in names]
+
+
 def _is_number(word: bytes) -> bool:
     try:
         float(word)
@@ -90,7 +99,7 @@ def _places(
         values = np.array([row[3:6] for row in table], dtype=float) if width == 6 else np.empty(0)
         colours = values.size and (values == values.round()).all() and 1 < values.max() <= 255
         return [0, 1, 2], [3, 4, 5] if values.size and not (colours and values.min() >= 0) else []
-    plain = [name.replace(b'"', b"").lower() for name in names]
+    plain = [name.lower() for name in _plain(names)]
     found = [
         [next((plain.index(n) for n in either if n in plain), -1) for either in group]
         for group in (_COORDINATES, _NORMALS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,6 +11,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...shapes.kinds import (
+    UNDIRECTED,
+    Carry,
+    column_groups,
+    kept_as_number,
+    moved,
+    unknown_groups,
+)
 from ...shapes.polygons import corners_of
 from ...shapes.space import SPACE, TABLE
 
@@ -58,8 +66,14 @@ class NewShape:
     """(n, k) what each of these counts."""
     carried: Callable[[NDArray[Any]], NDArray[Any]] | None = None
     """What the points then have of values (k, ...) of the file's, where these are carried over."""
+    directed: Carry | None = None
+    """What they have of values with directions; None: these do not change."""
+    kinds: Mapping[str, str] = field(default_factory=dict)
+    """What arrays of the file's are, by their names, as given."""
     polygons: NDArray[np.int64] | None = None
     """(m,) the polygon that each face is a part of; see ``Shape``."""
+    is_rigid: bool = True
+    """Whether what moves the points stretches nothing."""
     reached: Callable[[str], str | None] = lambda name: name
     """The name, from where it is written, of a file beside that which was read; None: there is none."""
 
@@ -78,7 +92,7 @@ class NewShape:
     def added_faces(self) -> NDArray[np.int64]:
         return self.faces[self.old_faces :]
 
-    @property
+    @cached_property
     def adds_points(self) -> bool:
         return bool(self.is_other or (self.sources != np.arange(len(self.points))).any())
 
@@ -92,12 +106,43 @@ class NewShape:
         return not self.changes_points or self.turn is not None
 
     def turned(self, normals: NDArray[Any]) -> NDArray[np.float64]:
-        return normals if self.turn is None else normals @ self.turn.T
+        if self.turn is None:
+            return normals
+        return moved(normals, "normal", lambda points: points, self.turn)
+
+    def directed_columns(
+        self, names: Iterable[bytes], column: Callable[[bytes], Any]
+    ) -> dict[bytes, NDArray[np.float64]]:
+        """The columns of the file's arrays with directions, as the points then have them."""
+        if self.directed is None:
+            return {}
+        made: dict[bytes, NDArray[np.float64]] = {}
+        for name, kind, group in column_groups([each.decode() for each in names], self.kinds):
+            own = [each.encode() for each in group]
+            values = np.column_stack([np.asarray(column(each)).astype(float) for each in own])
+            made.update(zip(own, self.directed(values, kind, name).T, strict=True))
+        return made
+
+    def unturned(self, names: Iterable[bytes]) -> list[str]:
+        """What to say of columns that may be directions and are not turned."""
+        if self.directed is None:
+            return []
+        own = [each.decode(errors="replace") for each in names]
+        found = {name for name, _, _ in column_groups(own, self.kinds)}
+        lost = [kept_as_number(name) for name in unknown_groups(own, self.kinds)]
+        lost += [
+            f"{name}, given as {kind}, is not in the file"
+            for name, kind in self.kinds.items()
+            if kind not in UNDIRECTED and name not in found
+        ]
+        if {"rot", "scale_0"} <= {*found, *own} and not self.is_rigid:
+            lost.append("scale_0 to scale_2 of the splats stay, although the map stretches them")
+        return lost
 
     def of_file(self, name: bytes, values: NDArray[Any]) -> NDArray[Any]:
         """What the points then have of a column of the file's."""
         if self.carried is None or (not self.is_other and name.lower() in _OF_POSITIONS):
-            return values[self.sources]
+            return values[self.sources] if self.adds_points else values
         if values.dtype.kind in "iu" and name.lower() in _COLOURS:
             return self.carried(values.astype(float)).round().astype(values.dtype)
         return self.carried(values)

@@ -38,6 +38,7 @@ def rewritten_ply(content: bytes, new: NewShape) -> Rewritten:
     header = b"\n".join(_header(lines, elements, new))
     names = {words[-1] for words in elements[0].properties}
     lost = [] if new.keeps_normals or b"nx" not in names else [LOST_NORMALS]
+    lost += new.unturned(words[1] for _, words in _kept(elements[0], new))
     return Rewritten(header + b"\nend_header\n" + body, lost)
 
 
@@ -84,10 +85,13 @@ def _header(lines: list[bytes], elements: list[Element], new: NewShape) -> list[
     inside = [
         line for line in lines[first:last] if line.split()[:1] in ([b"comment"], [b"obj_info"])
     ]
+
+    def is_made_real(words: list[bytes]) -> bool:
+        is_moved = new.changes_points and words[1] in (b"x", b"y", b"z")
+        return is_moved and np.dtype(TYPES[words[0].decode()]).kind != "f"
+
     properties = [
-        b"property double " + words[1]
-        if new.changes_points and words[1] in (b"x", b"y", b"z")
-        else b"property " + b" ".join(words)
+        b"property " + (_NAMES["f"] if is_made_real(words) else words[0]) + b" " + words[1]
         for _, words in _kept(vertices, new)
     ]
     added = [
@@ -129,6 +133,11 @@ def _text_body(body: bytes, elements: list[Element], new: NewShape) -> bytes:
     made = [list(row) for row in zip(*carried, strict=True)]
     if new.changes_points:
         _replace(made, names, (b"x", b"y", b"z"), new.points)
+    directed = new.directed_columns(
+        names, lambda name: [row[kept[names.index(name)][0]] for row in rows]
+    )
+    if directed:
+        _replace(made, names, tuple(directed), np.column_stack([*directed.values()]))
     if new.turn is not None and b"nx" in names:
         columns = [names.index(name) for name in (b"nx", b"ny", b"nz")]
         normals = np.array([[float(row[c]) for c in columns] for row in made]).reshape(-1, 3)
@@ -174,7 +183,11 @@ def _binary_body(body: bytes, elements: list[Element], new: NewShape, order: str
         columns[name] = new.of_file(name, table[f"{i}"])
     if new.changes_points:
         for name, values in zip((b"x", b"y", b"z"), new.points.T):
-            columns[name] = values.astype(order + "f8")
+            own = columns[name].dtype
+            columns[name] = values.astype(own if own.kind == "f" else order + "f8")
+    numbers = {name: f"{i}" for i, (_, name) in kept}
+    for name, values in new.directed_columns(numbers, lambda name: table[numbers[name]]).items():
+        columns[name] = values.astype(columns[name].dtype)
     if new.turn is not None and b"nx" in columns:
         names = (b"nx", b"ny", b"nz")
         normals = np.column_stack([columns[name] for name in names]).astype(float)

@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..._core import InvalidInput
+from ...base.input_warning import warn_of
 from ..columns import columns_of
+from ..kinds import column_groups, kept_as_number, unknown_groups
 from .parts import Parts, Remade
 
 
@@ -21,11 +23,19 @@ def remade(given: Any, made: Remade) -> Any:
     arrays a column a coordinate. Pandas' row labels are kept where the points are the table's own."""
     axes = dict(zip(_axes(given), made.points.T, strict=True)) if made.moved else {}
     columns = {name: made.of_points(given[name]) for name in given.columns}
+    names = [*map(str, given.columns)]
+    warn_of(map(kept_as_number, unknown_groups(names, made.kinds) if made.turns else ()))
+    for name, kind, group in column_groups(names, made.kinds):
+        turned = made.of_points(
+            np.column_stack([np.asarray(given[each]) for each in group]), name, kind
+        )
+        columns |= dict(zip(group, turned.T, strict=True))
     table = type(given)(columns | axes | columns_of(made.arrays))
     if hasattr(table, "iloc"):
         table.attrs = dict(given.attrs)
-        for name in set(given.columns) - set(axes):
-            table[name] = table[name].astype(given[name].dtype)  # such as categories
+        for name in given.columns:
+            if name not in axes or given[name].dtype.kind == "f":
+                table[name] = table[name].astype(given[name].dtype)  # such as categories
         if len(table) == len(given):
             table.index = given.index
     return table
