@@ -288,11 +288,18 @@ class TopologicalPairs {
     const Points targets = targets_of(part, frame);
     const std::vector<Index> images = images_of(own, targets, middles);
     const Index row = seed_of(part, targets, images);
-    const std::int32_t a = part.vertices[row], b = left_neighbour(a);
-    if (b < 0) return false;
+    const std::int32_t a = part.vertices[row];
+    // Parts that meet in a vertex have it once.
+    const auto row_of = [&](Index i) {
+      return std::ranges::find(part.vertices, i) - part.vertices.begin();
+    };
+    const auto around = graph_.neighbours(a);
+    const auto beside = std::ranges::find_if(
+        around, [&](Index j) { return graph_.thirds(a, j)[0] >= 0 && row_of(j) < targets.rows(); });
+    if (beside == around.end()) return false;
+    const std::int32_t b = *beside;
     const Corner seed{a, b, graph_.thirds(a, b)[0]};
-    const auto row_of_b =
-        std::find(part.vertices.begin(), part.vertices.end(), b) - part.vertices.begin();
+    const Index row_of_b = row_of(b);
     std::vector<std::tuple<double, Index, Corner>> starts;
     for (const Index other : images)
       for (const std::int32_t i : of_colour(parts_[other], colours_[a]))
@@ -313,7 +320,9 @@ class TopologicalPairs {
     for (const auto& [gap, other, to] : starts) {
       if (walked > most_walks * count) break;
       context.check();
-      const bool is_map = table_.grow(seed, to);
+      const bool is_map = table_.grow(seed, to) && std::ranges::all_of(part.vertices, [&](Index i) {
+                            return table_[i] >= 0;
+                          });
       walked += static_cast<Index>(table_.joined().size());
       if (is_map) {
         ++maps;

@@ -228,6 +228,28 @@ TEST(TopologicalPairs, DoNotDependOnHowQuadranglesAreDivided) {
   }
 }
 
+// Parts that meet in vertices and edges, faces in both windings and with corners twice.
+TEST(TopologicalPairs, OfAnyTrianglesAreMutualOrAnError) {
+  Index paired = 0;
+  for (std::uint64_t seed = 0; seed < 200 * seeds; ++seed) {
+    RandomCloud random(seed);
+    const Points points = random.sphere(4 + random.below(30));
+    Triangles faces(1 + random.below(60), 3);
+    for (Index f = 0; f < faces.rows(); ++f)
+      for (int c = 0; c < 3; ++c) faces(f, c) = random.below(points.rows());
+    try {
+      const Eigen::MatrixXd index = correspondences({points, faces}).arrays.at("index");
+      for (Index i = 0; i < index.rows(); ++i)
+        if (const auto j = static_cast<Index>(index(i, 0)); j >= 0) {
+          EXPECT_EQ(index(j, 0), static_cast<double>(i)) << seed;
+          ++paired;
+        }
+    } catch (const InvalidInput&) {
+    }
+  }
+  EXPECT_GT(paired, 0);
+}
+
 TEST(TopologicalPairs, NameWhatHasNone) {
   Ball b = ball(3);  // its quadrangles are divided at random, and their halves lie apart here
   const Triangles faces = b.faces;

@@ -60,7 +60,7 @@ OperationImplementation correspondences_operation(const Matchers& matchers) {
       {"confidence", ParameterType::Real, 1,
        "0 to 1: the cosine between the normals, halved if the closest image is one point spacing "
        "away; with homologous pairing the share of the variance along the surface that the shape "
-       "explains."},
+       "explains; with topology 1 or 0."},
       {"face", ParameterType::Integer, 1, "For a mesh: the face closest to the image; -1 for none.",
        false, false, true},
       {"weights", ParameterType::Real, 3,

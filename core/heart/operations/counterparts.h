@@ -125,8 +125,10 @@ class Counterparts {
   /// warning where little is known of homologous points.
   void report(Values& statistics) const;
 
-  /// Where homologous points were asked for.
-  const HomologousPoints* homologous() const { return is_homologous_ ? &homologous_ : nullptr; }
+  /// Where homologous points were asked for, not those of a pose.
+  const HomologousPoints* homologous() const {
+    return is_homologous_ && !is_by_topology() ? &homologous_ : nullptr;
+  }
 
   /// From the mirror, input units; of posed points with the sign of the side that they belong to.
   double signed_distance(Index i) const { return distances_[i]; }

@@ -342,7 +342,9 @@ class Asymmetry(_OverMirror):
 @dataclass(frozen=True, eq=False, repr=False)
 class Correspondences(_OverMirror):
     """Which point mirrors which. ``statistics``: "paired_share", and why the others are unmatched,
-    as those of an asymmetry. ``save`` also takes ``.mirror``, MakeHuman's table: the numbers of a
+    as those of an asymmetry; with the pairing by topology how many "mirror_maps" of the largest
+    part were compared, and "near_share", of vertices near to the images of their partners, 0 to 1.
+    ``save`` also takes ``.mirror``, MakeHuman's table: the numbers of a
     point and its mirror point and l, r or m, where l is the side of positive signed distances."""
 
     operation = "correspondences"
@@ -352,7 +354,7 @@ class Correspondences(_OverMirror):
     confidence: NDArray[np.float64]
     """(n,) 0 to 1: the cosine between the normals, halved if the closest image is one point spacing
     away; with homologous pairing the share of the variance along the surface that the shape
-    explains."""
+    explains; with topology 1 or 0."""
     face: NDArray[np.int64] | None = None
     """(n,) for a mesh: the face closest to the image; -1 for none."""
     weights: NDArray[np.float64] | None = None
