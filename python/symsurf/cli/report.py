@@ -10,13 +10,7 @@ from ..batching.file_task import Record
 from ..batching.report_files import report_tasks, write_report
 from ..report import require_viewer
 from ..results.summary import of_the_diagonal
-from .batch_options import (
-    add_files,
-    add_mirror_options,
-    add_table_options,
-    input_tasks,
-    run_tasks,
-)
+from .batch_options import add_files, add_mirror_options, add_table_options, input_tasks, run_tasks
 from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .terminal import say
