@@ -234,6 +234,7 @@ std::unique_ptr<Mirror> FreeForm::moved(const Motion& by) const {
   for (Patch& p : patches) {
     p.centre = by(p.centre);
     p.frame *= by.rotation.transpose();
+    p.frame.row(1) = p.frame.row(2).cross(p.frame.row(0));  // what comes back from two rows
     p.height[0] *= by.scale;
     p.height.tail<3>() /= by.scale;
     p.radius *= by.scale;

@@ -9,15 +9,17 @@ from typing import Any
 import numpy as np
 
 from .._core import Sphere
+from ..reading.json_records import MIDPOINT_METHODS
 from ..results import Result
-
-_POINTS = ("separation", "separation_normals", "normals_only")
-"""Methods whose result the thesis writes as points, whatever mirror lies through them."""
 
 
 def text_bytes(result: Result) -> bytes:
     lines = [f"# {line}" for line in comments(result)]
-    sphere = result.method not in _POINTS and isinstance(result.mirror, Sphere) and result.mirror
+    sphere = (
+        result.method not in MIDPOINT_METHODS
+        and isinstance(result.mirror, Sphere)
+        and result.mirror
+    )
     if sphere:
         lines += [coordinates(sphere.centre), repr(sphere.radius)]
     else:
