@@ -284,6 +284,8 @@ def _operate(
         **task.parameters,
     )
     record |= {"parameters": plain(result.parameters), "statistics": plain(result.statistics)}
+    if isinstance(result, Asymmetry):
+        record |= result.inspection
     if "warning" in result.statistics:
         record["notices"].append(result.statistics["warning"])
     _write(task, result, record)

@@ -13,7 +13,7 @@ from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
 from ..results import plane_of
 from ..results.operation_results import RESULTS, Asymmetry
-from ..results.summary import figures, value_text
+from ..results.summary import figures, percent, value_text
 from ..saving.same_format import REWRITERS
 from ..saving.shape_files import SHAPES, formats_of, makes_shape, output_suffix
 from .batch_options import (
@@ -28,7 +28,10 @@ from .batch_options import (
 from .described_options import add_parameters, given_values
 from .output_paths import add_output
 from .shared_options import given_options
+from .terminal import complain
 
+FAILED_INSPECTION = 3
+_SHOWN_PATCHES = 10
 _KINDS = ("vector", "normal", "tensor")
 
 
@@ -68,6 +71,21 @@ class OperationCommand:
         if self._operation.takes_other:
             add_other(parser, "in place of a mirror")
         add_parameters(parser, self._operation)
+        if self._operation.name == Asymmetry.operation:
+            inspection = parser.add_argument_group("inspection, lengths in the unit of the file")
+            inspection.add_argument(
+                "--bands",
+                type=_limits,
+                metavar="X,Y",
+                help="limits of the distance, such as 0.1,0.3: report the area within each and the "
+                "connected patches above the smallest",
+            )
+            inspection.add_argument(
+                "--fail-above",
+                type=float,
+                metavar="NUMBER",
+                help=f"exit with status {FAILED_INSPECTION} if the distance of a point is above it",
+            )
         arrays = parser.add_argument_group("arrays of the file")
         for kind in _KINDS:
             arrays.add_argument(
@@ -90,7 +108,9 @@ class OperationCommand:
         kinds = {name: kind for kind in _KINDS for name in getattr(arguments, kind)}
         tasks = input_tasks(
             arguments,
-            given_values(arguments) | ({"kinds": kinds} if kinds else {}),
+            given_values(arguments)
+            | ({"kinds": kinds} if kinds else {})
+            | ({"bands": bands} if (bands := getattr(arguments, "bands", None)) else {}),
             operation=name,
             mirror=mirror,
             require_found=arguments.require_found,
@@ -106,7 +126,20 @@ class OperationCommand:
             arguments.format,
             [*formats_of(RESULTS[name]), *own, *pages],
         )
-        return run_tasks(tasks, arguments, _text)[0]
+        status, rows = run_tasks(tasks, arguments, _text)
+        limit = getattr(arguments, "fail_above", None)
+        if status or limit is None:
+            return status
+        above = [row for row in rows if float(row.get("max", 0)) > limit]
+        for row in above:
+            complain(
+                f"{row['file']}: the largest distance is {float(row['max']):.6g}, above {limit:g}"
+            )
+        return FAILED_INSPECTION if above else 0
+
+
+def _limits(text: str) -> list[float]:
+    return [float(each) for each in text.split(",")]
 
 
 def _mirror(given: str) -> Mirror:
@@ -127,4 +160,11 @@ def _text(record: Record) -> str:
     for name, value, share in figures(record["statistics"]):
         text = value_text(name, value, share).replace("\n", "\n" + 22 * " ")
         lines.append(f"  {name.replace('_', ' '):<19} {text}")
+    lines += [
+        f"  within {band['limit']:<12g} {percent(band['share'])}"
+        for band in record.get("bands", [])
+    ]
+    for number, patch in enumerate(record.get("patches", [])[:_SHOWN_PATCHES], 1):
+        place = "  ".join(f"{x:.6g}" for x in patch["place"])
+        lines.append(f"  patch {number:<13} {patch['largest']:.6g} at {place}")
     return "\n".join(lines)

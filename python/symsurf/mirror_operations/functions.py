@@ -37,6 +37,8 @@ _DOCUMENTED = {
     "kinds": 'what arrays of the points are, by name, for ``carried``, ``like`` and ``save``: "scalar", '
     '"label", "weight", "position", "vector", "normal", "tensor", "quaternion" or "harmonics", such as '
     '``dict(wind="vector")``; None: what the object or the file says of them.',
+    "bands": "limits of the distance, above 0 and in input units: ``bands`` of the result has the area "
+    "within each, ``patches`` the connected regions above the smallest.",
     "absolute": "True: lengths are given in input units, not as fractions of the diagonal of the "
     "bounding box; ``parameters`` of the result has fractions.",
     "require_found": f"{require_found_parameter().doc} A given result is refused likewise.",
@@ -65,6 +67,7 @@ def _lacking(operation: Operation) -> list[str]:
         *([] if operation.takes_other else ["other"]),
         *([] if operation.takes_mask else ["mask"]),
         *([] if is_paired else ["pairs", "pairs_sd"]),
+        *([] if operation.name == "asymmetry" else ["bands"]),
     ]
 
 

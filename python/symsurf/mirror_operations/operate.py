@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,8 @@ from ..base.progress import Progress, share
 from ..detection import detect
 from ..reading.inputs import Input, as_input, refuses, require_finite
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
-from ..results.operation_results import RESULTS, require_one_a_point
+from ..results.inspection import limits_of
+from ..results.operation_results import RESULTS, Asymmetry, require_one_a_point
 from ..shapes.kinds import require_kinds
 
 FOUND_AT = 0.8
@@ -37,6 +38,7 @@ def operate(
     pairs_sd: ArrayLike = 0,
     faces: ArrayLike | None = None,
     kinds: Mapping[str, str] | None = None,
+    bands: ArrayLike | None = None,
     absolute: bool = False,
     require_found: bool = False,
     method: str = "auto",
@@ -57,6 +59,8 @@ def operate(
     if refuses(nonfinite):
         require_finite(given.points)
     known_kinds = require_kinds(kinds)
+    if bands is not None:
+        limits_of(bands)
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         mirror, parameters = _named_symmetry(mirror, parameters)
@@ -104,7 +108,7 @@ def operate(
         raise InvalidInput(made["statistics"]["warning"])
     if "warning" in made["statistics"]:
         warn_of([made["statistics"]["warning"]])
-    return RESULTS[name].from_fields(
+    result = RESULTS[name].from_fields(
         made
         | {
             "seconds": time.perf_counter() - started,
@@ -114,6 +118,7 @@ def operate(
             "kinds": known_kinds,
         }
     )
+    return result if bands is None else cast(Asymmetry, result).with_bands(bands)
 
 
 def with_values(made: Transferred, values: Any) -> Transferred:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from .._core import InvalidInput, Mirror, Plane, operations
+from ..base.plain import plain
 from ..reflection import is_flat
 from ..shapes import Shape
 from ..shapes.kinds import (
@@ -27,6 +28,7 @@ from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
 from .base_result import BaseResult, mirror_record
 from .elements import Axis
+from .inspection import Band, Patch, bands_within, limits_of, patches_above
 from .outputs import plot
 from .result import Result
 from .summary import figures, value_text
@@ -337,6 +339,35 @@ class Asymmetry(_OverMirror):
     """(n,) for a mesh: the face on whose image the counterpart lies; -1 for none."""
     weights: NDArray[np.float64] | None = None
     """(n, 3) for a mesh: barycentric coordinates on that face."""
+    bands: list[Band] = field(default_factory=list)
+    """With ``bands``: area and share within each limit, ascending."""
+    patches: list[Patch] = field(default_factory=list)
+    """With ``bands``: the connected regions above the smallest limit, the worst first, with place, area
+    and largest deviation. What is on one side alone has a patch on both."""
+
+    def with_bands(self, bands: ArrayLike) -> Asymmetry:
+        """The result with ``bands`` and ``patches`` for limits of the distance, in input units, and
+        ``statistics["symmetry_value"]``: twice the largest distance from the mirror of a point midway
+        between opposite points."""
+        limits = limits_of(bands)
+        value = float(np.nanmax(np.abs(self.lateral), initial=0))
+        return replace(
+            self,
+            statistics=self.statistics | {"symmetry_value": value},
+            bands=bands_within(self.shape, self.distance, limits),
+            patches=patches_above(self.shape, self.distance, limits[0]),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        return super().to_json() | self.inspection
+
+    @property
+    def inspection(self) -> dict[str, Any]:
+        """``bands`` and ``patches``, where they were asked for, in what ``json.dumps`` takes."""
+        if not self.bands:
+            return {}
+        rows = [vars(patch) | {"points": len(patch.points)} for patch in self.patches]
+        return {"bands": plain([*map(vars, self.bands)]), "patches": plain(rows)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
