@@ -86,7 +86,7 @@ void require_points(vtkCellArray* cells, vtkIdType count) {
 }
 
 PointArray points_of(vtkPolyData* data) {
-  return PointArray(data->GetPoints() ? data->GetPoints()->GetData() : nullptr);
+  return PointArray(data && data->GetPoints() ? data->GetPoints()->GetData() : nullptr);
 }
 
 void set_points(vtkPolyData* data, const symsurf::Points& points) {

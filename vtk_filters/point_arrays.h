@@ -47,7 +47,7 @@ class TriangleArray {
 /// read without asking.
 void require_points(vtkCellArray* cells, vtkIdType count);
 
-/// The data set's points; none: an empty view.
+/// The data set's points; without these or a data set: an empty view.
 PointArray points_of(vtkPolyData* data);
 
 void set_points(vtkPolyData* data, const symsurf::Points& points);

@@ -96,13 +96,17 @@ TEST_P(EveryMethod, MapsTheInputOntoItself) {
   vtkDataArray* partners = shape->GetPointData()->GetArray("MirrorPartner");
   vtkDataArray* distances = shape->GetPointData()->GetArray("MirrorResidual");
   vtkDataArray* sides = shape->GetPointData()->GetArray("MirrorSide");
+  // They scatter about the mirror that lies through them.
+  const std::string& name = GetParam().name;
+  const bool of_midpoints =
+      name == "separation" || name == "separation_normals" || name == "normals_only";
   std::vector<bool> paired(points.rows(), false);
   for (symsurf::Index row = 0; row < expected.pairs.rows(); ++row)
     paired[expected.pairs(row, 0)] = true;
   for (symsurf::Index i = 0; i < points.rows(); ++i) {
     EXPECT_EQ(partners->GetComponent(i, 0) >= 0, paired[i]);
     EXPECT_EQ(std::isnan(distances->GetComponent(i, 0)), !paired[i]);
-    if (!expected.mirror) continue;
+    if (!expected.mirror || of_midpoints) continue;
     const symsurf::Vector3 x = points.row(i);
     EXPECT_GE(sides->GetComponent(i, 0) * expected.mirror->signed_distance(x), 0);
     if (!paired[i]) continue;

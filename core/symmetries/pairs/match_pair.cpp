@@ -187,8 +187,9 @@ MirrorFit PairSearch::fit(const UnitPlacement& placement, Index stride) const {
 UnitPlacement PairSearch::found(const Context& context) const {
   constexpr Index rough = 40, close = 4;
   constexpr double apart = 0.03;  // diagonals
-  std::vector<Placement> candidates =
-      best_of(hypotheses(context.stage(0, 0.3)), left_.coarse, right_.map, rough, context);
+  const std::vector<UnitPlacement> all = hypotheses(context.stage(0, 0.3));
+  std::vector<Placement> candidates = best_of(all, left_.coarse, right_.map, rough, context);
+  if (candidates.empty()) candidates.push_back({all.front()});
   for (Placement& candidate : candidates) {
     context.check();
     candidate = refined_on_surfels(left_.coarse, right_.map, candidate, 0.06, 0.015, 8, 3);
