@@ -147,7 +147,7 @@ class OperationResult(BaseResult):
             if self.parents is None or self.shares is None:
                 return values[self.sources]
             return carried_values(values, self.sources, self.parents, self.shares)
-        rows = values[self._rows].astype(float)
+        rows = values[self._rows].astype(float, copy=False)
         for move in self._moves:
             rows[move.chosen] = moved(rows[move.chosen], kind, move.apply, move.jacobian, name)
         if self.shares is None:
@@ -161,7 +161,7 @@ class OperationResult(BaseResult):
             if kind in ("normal", "quaternion"):
                 lengths = np.linalg.norm(rows, axis=-1)
                 made = with_lengths(made, (lengths * (self.shares > 0)).max(axis=1))
-        return made.astype(values.dtype if values.dtype.kind == "f" else float)
+        return made.astype(values.dtype if values.dtype.kind == "f" else float, copy=False)
 
     @property
     def _rows(self) -> NDArray[np.int64]:

@@ -117,7 +117,7 @@ class NewShape:
         made: dict[bytes, NDArray[np.float64]] = {}
         for name, kind, group in column_groups([each.decode() for each in names], self.kinds):
             own = [each.encode() for each in group]
-            values = np.column_stack([np.asarray(column(each)).astype(float) for each in own])
+            values = np.column_stack([column(each) for each in own]).astype(float, copy=False)
             made.update(zip(own, self.directed(values, kind, name).T, strict=True))
         return made
 
