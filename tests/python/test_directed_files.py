@@ -6,7 +6,7 @@ from command_line import run_here
 from symmetric_shapes import random_rotation
 
 import symsurf
-from symsurf.shapes.kinds import moved
+from symsurf.shapes.kinds import jacobian, moved
 
 TURN = random_rotation(np.random.default_rng(2))
 PLANE = symsurf.Plane(TURN[:, 0], 0.1)
@@ -82,6 +82,34 @@ def test_images_of_splats_reflected_again_are_these(tmp_path):
         np.testing.assert_array_equal(own[:, columns], rows[:, SPLAT.index(first) :][:, :count])
         np.testing.assert_allclose(again, own[:, columns], atol=1e-6)
         assert np.abs(images[:, columns] - own[:, columns]).max() > 0.1
+
+
+def covariances(table):
+    w, x, y, z = (table[f"rot_{i}"].astype(float) for i in range(4))
+    size = w * w + x * x + y * y + z * z
+    rows = [
+        [size - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), size - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), size - 2 * (x * x + y * y)],
+    ]
+    turns = (np.array(rows) / size).transpose(2, 0, 1)
+    squares = np.exp(2 * np.column_stack([table[f"scale_{i}"] for i in range(3)]).astype(float))
+    return turns @ (squares[:, :, None] * np.swapaxes(turns, 1, 2))
+
+
+@pytest.mark.parametrize(
+    "mirror", [PLANE, symsurf.Sphere(-4 * TURN[:, 0], 4)], ids=["plane", "sphere"]
+)
+def test_images_of_ellipsoids_are_those_of_the_local_map(mirror, tmp_path):
+    source = write(tmp_path / "half.ply", splats(300, one_side=True))
+    symsurf.complete(source, mirror, search=False).save(tmp_path / "whole.ply")
+    _, table = read(tmp_path / "whole.ply")
+    own, images = table[:300], table[300:]
+    points = np.column_stack([own[axis] for axis in "xyz"]).astype(float)
+    local = jacobian(mirror.reflect, points)
+    wanted = local @ covariances(own) @ np.swapaxes(local, 1, 2)
+    np.testing.assert_allclose(covariances(images), wanted, rtol=1e-4, atol=1e-5 * wanted.max())
+    assert len(images) == 300
 
 
 @pytest.mark.parametrize("suffix", [".ply", ".csv"])

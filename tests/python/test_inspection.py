@@ -92,3 +92,7 @@ def test_the_command_line_fails_above_a_limit(tmp_path):
     assert passed.returncode == 0 and passed.stderr == ""
     record = json.loads(passed.stdout)
     assert len(record["patches"]) == 6 and record["bands"][1]["share"] == 1
+    page = run_here(f"{line} 0.06 -o part.html", tmp_path)
+    assert page.returncode == 0, page.stderr
+    text = (tmp_path / "part.html").read_text()
+    assert "Tolerance bands" in text and "Over a plane that was given" in text

@@ -218,3 +218,70 @@ def test_images_of_half_a_shape_have_the_images_of_its_vectors(mirror):
     wanted = np.where(whole.origin[:, None] > 0, images, wind[whole.sources])
     np.testing.assert_allclose(made, wanted, atol=1e-9)
     assert whole.origin.any()
+
+
+def equivariant(points, plane):
+    """Vectors, linear in the points, whose images over the plane are those at the images."""
+    n = plane.normal
+    arms = points - plane.reflect(np.zeros((1, 3))) / 2
+    return 2 * arms + 3 * np.outer(arms @ n, n)
+
+
+@pytest.mark.parametrize("name", ["symmetrize", "remesh", "transfer"])
+def test_the_other_side_gets_images_of_vectors(mesh, name):
+    shape = symsurf.Shape(np.asarray(mesh.points), mesh.regular_faces)
+    shape = symsurf.Shape(shape.points + 0.1 * TURN[:, 0] - shape.points.mean(axis=0), shape.faces)
+    plane = symsurf.detect(shape, "plane").mirror
+    wind = equivariant(shape.points, plane)
+    given = wind.copy()
+    negative = plane.signed_distance(shape.points) < -1e-6
+    given[negative] = 7  # what comes from the other side does not depend on them
+    options = {"symmetrize": {"triangles": "mirrored", "side": "positive"}}
+    if name == "transfer":
+        made = symsurf.transfer({"wind": given}, shape, plane, kinds={"wind": "vector"})
+        np.testing.assert_allclose(made.values["wind"], wind, atol=1e-6)
+        return
+    made = getattr(symsurf, name)(shape, plane, **options.get(name, {}))
+    carried = made.carried(given, "vector")
+    own = made.carried(given)
+    images = made.partner < np.arange(len(made.partner))
+    turned = plane.reflect(own[made.partner]) - plane.reflect(np.zeros((1, 3)))
+    np.testing.assert_allclose(carried[images], turned[images], atol=1e-9)
+    np.testing.assert_array_equal(carried[~images], own[~images])
+    inside = ~np.isin(made.parents, np.flatnonzero(negative)).any(axis=1)
+    exact = equivariant(made.shape.points, plane)
+    np.testing.assert_allclose(carried[inside], exact[inside], atol=0.03)
+    assert images.any() and inside.mean() > 0.8
+
+
+def test_copies_about_an_axis_have_turned_vectors():
+    rng = np.random.default_rng(3)
+    axis = symsurf.Axis(np.array((0.3, 0.2, 0.1)), TURN[:, 2], 5)
+    angle, radius, height = (
+        rng.uniform(0, 1.2, 400),
+        rng.uniform(0.5, 1, 400),
+        rng.uniform(size=400),
+    )
+    local = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height])
+    cloud = local @ TURN.T + axis.point
+    made = symsurf.complete(cloud, axis)
+    along = np.cross(axis.direction, cloud - axis.point) + 0.5 * axis.direction
+    wanted = np.cross(axis.direction, made.shape.points - axis.point) + 0.5 * axis.direction
+    np.testing.assert_allclose(made.carried(along, "vector"), wanted, atol=1e-9)
+    assert made.origin.any()
+    places = made.carried(cloud, "position")
+    np.testing.assert_allclose(places, made.shape.points, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "mirror", [MIRRORS["sphere"], MIRRORS["cylinder"]], ids=["sphere", "cylinder"]
+)
+def test_straightened_vectors_follow_the_map(mesh, mirror):
+    points, along = np.asarray(mesh.points), drawn("vector", mesh.n_points)
+    made = symsurf.straighten(points, mirror)
+    step = 1e-4
+    ends = [symsurf.bend(points + s * step * along, made.mirror) for s in (1, -1)]
+    chord = (ends[0] - ends[1]) / (2 * step)
+    # A sphere is laid out piece by piece: steps of different lengths differ where pieces meet.
+    within = 1e-6 if mirror.kind == "cylinder" else 1e-3
+    np.testing.assert_allclose(made.carried(along, "vector"), chord, atol=within)

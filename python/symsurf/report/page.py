@@ -41,7 +41,11 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
     return page(
         name,
         [
-            paragraph(f"Verdict {record['verdict']}: {record['reason']}."),
+            *(
+                [paragraph(f"Verdict {record['verdict']}: {record['reason']}.")]
+                if record["verdict"] is not None
+                else []
+            ),
             paragraph(_sentence(record, kind)),
             framed(scene, f"{name} in 3D"),
             paragraph(
@@ -61,21 +65,43 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
                 ),
                 heading("Parameters") + table(_parameter_rows(record), numbers=False),
             ),
+            *_inspection(record),
         ],
         scripts_of(scene),
     )
+
+
+def _inspection(record: Record) -> list[str]:
+    """The tolerance bands and the patches above the smallest, where they were asked for."""
+    if not record.get("bands"):
+        return []
+    unit = record["unit"] or "input units"
+    bands = [(f"{band['limit']:g}", percent(band["share"])) for band in record["bands"]]
+    patches = [
+        (str(number), f"{patch['largest']:.4g}", "  ".join(f"{x:.4g}" for x in patch["place"]))
+        for number, patch in enumerate(record["patches"], 1)
+    ]
+    return [
+        columns(
+            heading("Tolerance bands") + table(bands, (f"within, {unit}", "share of the area")),
+            heading("Patches") + table(patches, ("", f"largest deviation, {unit}", "place")),
+        )
+    ]
 
 
 def _sentence(record: Record, kind: str) -> str:
     statistics = record["statistics"]
     matched = f"{percent(statistics['matched_share'])} of {record['points']} points"
     rms = of_the_diagonal(statistics["rms_of_diagonal"])
-    return f"Over a {kind} with score {record['score']:.2f}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
+    source = "that was given" if record["score"] is None else f"with score {record['score']:.2f}"
+    return f"Over a {kind} {source}, {matched} have a counterpart; they lie {rms} from it (root mean square)."
 
 
 def _mirror_rows(record: Record) -> list[tuple[str, str]]:
     mirror: dict[str, Any] = record["mirror"]
-    rows = [("method", record["method"]), ("score", fixed(record["score"], 2))]
+    rows = []
+    if record["score"] is not None:
+        rows = [("method", record["method"]), ("score", fixed(record["score"], 2))]
     return rows + [(name, _spaced(value)) for name, value in mirror.items()]
 
 

@@ -147,20 +147,21 @@ class OperationResult(BaseResult):
             if self.parents is None or self.shares is None:
                 return values[self.sources]
             return carried_values(values, self.sources, self.parents, self.shares)
-        rows = values[self._rows].astype(float)
+        rows = values[self._rows].astype(float, copy=False)
         for move in self._moves:
             rows[move.chosen] = moved(rows[move.chosen], kind, move.apply, move.jacobian, name)
         if self.shares is None:
             made = rows[:, 0]
         else:
             counts = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
-            if kind == "quaternion":  # q and -q are one rotation
-                rows *= np.where((rows * rows[:, :1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+            if kind in ("quaternion", "ellipsoid"):  # q and -q are one rotation
+                turns = rows[..., :4]
+                turns *= np.where((turns * turns[:, :1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
             made = (np.where(counts == 0, 0, rows) * counts).sum(axis=1)
             if kind in ("normal", "quaternion"):
                 lengths = np.linalg.norm(rows, axis=-1)
                 made = with_lengths(made, (lengths * (self.shares > 0)).max(axis=1))
-        return made.astype(values.dtype if values.dtype.kind == "f" else float)
+        return made.astype(values.dtype if values.dtype.kind == "f" else float, copy=False)
 
     @property
     def _rows(self) -> NDArray[np.int64]:
@@ -171,12 +172,6 @@ class OperationResult(BaseResult):
     def turns(self) -> bool:
         """Whether directions change, of some points at least."""
         return any(chosen.any() for chosen, _, _ in self._maps())
-
-    @property
-    def is_rigid(self) -> bool:
-        """Whether what moves the points stretches nothing."""
-        squares = (move.jacobian @ np.swapaxes(move.jacobian, -1, -2) for move in self._moves)
-        return all(np.allclose(square, np.eye(3), atol=1e-6) for square in squares)
 
     @cached_property
     def _moves(self) -> list[Move]:

@@ -208,7 +208,6 @@ def _new_shape(
         carried=None if result.parents is None else result.carried,
         directed=result.carried if result.turns else None,
         kinds=result.kinds,
-        is_rigid=result.is_rigid,
         polygons=result.shape.polygons,
         reached=reached,
     )

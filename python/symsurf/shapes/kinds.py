@@ -22,6 +22,7 @@ COMPONENTS: dict[str, tuple[int, ...]] = {
     "tensor": (6, 9),
     "quaternion": (4,),
     "harmonics": (9, 24, 45),
+    "ellipsoid": (7,),
 }
 """The kinds of arrays, with how many components each may have; none: any."""
 
@@ -84,9 +85,10 @@ def column_groups(
 ) -> list[tuple[str, str, list[str]]]:
     """Columns of a table that are one array with directions: its name, its kind and the columns. Those
     of the kinds, and the rotations and harmonics of Gaussian splats."""
-    if all(f"{name}_{i}" in names for name in ("rot", "scale") for i in range(3)):
-        kinds = {"rot": "quaternion", "f_rest": "harmonics"} | dict(kinds)
-    groups = []
+    groups: list[tuple[str, str, list[str]]] = []
+    if set(_ELLIPSOID) <= set(names):
+        kinds = {"f_rest": "harmonics"} | dict(kinds)
+        groups.append(("rot", "ellipsoid", [*_ELLIPSOID]))
     for name, kind in kinds.items():
         sizes = sorted(COMPONENTS[kind], reverse=True)
         forms = [[f"{name}{mark}{end}" for end in "xyz"] for mark in ("_", "", ":") if 3 in sizes]
@@ -95,6 +97,9 @@ def column_groups(
         if (columns := next(there, None)) is not None:
             groups.append((name, kind, columns))
     return groups
+
+
+_ELLIPSOID = [*(f"rot_{i}" for i in range(4)), *(f"scale_{i}" for i in range(3))]
 
 
 def unknown_groups(names: Sequence[str], kinds: Mapping[str, str]) -> list[str]:
@@ -145,7 +150,8 @@ def moved(
         length of n, symmetric tensors T as J T J^T, (n, 9) or, in VTK's order xx yy zz xy yz xz, (n, 6);
         quaternions (w, x, y, z) of rotations R as those of M R, or M R diag(-1, 1, 1) where M, the
         orthogonal matrix closest to J, is a reflection; coefficients of spherical harmonics of
-        degrees 1 to 3 as those of the function turned by M.
+        degrees 1 to 3 as those of the function turned by M; ellipsoids, a quaternion and the logarithms
+        of three semi-axes, as the ellipsoids that J makes of them.
 
     Raises InvalidInput for another number of components.
     """
@@ -173,6 +179,8 @@ def moved(
         whole = _full(flat)
         made = matrices @ whole @ np.swapaxes(matrices, -1, -2)
         made = made.reshape(-1, 9) if flat.shape[1] == 9 else made[:, _SYMMETRIC[0], _SYMMETRIC[1]]
+    elif kind == "ellipsoid":
+        made = _stretched(matrices, flat)
     else:
         closest = orthogonal(matrices)
         made = _turned(closest, flat) if kind == "quaternion" else _harmonics(closest, flat)
@@ -214,6 +222,35 @@ def _turned(matrices: NDArray[np.float64], quaternions: NDArray[np.float64]) -> 
     proper = np.where(reflects[..., None, None], -matrices, matrices)
     made = _product(_quaternion(proper), quaternions)
     return np.where(reflects[..., None], _product(made, np.array([0.0, 1, 0, 0])), made)
+
+
+def _stretched(
+    matrices: NDArray[np.float64], ellipsoids: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Ellipsoids keep their axes where the map is rigid; else J R S has others."""
+    made = ellipsoids.copy()
+    made[:, :4] = _turned(orthogonal(matrices), ellipsoids[:, :4])
+    off = np.abs(matrices @ np.swapaxes(matrices, -1, -2) - np.eye(3)).max(axis=(-2, -1))
+    rows = np.broadcast_to((off > _RIGID) & np.isfinite(off), len(made))
+    if not rows.any():
+        return made
+    scales = np.exp(ellipsoids[rows, None, 4:])
+    own = np.broadcast_to(matrices, (len(made), 3, 3))[rows]
+    axes, lengths, _ = np.linalg.svd(own @ (_rotation(ellipsoids[rows, :4]) * scales))
+    axes[..., 0] *= np.sign(np.linalg.det(axes))[:, None]
+    sizes = np.linalg.norm(ellipsoids[rows, :4], axis=1, keepdims=True)
+    made[rows] = np.hstack([_quaternion(axes) * sizes, np.log(lengths)])
+    return made
+
+
+_RIGID = 1e-9  # of J J^T: more than differences of a rigid map are off
+
+
+def _rotation(quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3, 3): the images of the unit vectors are q e q* / |q|^2."""
+    conjugate = quaternions * (1, -1, -1, -1)
+    images = [_product(_product(quaternions, np.eye(4)[i]), conjugate)[:, 1:] for i in range(1, 4)]
+    return np.stack(images, axis=-1) / np.square(quaternions).sum(axis=1)[:, None, None]
 
 
 def _product(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -72,8 +72,6 @@ class NewShape:
     """What arrays of the file's are, by their names, as given."""
     polygons: NDArray[np.int64] | None = None
     """(m,) the polygon that each face is a part of; see ``Shape``."""
-    is_rigid: bool = True
-    """Whether what moves the points stretches nothing."""
     reached: Callable[[str], str | None] = lambda name: name
     """The name, from where it is written, of a file beside that which was read; None: there is none."""
 
@@ -119,7 +117,7 @@ class NewShape:
         made: dict[bytes, NDArray[np.float64]] = {}
         for name, kind, group in column_groups([each.decode() for each in names], self.kinds):
             own = [each.encode() for each in group]
-            values = np.column_stack([np.asarray(column(each)).astype(float) for each in own])
+            values = np.column_stack([column(each) for each in own]).astype(float, copy=False)
             made.update(zip(own, self.directed(values, kind, name).T, strict=True))
         return made
 
@@ -135,8 +133,6 @@ class NewShape:
             for name, kind in self.kinds.items()
             if kind not in UNDIRECTED and name not in found
         ]
-        if {"rot", "scale_0"} <= {*found, *own} and not self.is_rigid:
-            lost.append("scale_0 to scale_2 of the splats stay, although the map stretches them")
         return lost
 
     def of_file(self, name: bytes, values: NDArray[Any]) -> NDArray[Any]:
