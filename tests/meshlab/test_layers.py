@@ -68,8 +68,7 @@ def test_surface_points_are_hidden_behind_a_mirror_and_never_empty():
 
     mesh_set = lump(3).mesh_set()
     mesh_set.apply_filter("compute_mirror_normals_only")
-    assert labels(mesh_set) == ["shape", "Surface points"]
-    assert layer(mesh_set, "Surface points").is_visible()
+    assert labels(mesh_set) == ["shape", "Mirror", "Surface points"]
 
     # No curved mirror maps a flat sheet along one direction: nothing is paired.
     rng = np.random.default_rng(3)
