@@ -11,6 +11,7 @@ from .analysis_results import (
 )
 from .elements import Axis, SymmetryAxis, Transformation
 from .given_mirror import found_mirror, mirror_of, plane_of
+from .inspection import Band, Patch
 from .operation_results import (
     Alignment,
     Asymmetry,
@@ -31,6 +32,7 @@ __all__ = [
     "AnalysisResult",
     "Asymmetry",
     "Axis",
+    "Band",
     "Completed",
     "Correspondences",
     "Half",
@@ -39,6 +41,7 @@ __all__ = [
     "OperationResult",
     "PairMatch",
     "PartialSymmetries",
+    "Patch",
     "RecurringParts",
     "Remeshed",
     "Result",
