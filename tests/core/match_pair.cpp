@@ -126,7 +126,7 @@ TEST(MatchPair, LeavesOutPointsThatAreNotFinite) {
 TEST(MatchPair, NamesWhatIsWrong) {
   RandomCloud random(5);
   const Points left = body(random, 500), large = 10 * left;
-  expect_error<InvalidInput>("allowed is one at most 2.5 times as large as the other",
+  expect_error<InvalidInput>("allowed is one at most 4 times as large as the other",
                              [&] { match_pair(left, large); });
   expect_error<InvalidInput>("match_pair needs a second shape", [&] { match_pair(left, {}); });
   AnalysisOptions options;

@@ -226,8 +226,8 @@ UnitPlacement exact(const UnitPlacement& start, const ColouredCloud& given,
 }
 
 void require_like_sizes(double left, double right) {
-  // A third missing of a bone made 2.4; inches are 2.54 centimetres.
-  constexpr double most = 2.5;
+  // A third of its points missing made a bone 2.7 times as large as the other.
+  constexpr double most = 4;
   if (std::max(left, right) > most * std::min(left, right))
     throw InvalidInput(
         "the shapes are " + to_string(Value(left)) + " and " + to_string(Value(right)) +
