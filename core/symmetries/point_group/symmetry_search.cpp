@@ -503,19 +503,19 @@ Symmetries exact_symmetries(const Cloud& cloud, const Deviation& shape, bool is_
 }
 
 // Whether a group has more elements than the exact ones, all of them to within what tessellation
-// takes off: of a prism of 64 sides, which is no cylinder, 3e-4; of a ball that is drawn coarsely
-// more.
+// takes off: of a body of revolution less than of a prism of 64 sides, which is none; of others, as
+// of a ball that is drawn coarsely or has studs, more.
 bool has_more(const Symmetries& found, const Symmetries& exact, double diagonal) {
-  constexpr double of_round = 2e-4, of_ball = 1e-2;  // diagonals
+  constexpr double of_revolution = 2e-4, of_others = 1e-2;  // diagonals
   if (exact.elements.size() == 1) return true;
   std::vector<double> deviations = found.max_deviations;
   deviations.insert(deviations.end(), found.axis_max_deviations.begin(),
                     found.axis_max_deviations.end());
   const bool is_continuous = std::any_of(found.axes.begin(), found.axes.end(),
                                          [](const SymmetryAxis& axis) { return axis.order == 0; });
+  const double most = is_continuous && found.group != "K" ? of_revolution : of_others;
   return (is_continuous || found.elements.size() > exact.elements.size()) &&
-         *std::max_element(deviations.begin(), deviations.end()) <=
-             (found.group == "K" ? of_ball : of_round) * diagonal;
+         *std::max_element(deviations.begin(), deviations.end()) <= most * diagonal;
 }
 
 void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
