@@ -107,7 +107,7 @@ class PartnerTable {
     return true;
   }
 
-  /// Of the pairs since the last undo() or keep() both vertices, one after the other.
+  /// Both vertices of each pair that was joined since the last undo() or keep().
   const std::vector<Index>& joined() const { return joined_; }
 
   /// Breaks these pairs.

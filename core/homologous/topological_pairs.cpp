@@ -156,7 +156,7 @@ class TopologicalPairs {
     bool is_done = false;
   };
 
-  // Of the vertices of a part.
+  // The rows of a part's vertices.
   static Points of(const Points& rows, const Part& part) {
     return rows(part.vertices, Eigen::indexing::all);
   }
@@ -199,8 +199,8 @@ class TopologicalPairs {
                                     [&](Index i) { return colours_[i]; });
   }
 
-  // Where the vertices of a part come to lie: over the mirror or, beside the largest part, as that
-  // part is taken there, which a pose may have moved.
+  // The images of a part's vertices: over the mirror, or, of a part beside the largest one, by the
+  // motion of that part, which a pose may have moved.
   Points targets_of(const Part& part, const std::optional<PointTree>& frame) const {
     if (!frame) return of(images_, part);
     std::vector<Neighbour> near;
@@ -246,7 +246,7 @@ class TopologicalPairs {
     return squared >= 0 ? squared : std::numeric_limits<double>::infinity();
   }
 
-  // Of a part's least common colour the row of the vertex that is nearest to one's image.
+  // The row of the vertex nearest to an image, among those of the part's least common colour.
   Index seed_of(const Part& part, const Points& targets, const std::vector<Index>& images) const {
     auto rarest = of_colour(part, colours_[part.vertices.front()]);
     for (auto at = rarest.end(); at != part.vertices.end();) {

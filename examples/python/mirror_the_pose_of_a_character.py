@@ -16,7 +16,7 @@ print(doll)
 posed = shapes.with_an_arm_raised(doll.shape, 57)
 
 # %%
-# Where the arm was, its image meets no surface any more: the closest points mirror the rest of the
+# The image of the bent arm meets no surface any more: closest points pair only the rest of the
 # doll. The triangles say which vertex mirrors which in any pose.
 
 truth = symsurf.correspondences(doll.shape, "x=0").index

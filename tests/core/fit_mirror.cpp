@@ -56,6 +56,23 @@ TEST(FitMirror, FindsTheKindThatExactSamplesLieOn) {
   }
 }
 
+// Its points' centroid is its centre.
+TEST(FitMirror, FindsAWholeSphere) {
+  RandomCloud random(6);
+  Points ways(200, 3);
+  for (Index i = 0; i < ways.rows(); i += 2) {
+    ways.row(i) = random.direction().transpose();
+    ways.row(i + 1) = -ways.row(i);
+  }
+  const Sphere sphere(Vector3(1, 2, 3), 2);
+  const Points points = (2 * ways).rowwise() + sphere.centre().transpose();
+  for (const std::string_view kind : {"auto", "sphere"}) {
+    const auto found = fit_mirror(points, kind);
+    EXPECT_EQ(found->kind(), "sphere");
+    EXPECT_LT(off(*found, sphere, 1.2 * points), 1e-9);
+  }
+}
+
 TEST(FitMirror, PassesOverPointsThatLieElsewhere) {
   RandomCloud random(7);
   for (const auto& mirror : drawn_mirrors(random)) {

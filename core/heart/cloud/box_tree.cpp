@@ -85,7 +85,7 @@ std::uint32_t BoxTree::add(std::uint32_t begin, std::uint32_t end,
       node.high[axis] = std::nextafter(node.high[axis], farthest);
     }
   } else {
-    // Where the highest bit changes in which the keys differ.
+    // Split at the highest bit in which the first and the last key differ.
     const std::uint64_t first = keys[begin], last = keys[end - 1];
     std::uint32_t middle = begin + (end - begin) / 2;
     if (first != last) {

@@ -13,10 +13,14 @@
 
 namespace symsurf {
 
-/// Boxes around points along a Z-order curve, halved where the highest bit of their keys changes
-/// (Lauterbach et al. 2009). Searches offer candidates to the caller, who decides about them and
-/// how far to look on; PointTree is what most callers want. Eight queries next to each other are
-/// fastest together.
+/// A limit that lets squared distances of up to this one pass: trees compare with "<", and sum
+/// bounds with rounding.
+inline double at_most(double squared) { return squared * (1 + 1e-12) + 1e-300; }
+
+/// A bounding volume hierarchy of points along a Z-order curve, split at the highest bit in which
+/// their keys differ (Lauterbach et al. 2009). Searches offer candidates to the caller, who decides
+/// about them and how far to look on; PointTree is what most callers want. Eight queries next to
+/// each other are fastest together.
 class BoxTree {
  public:
   static constexpr int lanes = 8;
@@ -40,10 +44,6 @@ class BoxTree {
               return squared < left ? offer(i, squared) : left;
             });
   }
-
-  /// A limit that lets squared distances of up to this one pass, which bounds are summed with
-  /// rounding beside.
-  static double at_most(double squared) { return squared * (1 + 1e-12) + 1e-300; }
 
   /// The same with a distance of the caller's: bound(low, high) is no more than its square anywhere
   /// in the box of these corners. Calls offer(i) of what lies in a leaf, unmeasured.

@@ -49,22 +49,6 @@ class KdTree {
     tree_.findNeighbors(results, query.data(), {});
   }
 
-  /// A limit that lets squared distances of up to this one pass: nanoflann compares with "<", and
-  /// sums bounds with rounding.
-  static double at_most(double squared) { return squared * (1 + 1e-12) + 1e-300; }
-
-  /// The same with a distance of the caller's: bound(low, high) is no more than its square anywhere
-  /// in the box of these corners. Calls offer(i) of what lies in a leaf, unmeasured.
-  template <typename Bound, typename Offer>
-  void search_boxes(const Bound& bound, double limit, const Offer& offer) const {
-    Part root{tree_.root_node, {}, {}};
-    for (int axis = 0; axis < dimension; ++axis) {
-      root.low[axis] = tree_.root_bbox[axis].low;
-      root.high[axis] = tree_.root_bbox[axis].high;
-    }
-    descend(root, bound, limit, offer);
-  }
-
  private:
   static constexpr std::size_t leaf_size = 16;  // points; of 4 to 24 the fastest up to 10^6 points
 
@@ -100,30 +84,6 @@ class KdTree {
   };
 
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<SquaredDistance, PointSource, dimension>;
-
-  struct Part {
-    const typename Tree::Node* node;
-    Point low, high;
-    double bound = 0;
-  };
-
-  template <typename Bound, typename Offer>
-  void descend(const Part& part, const Bound& bound, double& limit, const Offer& offer) const {
-    if (!part.node->child1) {
-      const auto& leaf = part.node->node_type.lr;
-      for (auto k = leaf.left; k < leaf.right; ++k) limit = offer(tree_.vAcc[k]);
-      return;
-    }
-    const auto& split = part.node->node_type.sub;
-    Part first{part.node->child1, part.low, part.high},
-        second{part.node->child2, part.low, part.high};
-    first.high[split.divfeat] = split.divlow;
-    second.low[split.divfeat] = split.divhigh;
-    for (Part* child : {&first, &second}) child->bound = bound(child->low, child->high);
-    if (second.bound < first.bound) std::swap(first, second);
-    for (const Part* child : {&first, &second})
-      if (child->bound <= limit) descend(*child, bound, limit, offer);
-  }
 
   PointSource points_;
   Tree tree_;
@@ -209,8 +169,8 @@ class PointTree {
   void search(const Vector3& query, double limit, const Offer& offer) const {
     const Vector3 q = query - origin_;
     if (!tree_ || !q.allFinite()) return;
-    tree_->search(q, Tree::at_most(limit), [&](std::uint32_t node, double squared) {
-      return Tree::at_most(offer(begin(node), begin(node + 1), squared));
+    tree_->search(q, at_most(limit), [&](std::uint32_t node, double squared) {
+      return at_most(offer(begin(node), begin(node + 1), squared));
     });
   }
 

@@ -114,7 +114,7 @@ class Counterparts {
                const Context& context, HomologousMatcher homologous = nullptr);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
-  /// Of the points that the operation is done to, as report() has it.
+  /// How many points of the shape have a counterpart, without those of a second shape.
   Index matched() const { return matched_; }
 
   /// 0 to 1: the cosine between the normals, halved where the closest image of a point is a spacing

@@ -38,6 +38,7 @@ Partners find_partners(PointsView points, const PointTree& tree, const Mirror& m
   const std::vector<std::int32_t>& order = tree.order();
   parallel_for(context, static_cast<Index>(order.size()), grain, [&](Index begin, Index end) {
     std::vector<Vector3> images;
+    images.reserve(end - begin);
     for (Index p = begin; p < end; ++p) {
       if (p + ahead < end) prefetch(points, order[p + ahead]);
       images.push_back(mirror.reflect(points[order[p]]));

@@ -67,8 +67,8 @@ class MirrorScore {
   /// says; of every `stride`-th.
   std::vector<PointFit> point_fits(const Eigen::Isometry3d& map, Index stride = 1) const;
 
-  /// Of a map that lays the cloud on another, which moves every sample, between their principal
-  /// frames, of one size.
+  /// How well a map lays the cloud on another: it maps one principal frame to the other, both of
+  /// one size, and moves every sample.
   MirrorFit fit(const Eigen::Isometry3d& map, const MirrorScore& onto, Index stride = 1) const;
   /// Whether it does so better than the same one turned and shifted, 0..1.
   double evidence(const Eigen::Isometry3d& map, const MirrorScore& onto) const;

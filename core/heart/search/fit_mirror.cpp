@@ -94,24 +94,14 @@ std::shared_ptr<Mirror> plane_of(const PointsOfMirror& points) {
   return std::make_shared<Plane>(plane.normal, plane.offset);
 }
 
-// |x|^2 + b . x + c = 0 by least squares (Kasa 1976), then geometrically.
+// By algebraic least squares, then geometrically.
 std::shared_ptr<Mirror> sphere_of(const PointsOfMirror& points) {
   constexpr double flattest = 1e-6;  // diagonals, one over the radius
-  Matrix4 products = Matrix4::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  for (const Vector3& x : points.all) {
-    const Eigen::Vector4d one(x.x(), x.y(), x.z(), 1);
-    products += one * one.transpose();
-    right -= x.squaredNorm() * one;
-  }
-  const Eigen::Vector4d b = solved(products, right);
-  const Vector3 centre = -b.head<3>() / 2;
-  const double squared = centre.squaredNorm() - b[3];
+  const Eigen::Vector4d round = sphere_through(rows_of(points.all));
   std::vector<UnitSphere> starts{{Vector3::Zero(), Vector3::UnitZ(), 0}};
-  if (centre.allFinite() && squared > 0 && centre.norm() > double_rounding) {
-    const Vector3 normal = -centre.normalized();
-    starts.push_back({centre + std::sqrt(squared) * normal, normal, 1 / std::sqrt(squared)});
-  }
+  if (round.allFinite() && round[3] > 0)
+    starts.push_back(
+        {round.head<3>() + round[3] * Vector3::UnitX(), Vector3::UnitX(), 1 / round[3]});
   UnitSphere best;
   double most = -infinity;
   for (const UnitSphere& start : starts) {
@@ -143,22 +133,16 @@ std::shared_ptr<Mirror> cylinder_of(const PointsOfMirror& points) {
     bends.values.cwiseAbs().minCoeff(&least);
     axes.emplace_back(bends.vectors.col(least));
   }
+  const Points all = rows_of(points.all);
   std::shared_ptr<Mirror> best;
   double most = -infinity;
   for (const Vector3& axis : axes) {
-    Matrix3 products = Matrix3::Zero();
-    Vector3 right = Vector3::Zero();
-    for (const Vector3& x : points.all) {
-      const Vector3 flat(across(axis, 0).dot(x), across(axis, 1).dot(x), 1);
-      products += flat * flat.transpose();
-      right -= flat.head<2>().squaredNorm() * flat;
-    }
-    const Vector3 b = solved(products, right);
-    const Vector3 middle = -(b[0] * across(axis, 0) + b[1] * across(axis, 1)) / 2;
-    const double squared = middle.squaredNorm() - b[2];
-    if (!middle.allFinite() || !(squared > 0)) continue;
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << across(axis, 0), across(axis, 1);
+    const Vector3 round = sphere_through(all * sides);
+    if (!round.allFinite() || !(round[2] > 0)) continue;
     const UnitCylinder found =
-        points.fitted_through(UnitCylinder{middle, axis, std::sqrt(squared)});
+        points.fitted_through(UnitCylinder{sides * round.head<2>(), axis, round[2]});
     if (!(found.radius < 1 / single_rounding)) continue;
     const auto mirror = std::make_shared<Cylinder>(found.point, found.axis, found.radius);
     const double fits = nats(points.distances(*mirror), 0);

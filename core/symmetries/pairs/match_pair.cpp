@@ -238,9 +238,8 @@ void require_like_sizes(double left, double right) {
 
 // Empty: they are a pair.
 std::string reason_against(double score, double evidence, double minimum_score) {
-  // Of the pairs of "make accuracy" right placements have 0.42 at least, where a third of a bone is
-  // missing of both, those of no pair 0.38 at most, but for bones that differ by little more than
-  // the noise.
+  // In "make accuracy" right placements have 0.42 at least (a third of both bones missing), shapes
+  // that are no pair 0.38 at most, except bones that differ by little more than the noise.
   constexpr double least_evidence = 0.4;
   const auto digits = [](double x) { return to_string(Value(std::floor(1e4 * x) / 1e4)); };
   if (score < minimum_score)

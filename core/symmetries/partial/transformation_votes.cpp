@@ -308,8 +308,7 @@ std::vector<TransformationVote> transformation_votes(const ThinnedSurface& surfa
         const double apart = (all.point(found[other].point) - all.point(disc.point)).norm();
         if (apart > disc.signature.radius)
           keep_best(likest, looked_at, Neighbour{static_cast<Index>(other), squared});
-        return likest.size() < looked_at ? infinity
-                                         : Invariants::at_most(likest.back().squared_distance);
+        return likest.size() < looked_at ? infinity : at_most(likest.back().squared_distance);
       });
       suppress_non_maxima(likest, alike, [&](const Neighbour& a, const Neighbour& b) {
         const Vector3 x = all.point(found[a.index].point), y = all.point(found[b.index].point);
@@ -370,9 +369,9 @@ std::vector<VoteCluster> vote_clusters(const std::vector<TransformationVote>& vo
   // Epanechnikov's kernel; visit(vote, its value).
   const auto around = [&](Place at, const auto& visit) {
     for (int side = 0; side < 2; ++side) {  // every turn has two quaternions
-      space.search(at, Space::at_most(1), [&](std::uint32_t k, double squared) {
+      space.search(at, at_most(1), [&](std::uint32_t k, double squared) {
         if (squared < 1) visit(static_cast<Index>(k), 1 - squared);
-        return Space::at_most(1);
+        return at_most(1);
       });
       at.head<4>() *= -1;
     }

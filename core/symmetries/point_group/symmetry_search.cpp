@@ -566,7 +566,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     found = exact_symmetries(cloud, deviation, is_cloud, options.tolerance, running.stage(0, 0.1));
     const bool is_exact = accepts(found) && found.elements.size() > 1;
     constexpr Index least_searched = 30;  // points: fewer show no surface
-    if (is_cloud ? !is_exact && cloud.points.size() >= least_searched : true) {
+    if (!is_cloud || (!is_exact && cloud.points.size() >= least_searched)) {
       done = 1;
       Symmetries searched = search_symmetries(cloud, options.minimum_score, options.tolerance > 0,
                                               accepts, running.stage(0.1, 1));
