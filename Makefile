@@ -83,11 +83,12 @@ fuzz:
 	@.ci/fuzz $(SECONDS)
 
 bench:
-	@.ci/setup benchmarks paraview python python_tests
+	@.ci/setup benchmarks paraview python python_tests compare
 	@cmake --build build/benchmarks --target bench
 	@tests/benchmarks/vtk/run.sh
 	@build/venv/bin/python tests/benchmarks/batch.py
 	@build/venv/bin/python tests/benchmarks/chunks.py --powers 6 7 --workers 7
+	@cd tests && ../build/compare/bin/python -m benchmarks.compare.speed
 
 # A quarter of an hour on two cores; OPTIONS=--all runs five times as many trials, OPTIONS="--cases
 # fixed --seeds 2" asks for less, OPTIONS=--help tells what there is.

@@ -13,7 +13,7 @@ namespace symsurf {
 namespace {
 
 const std::vector<OperationImplementation>& operation_implementations() {
-  static constexpr Matchers matchers{homologous_points, topological_pairs, vertex_pairs};
+  static const Matchers matchers{homologous_points, topological_pairs, vertex_pairs};
   static const std::vector<OperationImplementation> all{asymmetry_operation(matchers),
                                                         correspondences_operation(matchers),
                                                         align_operation(),

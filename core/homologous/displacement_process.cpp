@@ -24,9 +24,9 @@ constexpr double correlation_length = 0.12;
 constexpr double affine_deviation = 0.85;
 constexpr double amplitude = 1.2;      // over the root mean square of the normal parts
 constexpr double least_scale = 1e-12;  // diagonals
-// Of the deviations: errors are then about one of them, 0.7 to 1.4 in the median of each of the
+// Of the deviations: errors are then about one of them, 0.5 to 1.4 in the median of each of the
 // bodies of `make accuracy OPTIONS="--cases homologous --seeds 8"`.
-constexpr double calibration = 0.75;
+constexpr double calibration = 0.85;
 // Of an observation.
 constexpr double noise = 0.09;
 constexpr double large_error = 4;  // noises: it counts a quarter

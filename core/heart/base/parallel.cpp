@@ -14,17 +14,18 @@ namespace {
 
 constexpr std::chrono::milliseconds patience{20};
 
-}  // namespace
+thread_local bool shares_threads = false;  // whether this one runs a body beside others
 
-void parallel_for(const Context& context, Index count, Index grain,
-                  const std::function<void(Index, Index)>& body) {
+void run(const Context& context, Index count, Index grain,
+         const std::function<void(Index, Index)>& body, bool is_silent) {
   const Index chunks = (count + grain - 1) / grain;
   std::atomic<Index> next{0};
   std::atomic<bool> stop{false};
   std::exception_ptr failure;
   std::mutex mutex;
   std::condition_variable ended;
-  const Index threads = std::min<Index>(context.threads(), chunks);
+  const bool is_nested = shares_threads;
+  const Index threads = is_nested ? 1 : std::min<Index>(context.threads(), chunks);
   Index at_work = threads - 1;  // beside the calling thread
 
   const auto or_failure = [&](const auto& part) {
@@ -36,11 +37,16 @@ void parallel_for(const Context& context, Index count, Index grain,
       stop = true;
     }
   };
-  const auto work = [&](bool reports) {
+  const bool reports = !is_silent && !is_nested;
+  const auto work = [&](bool is_caller) {
+    shares_threads = is_nested || threads > 1;
     for (Index chunk; !stop && (chunk = next++) < chunks;) {
       body(chunk * grain, std::min(count, (chunk + 1) * grain));
+      if (!is_caller) continue;
       if (reports && chunk + 1 < chunks)
         context.report(static_cast<double>(chunk + 1) / static_cast<double>(chunks));
+      else
+        context.check();
     }
   };
   const auto help = [&] {
@@ -72,8 +78,21 @@ void parallel_for(const Context& context, Index count, Index grain,
     wait();
   });
   for (std::thread& helper : helpers) helper.join();
+  shares_threads = is_nested;
   if (failure) std::rethrow_exception(failure);
-  context.report(1);  // whichever thread had the last chunk
+  if (reports) context.report(1);  // whichever thread had the last chunk
+}
+
+}  // namespace
+
+void parallel_for(const Context& context, Index count, Index grain,
+                  const std::function<void(Index, Index)>& body) {
+  run(context, count, grain, body, false);
+}
+
+void silent_parallel_for(const Context& context, Index count, Index grain,
+                         const std::function<void(Index, Index)>& body) {
+  run(context, count, grain, body, true);
 }
 
 }  // namespace symsurf

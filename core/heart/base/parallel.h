@@ -12,9 +12,14 @@ namespace symsurf {
 /// Calls body(begin, end) on consecutive chunks of `grain` items. The chunks do not depend on the
 /// number of threads, so neither do results made chunk by chunk. Reports and cancels through the
 /// context, on the calling thread, after each of its chunks: a body that takes long calls
-/// Context::check() as well. An exception of the body is rethrown here.
+/// Context::check() as well. An exception of the body is rethrown here. Within a body that shares
+/// the threads a further call runs where it is, without reports.
 void parallel_for(const Context& context, Index count, Index grain,
                   const std::function<void(Index begin, Index end)>& body);
+
+/// The same without reports, for short parts of what reports as a whole.
+void silent_parallel_for(const Context& context, Index count, Index grain,
+                         const std::function<void(Index begin, Index end)>& body);
 
 /// Calls body(i) for i of 0 up to count in turn, asking after every `stretch` whether to go on. On
 /// any thread.

@@ -7,6 +7,7 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "base/parallel.h"
 
 namespace symsurf {
 
@@ -203,12 +204,13 @@ BentPlane::Foot BentPlane::foot(const Vector3& x, At at) const {
 
 // Of the nearest points the one whose normal fits as well: across a thin part lies its other side.
 Neighbour BentPlane::partner_of(const Vector3& image, const Vector3& normal, double tolerance,
-                                double reach) {
+                                double reach) const {
   constexpr Index nearest = 6;
-  cloud_->tree.nearest(image, std::min(nearest, cloud_->size()), near_);
+  static thread_local std::vector<Neighbour> near;
+  cloud_->tree.nearest(image, std::min(nearest, cloud_->size()), near);
   Neighbour best{-1, 0};
   double least = infinity;
-  for (const Neighbour& other : near_) {
+  for (const Neighbour& other : near) {
     if (other.squared_distance > reach * reach) break;
     const double cosine = cloud_->normal(other.index).dot(normal);
     const double cost = other.squared_distance + tolerance * tolerance * (1 - cosine * cosine);
@@ -219,7 +221,7 @@ Neighbour BentPlane::partner_of(const Vector3& image, const Vector3& normal, dou
   return best;
 }
 
-std::optional<BentPlane::Equation> BentPlane::equation_of(Index i, double tolerance) {
+BentPlane::Equation BentPlane::equation_of(Index i, double tolerance) {
   constexpr double farthest = 3;  // tolerances
   constexpr double least_cosine = 0.6;
   const Vector3 x = to_frame(cloud_->point(i));
@@ -228,50 +230,55 @@ std::optional<BentPlane::Equation> BentPlane::equation_of(Index i, double tolera
   const double distance = foot.normal.dot(x - foot.position);
   // Near the mirror a point's neighbours are its image's, wherever the mirror is.
   const double moved = std::clamp(std::abs(distance) / (1.5 * cloud_->spacing) - 0.5, 0.0, 1.0);
-  if (moved == 0) return std::nullopt;
+  if (moved == 0) return {};
   const Vector3 image = x - 2 * distance * foot.normal;
   const double reach = farthest * tolerance;
   const Vector3 normal = axes_ * cloud_->normal(i);
   const Vector3 turned = normal - 2 * foot.normal.dot(normal) * foot.normal;
   const Neighbour near =
       partner_of(axes_.transpose() * image + origin_, axes_.transpose() * turned, tolerance, reach);
-  if (near.index < 0) return std::nullopt;
+  if (near.index < 0) return {};
   const Vector3 partner = axes_ * cloud_->normal(near.index);
   const double cosine = std::abs(partner.dot(turned));
-  if (cosine < least_cosine) return std::nullopt;
+  if (cosine < least_cosine) return {};
 
   // Raising the mirror by q at the foot moves the image by 2 q n, tilting it by grad q by
   // 2 d grad q.
-  Equation equation{heights_.weights(foot.at), {}, 0, 0};
+  const Weights at = heights_.weights(foot.at);
+  Equation equation{at.index, {}};
   const At slope = -foot.normal.head<2>() / foot.normal.z();
   const At slopes = along_surface(slope, partner.head<2>() + partner.z() * slope);
-  equation.row = 2 / foot.slant *
-                 (partner.dot(foot.normal) * equation.at.h +
-                  distance * (slopes.x() * equation.at.u + slopes.y() * equation.at.v));
+  equation.row =
+      2 / foot.slant *
+      (partner.dot(foot.normal) * at.h + distance * (slopes.x() * at.u + slopes.y() * at.v));
   equation.miss = partner.dot(to_frame(cloud_->point(near.index)) - image);
   const double far = near.squared_distance / (tolerance * tolerance);
   equation.weight = moved * cosine * cosine / ((1 + far) * (1 + far));
   return equation;
 }
 
-void BentPlane::step(double tolerance, double stiffness, Index stride) {
+void BentPlane::step(double tolerance, double stiffness, Index stride, const Context& context) {
+  constexpr Index grain = 64;  // points that a thread takes at a time
+  std::vector<Equation> equations((cloud_->size() + stride - 1) / stride);
+  silent_parallel_for(context, static_cast<Index>(equations.size()), grain,
+                      [&](Index begin, Index end) {
+                        for (Index k = begin; k < end; ++k)
+                          equations[k] = equation_of(cloud_->tree.order()[k * stride], tolerance);
+                      });
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(heights_.size(), heights_.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(heights_.size());
   double total = 0;
-  Index sampled = 0;
-  for (Index p = 0; p < cloud_->size(); p += stride, ++sampled) {
-    const auto equation = equation_of(cloud_->tree.order()[p], tolerance);
-    if (!equation) continue;
-    total += equation->weight;
+  for (const auto& [index, row, miss, weight] : equations) {
+    if (weight == 0) continue;
+    total += weight;
     const Eigen::Matrix<double, Weights::count, Weights::count> products =
-        equation->weight * equation->row.transpose() * equation->row;
-    const auto& index = equation->at.index;
+        weight * row.transpose() * row;
     for (int a = 0; a < Weights::count; ++a) {
-      right[index[a]] += equation->weight * equation->miss * equation->row[a];
+      right[index[a]] += weight * miss * row[a];
       for (int b = 0; b < Weights::count; ++b) matrix(index[a], index[b]) += products(a, b);
     }
   }
-  support_ = total / static_cast<double>(sampled);
+  support_ = total / static_cast<double>(equations.size());
   if (total == 0) return;
   const Eigen::MatrixXd energy = stiffness * energy_;
   const Eigen::VectorXd change =

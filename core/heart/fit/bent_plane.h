@@ -1,11 +1,11 @@
 #pragma once
 
+#include <symsurf/context.h>
 #include <symsurf/mirrors.h>
 #include <symsurf/points.h>
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "cloud/surface_points.h"
@@ -81,7 +81,7 @@ class BentPlane {
   /// One Gauss-Newton step on the points of every `stride`-th position of the tree's order: images
   /// are drawn to the tangent planes of their partners, against the variation of curvature times
   /// `stiffness`. Partners farther than `tolerance` weigh little.
-  void step(double tolerance, double stiffness, Index stride);
+  void step(double tolerance, double stiffness, Index stride, const Context& context);
 
   void subdivide();
 
@@ -104,15 +104,17 @@ class BentPlane {
   // Of least squares: how far a point's image is off its partner's tangent plane, and by how much
   // each coefficient that reaches the foot moves it.
   struct Equation {
-    HeightSpline::Weights at;
+    std::array<Index, HeightSpline::Weights::count> coefficients;
     HeightSpline::Weights::Row row;
-    double miss, weight;
+    double miss = 0, weight = 0;
   };
 
   Vector3 to_frame(const Vector3& x) const { return axes_ * (x - origin_); }
   Foot foot(const Vector3& x, HeightSpline::At from) const;
-  Neighbour partner_of(const Vector3& image, const Vector3& normal, double tolerance, double reach);
-  std::optional<Equation> equation_of(Index i, double tolerance);
+  Neighbour partner_of(const Vector3& image, const Vector3& normal, double tolerance,
+                       double reach) const;
+  // Of a point, whose foot it moves; without weight where its image has no partner.
+  Equation equation_of(Index i, double tolerance);
 
   const SurfacePoints* cloud_;
   Vector3 origin_;
@@ -121,7 +123,6 @@ class BentPlane {
   Eigen::MatrixXd energy_;              // theirs
   std::vector<HeightSpline::At> feet_;  // of the points, as they were last
   double support_ = 0;
-  std::vector<Neighbour> near_;  // of the last image
 };
 
 }  // namespace symsurf

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "fit/shapes.h"
 #include "pairing/correspondence.h"
 
@@ -79,26 +80,32 @@ void suppress_non_maxima(const Surfels& surfels, std::vector<Candidate<Shape>>& 
 template <typename Shape>
 std::vector<Candidate<Shape>> best_of(const std::vector<Shape>& hypotheses, const Surfels& surfels,
                                       const SurfelMap& map, Index count, const Context& context) {
+  constexpr Index grain = 32;  // mirrors that a thread takes at a time
   constexpr Index glance = 8, first_look = 24, second_look = 120;  // surfels tried on
   constexpr double tolerance = 0.03, least_explained = 0.15;
   constexpr std::size_t first_count = 1500, second_count = 300;
   const auto stride = [&](Index wanted) { return std::max<Index>(1, surfels.size() / wanted); };
   std::vector<Candidate<Shape>> found;
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    if (i % 256 == 0) context.check();
-    const Shape& shape = hypotheses[i];
-    if (support_share(surfels, map, shape, tolerance, stride(glance)) < least_explained) continue;
-    const double support = support_share(surfels, map, shape, tolerance, stride(first_look));
-    if (support > least_explained) found.push_back({shape, support});
-  }
+  std::vector<double> supports(hypotheses.size());
+  silent_parallel_for(
+      context, static_cast<Index>(hypotheses.size()), grain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          supports[i] = support_share(surfels, map, hypotheses[i], tolerance, stride(glance));
+          if (supports[i] >= least_explained)
+            supports[i] = support_share(surfels, map, hypotheses[i], tolerance, stride(first_look));
+        }
+      });
+  for (std::size_t i = 0; i < hypotheses.size(); ++i)
+    if (supports[i] > least_explained) found.push_back({hypotheses[i], supports[i]});
   sort_best_first(found);
   found.resize(std::min(found.size(), first_count));
   suppress_non_maxima(surfels, found, 0.04, second_count);
-  for (Candidate<Shape>& candidate : found) {
-    context.check();
-    candidate.support =
-        support_share(surfels, map, candidate.shape, tolerance, stride(second_look));
-  }
+  silent_parallel_for(
+      context, static_cast<Index>(found.size()), grain, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i)
+          found[i].support =
+              support_share(surfels, map, found[i].shape, tolerance, stride(second_look));
+      });
   suppress_non_maxima(surfels, found, 0.06, count);
   return found;
 }

@@ -202,6 +202,7 @@ std::vector<Shape> hypotheses_of_pairs(const Surfels& surfels, std::uint64_t see
   constexpr double shortest_chord = 0.05;
   constexpr double longest_chord = 1.9;   // radii
   constexpr double facing_cosine = 0.88;  // 28 degrees
+  constexpr std::size_t most = 100000;    // where no normals choose among them
   std::vector<Shape> shapes;
   const auto adds_mirror = [&](const Surfel& a, const Surfel& b) {
     context.check();
@@ -225,7 +226,7 @@ std::vector<Shape> hypotheses_of_pairs(const Surfels& surfels, std::uint64_t see
   }
   Random random(seed);
   Index found = 0;
-  for (Index trial = 0; trial < tried && found < kept; ++trial) {
+  for (Index trial = 0; trial < tried && found < kept && shapes.size() < most; ++trial) {
     const Surfel& a = surfels[random.below(count)];
     const Surfel& b = surfels[random.below(count)];
     found += adds_mirror(a, b);

@@ -86,7 +86,7 @@ Vector3 mapped_normal(const SymmetryMap& map, const Vector3& x, const Vector3& i
 
 Counterparts::Counterparts(const OperationInput& input, const SymmetryMap& map,
                            const Limits& limits, const Context& context,
-                           HomologousMatcher homologous)
+                           const HomologousMatcher& homologous)
     : map_(map),
       limits_(limits),
       is_homologous_(homologous != nullptr),

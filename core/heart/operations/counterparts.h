@@ -4,6 +4,7 @@
 #include <symsurf/operations.h>
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -67,8 +68,9 @@ struct HomologousPoints {
 };
 
 /// Finds them. `images`: of the points, NaN where there are none.
-using HomologousMatcher = HomologousPoints (*)(const OperationInput& input, const SymmetryMap& map,
-                                               PointsView images, const Context& context);
+using HomologousMatcher =
+    std::function<HomologousPoints(const OperationInput& input, const SymmetryMap& map,
+                                   PointsView images, const Context& context)>;
 
 /// Those of a satellite.
 struct Matchers {
@@ -111,7 +113,7 @@ class Counterparts {
   /// `homologous` finds.
   /// Throws InvalidInput where the mirror has images for less than half of the points.
   Counterparts(const OperationInput& input, const SymmetryMap& map, const Limits& limits,
-               const Context& context, HomologousMatcher homologous = nullptr);
+               const Context& context, const HomologousMatcher& homologous = nullptr);
 
   const Counterpart& operator[](Index i) const { return all_[i]; }
   /// How many points of the shape have a counterpart, without those of a second shape.

@@ -84,6 +84,9 @@ class Symmetrization {
     if (keep_pairs && vertex_pairs_) {
       told.emplace(input, mirror_, limits_, context.stage(0.4, 0.8), vertex_pairs_);
       if (!mirrors_vertices(*told) || !agree(asked, *told)) told.reset();
+      // Points move, triangles do not.
+      if (told) matcher_ = [pairs = *told->homologous()](const auto&...) { return pairs; };
+      vertex_pairs_ = nullptr;
     }
     const Counterparts& found = told ? *told : asked;
     if (paired_.size() == 0) {
@@ -113,7 +116,7 @@ class Symmetrization {
   const OperationInput& input_;
   const Mirror& mirror_;
   const Counterparts::Limits limits_;
-  const HomologousMatcher matcher_, vertex_pairs_;  // null: the closest points
+  HomologousMatcher matcher_, vertex_pairs_;  // null: the closest points
   double on_mirror_;
   Eigen::VectorXd paired_;
   Values unmatched_;

@@ -11,6 +11,7 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "base/parallel.h"
 #include "cloud/principal_frame.h"
 #include "pairing/correspondence.h"
 #include "score/mirror_sides.h"
@@ -135,7 +136,7 @@ std::vector<std::vector<Eigen::Isometry3d>> chance_motions(const std::vector<Poi
 }  // namespace
 
 MirrorScore::MirrorScore(const Cloud& cloud, const Context& context)
-    : cloud_(cloud), surface_(cloud, sample_count, context.stage(0, 0.8)) {
+    : cloud_(cloud), context_(context), surface_(cloud, sample_count, context.stage(0, 0.8)) {
   if (cloud.vertices) mesh_.emplace(*cloud.vertices, context.stage(0.8, 1));
 }
 
@@ -208,13 +209,22 @@ template <typename Image>
 std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index stride,
                                               const SampledSurface& onto,
                                               MirrorSides* sides) const {
+  constexpr Index grain = 64;  // samples that a thread takes at a time
   const bool is_other = &onto != &surface_;
+  const Index looked_at = (surface_.size() + stride - 1) / stride;
+  std::vector<ImagePoint> all(looked_at);
+  silent_parallel_for(context_, looked_at, grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const SampledSurface::Sample& sample = surface_[i * stride];
+      all[i] = image_of({sample.position, sample.facet.normal});
+    }
+  });
   std::vector<std::pair<Index, ImagePoint>> images;
   std::vector<PointFit> fits;
   std::vector<double> distances{0};
   for (Index k = 0; k < surface_.size(); k += stride) {
     const SampledSurface::Sample& sample = surface_[k];
-    const ImagePoint image = image_of({sample.position, sample.facet.normal});
+    const ImagePoint& image = all[k / stride];
     if (!image.position.allFinite() || !image.normal.allFinite()) {
       fits.push_back({k, sample.ceiling, 0, sample.ceiling});
       continue;
@@ -226,10 +236,16 @@ std::vector<PointFit> MirrorScore::point_fits(const Image& image_of, Index strid
   }
   const double thin =
       std::max(moved_by_extent * quantile(distances, 0.95), moved_by_tolerance * cloud_.tolerance);
+  std::vector<SampledSurface::Landing> landings(images.size());
+  silent_parallel_for(context_, static_cast<Index>(images.size()), grain,
+                      [&](Index begin, Index end) {
+                        for (Index i = begin; i < end; ++i)
+                          landings[i] = onto.landing(surface_[images[i].first], images[i].second);
+                      });
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto& [k, image] = images[i];
     const SampledSurface::Sample& sample = surface_[k];
-    const SampledSurface::Landing landing = onto.landing(sample, image);
+    const SampledSurface::Landing& landing = landings[i];
     PointFit fit{k, 1, 1, 0, 0, landing.exact, image.position};
     if (!landing.exact) fit.residual = landing.residual;
     fit.normal = landing.facet.normal;

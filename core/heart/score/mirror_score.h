@@ -58,7 +58,7 @@ struct PointFit {
 /// counts 1 in both, as all do of a mesh that the mirror maps onto itself.
 class MirrorScore {
  public:
-  /// The cloud must outlive the score, and keep its tree.
+  /// The cloud must outlive the score, and keep its tree. Its loops use the context's threads.
   MirrorScore(const Cloud& cloud, const Context& context);
 
   /// Of every `stride`-th sample: a third are enough to rank mirrors, a ninth while they are rough.
@@ -115,6 +115,7 @@ class MirrorScore {
   void add_sides(const PointFit& fit, Index partner, MirrorSides& sides) const;
 
   const Cloud& cloud_;
+  Context context_;
   SampledSurface surface_;
   std::optional<MeshSymmetry> mesh_;
 };

@@ -5,6 +5,7 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "base/parallel.h"
 #include "cloud/surfels.h"
 
 namespace symsurf {
@@ -62,6 +63,7 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
                              context.stage(0.5, 1))),
       positions_(points_of(patches_)),
       sample_tree_(positions_) {
+  constexpr Index grain = 64;  // samples that a thread takes at a time
   struct Own {
     LocalFacet other;
     double residual, third;
@@ -72,10 +74,10 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
   is_noisy_ = SurfaceNoise(on_surface,
                            neighbours_of(on_surface, cloud.frame, NearestPoints(cloud, context)))
                   .shows();
-  std::vector<Own> own;
-  double flatness = 0, patch_flatness = 0;
-  for (Index k = 0; k < positions_.rows(); ++k) {
-    Sample sample{};
+  std::vector<Own> own(positions_.rows());
+  samples_.resize(positions_.rows());
+  const auto look_at = [&](Index k) {
+    Sample& sample = samples_[k];
     sample.position = positions_.row(k).transpose();
     std::vector<Neighbour> others = neighbours(sample.position, 2 * in_plane + 1);
     others.erase(others.begin());  // itself
@@ -85,10 +87,15 @@ SampledSurface::SampledSurface(const Cloud& cloud, Index count, const Context& c
     const LocalFacet other = facet(others, 1);
     if (is_noisy_) sample.above = sample.facet.above(sample.position);
     const Vector3 smoothed = sample.position - sample.above * sample.facet.normal;
-    own.push_back({other, other.above(smoothed), third_of(others)});
+    own[k] = {other, other.above(smoothed), third_of(others)};
+  };
+  silent_parallel_for(context, size(), grain, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) look_at(k);
+  });
+  double flatness = 0, patch_flatness = 0;
+  for (const Sample& sample : samples_) {
     flatness += sample.facet.flatness;
     patch_flatness += sample.patch.flatness;
-    samples_.push_back(sample);
   }
   for (Index k = 0; k < size(); ++k) {
     std::vector<double> squares, thirds;

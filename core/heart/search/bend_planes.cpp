@@ -71,7 +71,8 @@ void bend(const SearchCloud& search, int from, int to, Index points, BentPlane& 
     if (is_finer(stage)) plane.subdivide();
     const double part = stage / (stages - 1.0);
     const double tolerance = tolerance_at(part, search.tolerance());
-    for (int k = 0; k < steps_a_stage; ++k) plane.step(tolerance, stiffness_at(part), stride);
+    for (int k = 0; k < steps_a_stage; ++k)
+      plane.step(tolerance, stiffness_at(part), stride, search.context);
   }
 }
 

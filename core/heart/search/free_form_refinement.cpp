@@ -6,10 +6,12 @@
 
 #include "base/linear_algebra.h"
 #include "base/math.h"
+#include "base/parallel.h"
 #include "search/perpendicular.h"
 
 namespace symsurf::perpendicular {
 namespace {
+constexpr Index grain = 64;          // points or patches that a thread takes at a time
 constexpr double exact_miss = 0.25;  // spacings
 // Of the partners found. Where single points are missing fewer are exact, and the others say more
 // about the mirror than a surface would that goes only where partners are.
@@ -98,27 +100,31 @@ std::shared_ptr<FreeForm> fitted(const SearchCloud& cloud, const std::vector<Car
     centres.row(static_cast<Index>(k)) = feet.row(nodes[k]);
   const PointTree centre_tree(centres);
 
-  std::vector<Patch> patches;
-  std::vector<Neighbour> found;
-  std::vector<Carried> data;
-  for (const Index node : nodes) {
-    cloud.context.check();
-    const Carried& own = carried[node];
+  // Of each node; of no radius where its data determine none.
+  std::vector<Patch> patches(nodes.size());
+  const auto fit_at = [&](std::size_t k) {
+    std::vector<Neighbour> found;
+    const Carried& own = carried[nodes[k]];
     tree.nearest(own.foot, std::min<Index>(smoothing.neighbours, feet.rows()), found);
     FitWeights weights;
     weights.radius = 1.1 * std::sqrt(found.back().squared_distance) + 1e-6;
     weights.along = smoothing.along;
     weights.robust_scale = smoothing.robust_scale;
-    data.clear();
+    std::vector<Carried> data;
     for (const Neighbour& other : found) data.push_back(carried[other.index]);
-    if (median_miss(data) > smoothing.most_missed) continue;
+    if (median_miss(data) > smoothing.most_missed) return;
     Patch patch;
-    if (!fit_patch(own.foot, own.normal, data, weights, patch)) continue;
+    if (!fit_patch(own.foot, own.normal, data, weights, patch)) return;
     centre_tree.nearest(own.foot, std::min<Index>(8, centres.rows()), found);
     patch.radius = std::max(2.2 * apart, std::sqrt(found.back().squared_distance));
     patch.radius = std::min(patch.radius, 8 * apart);
-    patches.push_back(patch);
-  }
+    patches[k] = patch;
+  };
+  silent_parallel_for(cloud.context, static_cast<Index>(nodes.size()), grain,
+                      [&](Index begin, Index end) {
+                        for (Index k = begin; k < end; ++k) fit_at(k);
+                      });
+  std::erase_if(patches, [](const Patch& patch) { return !(patch.radius > 0); });
   if (patches.size() < 3) return nullptr;
   return std::make_shared<FreeForm>(std::move(patches));
 }
@@ -176,28 +182,40 @@ void match(const SearchCloud& cloud, const FootOf& foot_of, GrownSurface& surfac
   surface.carried.clear();
   surface.points.clear();
   surface.partners.clear();
-  std::vector<double> misses;
-  for (Index p = 0; p < cloud.size(); ++p) {
-    cloud.context.check();
+  struct Carry {
+    Carried carried;
+    std::int32_t partner = -1;
+  };
+  std::vector<Carry> all(cloud.size());
+  const auto carry = [&](Index p) {
     const Index i = cloud.tree.order()[p];
-    Carried c;
+    auto& [c, partner] = all[p];
     const Vector3 x = cloud.point(i);
-    if (!foot_of(x, c.foot, c.normal)) continue;
+    if (!foot_of(x, c.foot, c.normal)) return;
     c.distance = c.normal.dot(x - c.foot);
     const Vector3 image = x - 2 * c.distance * c.normal;
     const double farthest = reach(surface) * local_spacing(cloud, i);
     const Neighbour near = cloud.tree.nearest(image, farthest * farthest);
-    if (near.index < 0 || near.index == i) continue;
+    if (near.index < 0 || near.index == i) return;
     const Vector3 n = cloud.normal(i), other = cloud.normal(near.index);
     const double cosine = std::abs(other.dot(n - 2 * c.normal.dot(n) * c.normal));
     c.turned = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    if (c.turned > 0.75) continue;
+    if (c.turned > 0.75) return;
     c.miss = cloud.point(near.index) - image;
     c.partner_normal = cloud.normal(near.index);
+    partner = static_cast<std::int32_t>(near.index);
+  };
+  silent_parallel_for(cloud.context, cloud.size(), grain, [&](Index begin, Index end) {
+    for (Index p = begin; p < end; ++p) carry(p);
+  });
+  std::vector<double> misses;
+  for (Index p = 0; p < cloud.size(); ++p) {
+    const auto& [c, partner] = all[p];
+    if (partner < 0) continue;
     misses.push_back(c.miss.norm() / cloud.spacing);
     surface.carried.push_back(c);
-    surface.points.push_back(static_cast<std::int32_t>(i));
-    surface.partners.push_back(static_cast<std::int32_t>(near.index));
+    surface.points.push_back(cloud.tree.order()[p]);
+    surface.partners.push_back(partner);
   }
   if (misses.empty()) return;
   const auto exact =

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/parallel.h"
 #include "cloud/cloud.h"
 #include "fit/candidate.h"
 #include "fit/refinement.h"
@@ -54,18 +55,21 @@ class ParametricSearch {
     Candidates found = best_of_each_size(
         hypotheses_of_pairs<Shape>(surfels_, seed, pairs_tried, pairs_kept, Kind::through, context),
         Kind::radius, surfels_, map, started, context);
+    const auto replace = [&](const auto& step) {
+      silent_parallel_for(context, static_cast<Index>(found.size()), 1,
+                          [&](Index i, Index) { found[i] = step(found[i]); });
+    };
     const auto refine = [&](double widest, double narrowest, Index stride) {
-      for (Candidate<Shape>& candidate : found) {
-        context.check();
-        candidate = refined_on_surfels(surfels_, map, candidate, widest, narrowest, 4, stride);
-      }
+      replace([&](const Candidate<Shape>& candidate) {
+        return refined_on_surfels(surfels_, map, candidate, widest, narrowest, 4, stride);
+      });
     };
     refine(0.04, 0.02, 3);
     const Candidates planes = Kind::taken_planes(surfels_, map, found);
     suppress_non_maxima(surfels_, found, alike_shapes, started);
     refine(0.02, 0.012, 1);
     suppress_non_maxima(surfels_, found, alike_shapes, 2 * fitted_to_all);
-    for (Candidate<Shape>& candidate : found) candidate = kind_.fitted(candidate);
+    replace([&](const Candidate<Shape>& candidate) { return kind_.fitted(candidate); });
     for (const Candidate<Shape>& plane : planes)
       if (const auto fitted = kind_.fitted(plane); fitted.partnered > 0 || found.empty())
         found.push_back(fitted);

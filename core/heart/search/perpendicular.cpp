@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "cloud/voxel_grid.h"
 #include "pairing/matching.h"
 #include "score/mirror_score.h"
@@ -69,14 +70,20 @@ bool known(const SearchCloud& cloud, const Growth& growth, const GrownSurface& s
 // The first steps of at most so many growths from the best seeds, the closest fit first.
 std::vector<Growth> trials(const SearchCloud& cloud, const std::vector<Seed>& seeds,
                            std::size_t most) {
+  const std::vector<Seed> chosen = spread_out(cloud, seeds, most);
   std::vector<Growth> growths;
-  for (const Seed& seed : spread_out(cloud, seeds, most)) {
-    Growth growth(cloud, seed);
-    growth.grow(trial_points);
-    if (static_cast<Index>(growth.accepted().size()) < trial_points / 2) continue;
-    for (int k = 0; k < trial_refinements; ++k) growth.refine();
-    growths.push_back(std::move(growth));
-  }
+  for (const Seed& seed : chosen) growths.emplace_back(cloud, seed);
+  const auto is_long = [](const Growth& growth) {
+    return static_cast<Index>(growth.accepted().size()) >= trial_points / 2;
+  };
+  silent_parallel_for(cloud.context, static_cast<Index>(growths.size()), 1,
+                      [&](Index begin, Index) {
+                        Growth& growth = growths[begin];
+                        growth.grow(trial_points);
+                        if (!is_long(growth)) return;
+                        for (int k = 0; k < trial_refinements; ++k) growth.refine();
+                      });
+  std::erase_if(growths, [&](const Growth& growth) { return !is_long(growth); });
   std::stable_sort(growths.begin(), growths.end(),
                    [](const Growth& a, const Growth& b) { return a.closeness() > b.closeness(); });
   return growths;
@@ -173,7 +180,9 @@ Search search(const Cloud& cloud, Index sample_size, const Context& context) {
   if (!exact && !laid) bend_planes(cloud, search.cloud, bent, context.stage(0.63, 0.75));
   const double others = most_support(bent);
   explore(search.cloud, std::move(along), others, search.surfaces, context.stage(0.75, 0.8));
-  explore(search.cloud, std::move(across), others, search.surfaces, context.stage(0.8, 0.85));
+  // Others than exact ones meet by chance, and lose mirrors of sheets when they grow.
+  if (best_closeness(across) > close_as_exact)
+    explore(search.cloud, std::move(across), others, search.surfaces, context.stage(0.8, 0.85));
   std::move(bent.begin(), bent.end(), std::back_inserter(search.surfaces));
   refine_best(search.cloud, search.surfaces, context.stage(0.85, 1));
   return search;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/parallel.h"
 #include "cloud/principal_frame.h"
 #include "cloud/surfels.h"
 #include "fit/candidate.h"
@@ -50,10 +51,8 @@ void drop_far_below_best(std::vector<Candidate<Shape>>& candidates, double share
 /// Each by itself.
 template <typename Shape, typename Step>
 void improve(std::vector<Candidate<Shape>>& candidates, const Context& context, const Step& step) {
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i] = step(candidates[i]);
-    context.report(static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
-  }
+  parallel_for(context, static_cast<Index>(candidates.size()), 1,
+               [&](Index i, Index) { candidates[i] = step(candidates[i]); });
 }
 
 /// Fitted to the full cloud, and ranked by the share of it that they map. `first`: the fit of all
