@@ -5,6 +5,8 @@
 #include <string>
 #include <thread>
 
+#include "base/parallel.h"
+
 namespace symsurf {
 
 namespace {
@@ -40,6 +42,7 @@ Context::Context(Progress progress, int threads)
 }
 
 void Context::report(double fraction) const {
+  if (runs_beside_others()) return check();
   const bool ends = fraction <= 0 || fraction >= 1;
   if (progress_ && (ends || is_due())) notify(from_ + fraction * (to_ - from_));
 }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace symsurf {
 
@@ -14,7 +15,17 @@ namespace {
 
 constexpr std::chrono::milliseconds patience{20};
 
-thread_local bool shares_threads = false;  // whether this one runs a body beside others
+thread_local bool is_beside_others = false;
+
+// While a body runs.
+class BesideOthers {
+ public:
+  explicit BesideOthers(bool is_so) : before_(std::exchange(is_beside_others, is_so)) {}
+  ~BesideOthers() { is_beside_others = before_; }
+
+ private:
+  bool before_;
+};
 
 void run(const Context& context, Index count, Index grain,
          const std::function<void(Index, Index)>& body, bool is_silent) {
@@ -24,7 +35,7 @@ void run(const Context& context, Index count, Index grain,
   std::exception_ptr failure;
   std::mutex mutex;
   std::condition_variable ended;
-  const bool is_nested = shares_threads;
+  const bool is_nested = is_beside_others;
   const Index threads = is_nested ? 1 : std::min<Index>(context.threads(), chunks);
   Index at_work = threads - 1;  // beside the calling thread
 
@@ -37,13 +48,14 @@ void run(const Context& context, Index count, Index grain,
       stop = true;
     }
   };
-  const bool reports = !is_silent && !is_nested;
   const auto work = [&](bool is_caller) {
-    shares_threads = is_nested || threads > 1;
     for (Index chunk; !stop && (chunk = next++) < chunks;) {
-      body(chunk * grain, std::min(count, (chunk + 1) * grain));
+      {
+        const BesideOthers beside_others(is_nested || threads > 1);
+        body(chunk * grain, std::min(count, (chunk + 1) * grain));
+      }
       if (!is_caller) continue;
-      if (reports && chunk + 1 < chunks)
+      if (!is_silent && chunk + 1 < chunks)
         context.report(static_cast<double>(chunk + 1) / static_cast<double>(chunks));
       else
         context.check();
@@ -78,12 +90,13 @@ void run(const Context& context, Index count, Index grain,
     wait();
   });
   for (std::thread& helper : helpers) helper.join();
-  shares_threads = is_nested;
   if (failure) std::rethrow_exception(failure);
-  if (reports) context.report(1);  // whichever thread had the last chunk
+  if (!is_silent) context.report(1);  // whichever thread had the last chunk
 }
 
 }  // namespace
+
+bool runs_beside_others() { return is_beside_others; }
 
 void parallel_for(const Context& context, Index count, Index grain,
                   const std::function<void(Index, Index)>& body) {

@@ -13,13 +13,17 @@ namespace symsurf {
 /// number of threads, so neither do results made chunk by chunk. Reports and cancels through the
 /// context, on the calling thread, after each of its chunks: a body that takes long calls
 /// Context::check() as well. An exception of the body is rethrown here. Within a body that shares
-/// the threads a further call runs where it is, without reports.
+/// the threads a further call runs where it is.
 void parallel_for(const Context& context, Index count, Index grain,
                   const std::function<void(Index begin, Index end)>& body);
 
 /// The same without reports, for short parts of what reports as a whole.
 void silent_parallel_for(const Context& context, Index count, Index grain,
                          const std::function<void(Index begin, Index end)>& body);
+
+/// Whether this thread runs a body beside others. Context::report() is check() then: of what is
+/// done at the same time nothing can be told in turn.
+bool runs_beside_others();
 
 /// Calls body(i) for i of 0 up to count in turn, asking after every `stretch` whether to go on. On
 /// any thread.

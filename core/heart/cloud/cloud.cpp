@@ -42,7 +42,7 @@ struct Thinned {
 }  // namespace
 
 struct Cloud::Parts {
-  std::mutex mutex;
+  std::mutex tree_mutex, mutex;  // of the tree, and of all others
   std::optional<PointTree> tree;
   std::map<Index, Surfels> patches, finer_patches;  // by how many were asked for
   std::map<Index, Thinned> thinned;
@@ -59,14 +59,14 @@ void Cloud::set_points(PointsView all, PointsView lines) {
 }
 
 const PointTree& Cloud::tree(const Context& context) const {
-  const std::lock_guard lock(parts_->mutex);
+  const std::lock_guard lock(parts_->tree_mutex);
   if (!parts_->tree) parts_->tree.emplace(points, context);
   return *parts_->tree;
 }
 
 void Cloud::release_tree() const {
   constexpr Index large = 200'000;  // points: their tree takes 10 MB
-  const std::lock_guard lock(parts_->mutex);
+  const std::lock_guard lock(parts_->tree_mutex);
   if (points.size() > large) parts_->tree.reset();
 }
 

@@ -56,21 +56,22 @@ PointTree::PointTree(PointsView points, const Context& context) {
 
 std::vector<std::uint64_t> PointTree::sort(PointsView points, double extent,
                                            const Context& context) {
+  constexpr Index grain = 1 << 14;  // points that a thread takes at a time
   const double cells = static_cast<double>(1 << bits_per_axis) - 1;
   constexpr double least = 1e-300;  // an extent, in input units, that cells can be divided by
   const double scale = extent > least ? cells / extent : 0;
   const Vector3 to_cells = Vector3::Constant(cells / 2);
   std::vector<std::uint64_t> keys(points.size());
-  interruptible_for(context, points.size(), [&](Index i) {
-    if (!points[i].allFinite()) {
-      keys[i] = key_of_nonfinite;
-      return;
-    }
-    const Vector3 cell = (points[i] - origin_) * scale + to_cells;
+  const auto key_of = [&](const Vector3& x) {
+    if (!x.allFinite()) return key_of_nonfinite;
+    const Vector3 cell = (x - origin_) * scale + to_cells;
     const auto at = [&](int axis) {
       return spread(static_cast<std::uint64_t>(std::clamp(cell[axis], 0.0, cells)));
     };
-    keys[i] = at(0) << 2 | at(1) << 1 | at(2);
+    return at(0) << 2 | at(1) << 1 | at(2);
+  };
+  silent_parallel_for(context, points.size(), grain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) keys[i] = key_of(points[i]);
   });
   order_.resize(keys.size());
   std::iota(order_.begin(), order_.end(), 0);

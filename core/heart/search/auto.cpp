@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/linear_algebra.h"
+#include "base/parallel.h"
 #include "cloud/cloud.h"
 #include "pairing/matching.h"
 #include "preprocess/boundary.h"
@@ -187,15 +188,23 @@ void try_freer_kinds(const Cloud& cloud, bool content, const Comparison& compari
   const bool leading = free_form && is_found(*free_form) && wins(*free_form);
   if (leading) kinds = near_kinds(kinds, *free_form->mirror, cloud.diagonal);
   const bool all = cloud.points.size() <= (leading ? bent_size : thinned_size);
-  for (const MethodImplementation* kind : kinds) {
+  std::vector<Result> results(kinds.size());
+  const auto run = [&](Index k) {
+    results[k] = run_usual(*kinds[k], all ? cloud : thinner(), all && contest.pairs,
+                           context.stage(done, done + 0.2));
+  };
+  const bool at_once = context.threads() > 1 && !is_exact(contest.best);
+  if (at_once)
+    silent_parallel_for(context, static_cast<Index>(kinds.size()), 1,
+                        [&](Index k, Index) { run(k); });
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (is_exact(contest.best)) break;
     if (leading && !wins(*free_form)) break;
-    Result result = run_usual(*kind, all ? cloud : thinner(), all && contest.pairs,
-                              context.stage(done, done + 0.2));
+    if (!at_once) run(static_cast<Index>(k));
     done += 0.2;
-    const bool is_best = wins(result);
-    contest.take(*kind, std::move(result), is_best,
-                 all ? Contest::Run() : anew(*kind, contest.pairs));
+    const bool is_best = wins(results[k]);
+    contest.take(*kinds[k], std::move(results[k]), is_best,
+                 all ? Contest::Run() : anew(*kinds[k], contest.pairs));
   }
   if (!free_form || is_exact(contest.best)) return;
   const bool is_best = wins(*free_form);
