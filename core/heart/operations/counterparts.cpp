@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "base/disjoint_sets.h"
@@ -172,13 +173,42 @@ void Counterparts::report(Values& statistics) const {
 
 void Counterparts::match_mesh(const OperationInput& input, const Context& context) {
   const PointsView points = input.points;
-  const TriangleMesh& mesh = mesh_.emplace(points, input.faces, context.stage(0, 0));
-  const std::vector<bool> is_boundary = mesh.is_boundary();
-  normals_ = mesh.vertex_normals();
-  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
+  const double exact_reach = exact * diagonal_of(points);
+  // Those on the mirror have none, nor have those without a foot on it.
+  const double on_mirror = mirror_tolerance * diagonal_of(points);
+  const auto side = [&](Index i) {
+    return distances_[i] > on_mirror ? 1 : distances_[i] < -on_mirror ? -1 : 0;
+  };
+  // The images of the faces that reach beyond the mirror, as the points of a side look for them.
+  std::array<std::optional<ClosestPointOnMesh>, 2> mirrored;
+  const auto find_surface_for = [&](int own, const Context& part) {
+    mirrored[own < 0].emplace(images_, input.faces, part, [&, own](Index f) {
+      const Index* corners = input.faces[f];
+      return map_.is_reflection()
+                 ? std::any_of(corners, corners + 3, [&](Index i) { return side(i) == -own; })
+                 : own > 0;
+    });
+  };
+  std::optional<PointTree> images;
+  const std::function<void(const Context&)> preparations[]{
+      [&](const Context& part) { mesh_.emplace(points, input.faces, part); },
+      [&](const Context& part) { find_surface_for(1, part); },
+      [&](const Context& part) { find_surface_for(-1, part); },
+      [&](const Context& part) { images.emplace(images_, part); }};
+  parallel_for(context.stage(0, 0.2), std::size(preparations), 1,
+               [&](Index k, Index) { preparations[k](context.stage(0, 0.2)); });
+  const TriangleMesh& mesh = *mesh_;
   // A mirror turns the winding round.
   const double winding = map_.is_reflection() ? -1 : 1;
-  const Points image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
+  Points image_normals;
+  parallel_for(context.stage(0.2, 0.3), 2, 1, [&](Index k, Index) {
+    if (k == 0)
+      normals_ = mesh.vertex_normals();
+    else
+      image_normals = winding * mesh.vertex_normals(TriangleMesh::Weight::Angle, images_);
+  });
+  const std::vector<bool> is_boundary = mesh.is_boundary();
+  spacing_ = std::sqrt(surface_area(points, input.faces) / static_cast<double>(points.size()));
   const bool is_closed = std::none_of(is_boundary.begin(), is_boundary.end(), std::identity());
   is_watertight_ = is_closed && mesh.refused().total() == 0;
   const double outwards = is_closed && volume_of(points, input.faces) < 0 ? -1 : 1;
@@ -186,12 +216,6 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   for (Index f = input.faces.size() - 1; f >= 0; --f)
     for (int c = 0; c < 3; ++c) face_at[input.faces[f][c]] = f;
 
-  const double exact_reach = exact * diagonal_of(points);
-  // Those on the mirror have none, nor have those without a foot on it.
-  const double on_mirror = mirror_tolerance * diagonal_of(points);
-  const auto side = [&](Index i) {
-    return distances_[i] > on_mirror ? 1 : distances_[i] < -on_mirror ? -1 : 0;
-  };
   const auto ends_at_mirror = [&](Index i) {
     return is_boundary[i] && side(i) == 0 && image(i).allFinite();
   };
@@ -199,22 +223,11 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
   for (Index i = 0; i < points.size(); ++i)
     if (side(i) != 0 || ends_at_mirror(i)) seen[1 + side(i)] = true;
   is_half_ = map_.is_reflection() && seen[1] && seen[0] != seen[2];
-  // The images of the faces that reach beyond the mirror, as the points of a side look for them.
-  const auto surface_for = [&](int own, const Context& part) {
-    return ClosestPointOnMesh(images_, input.faces, part, [&, own](Index f) {
-      const Index* corners = input.faces[f];
-      return map_.is_reflection()
-                 ? std::any_of(corners, corners + 3, [&](Index i) { return side(i) == -own; })
-                 : own > 0;
-    });
-  };
-  const std::array mirrored{surface_for(1, context.stage(0, 0.1)),
-                            surface_for(-1, context.stage(0.1, 0.2))};
   const auto closest_to = [&](Index i, const auto& search) {
     ClosestPoint closest;
     for (const int own : {1, -1})
       if (side(i) != -own)
-        if (const ClosestPoint found = search(mirrored[own < 0]);
+        if (const ClosestPoint found = search(*mirrored[own < 0]);
             found.squared_distance < closest.squared_distance)
           closest = found;
     return closest;
@@ -272,7 +285,6 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
     return cosine;
   };
 
-  const PointTree images(images_, context.stage(0.2, 0.3));
   // Whether the closest place faces the way the point does: 1 or -1; 0: neither, or not known.
   std::vector<signed char> faces_alike(points.size(), 0);
   parallel_for(context.stage(0.3, 0.9), points.size(), grain, [&](Index begin, Index end) {
@@ -286,7 +298,7 @@ void Counterparts::match_mesh(const OperationInput& input, const Context& contex
           settle_at_point(i, other, true);
         continue;
       }
-      Index partner = is_half_ ? i : images.nearest(points[i], exact_reach * exact_reach).index;
+      Index partner = is_half_ ? i : images->nearest(points[i], exact_reach * exact_reach).index;
       const bool is_exact = partner >= 0;
       if (!is_exact && is_homologous_) partner = homologous_.partners[i];
       const auto look = [&](double cosine) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "cloud/exact_isometries.h"
 #include "fit/bent_plane.h"
 #include "search/perpendicular.h"
@@ -107,20 +108,22 @@ bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
 
 void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context) {
-  std::vector<BentPlane> bent;
-  const auto bend_first = [&](const UnitPlane& plane) {
-    BentPlane one = laid_on(search, in_input_units(plane, cloud.frame));
-    bend(search, 0, first_stages, few, one);
-    return one;
-  };
+  const std::vector<UnitPlane> planes = candidate_mirrors(cloud, context.stage(0, 0.1)),
+                               half_way = half_way_planes();
+  std::vector<BentPlane> bent, others;
+  for (const UnitPlane& plane : planes)
+    bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
+  for (const UnitPlane& plane : half_way)
+    others.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
+  const auto first = static_cast<Index>(bent.size());
+  silent_parallel_for(search.context, first + static_cast<Index>(others.size()), 1,
+                      [&](Index k, Index) {
+                        bend(search, 0, first_stages, few, k < first ? bent[k] : others[k - first]);
+                      });
   double best = 0;
-  for (const UnitPlane& plane : candidate_mirrors(cloud, context.stage(0, 0.1))) {
-    bent.push_back(bend_first(plane));
-    best = std::max(best, bent.back().support());
-  }
-  for (const UnitPlane& plane : half_way_planes())
-    if (BentPlane one = bend_first(plane); one.support() > beyond_others * best)
-      bent.push_back(std::move(one));
+  for (const BentPlane& one : bent) best = std::max(best, one.support());
+  for (BentPlane& one : others)
+    if (one.support() > beyond_others * best) bent.push_back(std::move(one));
   std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
     return a.support() > b.support();
   });
