@@ -427,6 +427,31 @@ def test_landmark_pairs_are_indices_or_places():
             operation(shape, plane, pairs=pairs)
 
 
+def test_the_command_line_reads_landmark_pairs(tmp_path):
+    body = pyvista.Icosphere(nsub=3).rotate_vector((1, 2, 3), 40)  # no vertex has a twin
+    points = np.asarray(body.points, dtype=float) * (1, 0.8, 1.2)
+    shape = symsurf.Shape(points, body.regular_faces)
+    pairs = np.array([[3, 50], [120, 7]])
+    body.points = points
+    body.save(tmp_path / "body.vtp")
+    np.savetxt(tmp_path / "indices.csv", pairs, delimiter=",", fmt="%d")
+    np.savetxt(tmp_path / "places.csv", points[pairs].reshape(-1, 6), delimiter=",", fmt="%.17g")
+    np.savetxt(tmp_path / "wrong.csv", [[1, 2, 3]], delimiter=",", fmt="%d")
+    line = "asymmetry body.vtp --mirror x=0 --pairing homologous --pairs-sd 0.01 --pairs"
+    expected = symsurf.asymmetry(
+        shape, "x=0", pairing="homologous", pairs=pairs, pairs_sd=0.01, threads=1
+    ).vector
+    for name in ("indices", "places"):
+        done = run_here(f"{line} {name}.csv -o {name}.vtp", tmp_path)
+        assert done.returncode == 0, done.stderr
+        found = pyvista.read(tmp_path / f"{name}.vtp")["vector"]
+        np.testing.assert_allclose(found, expected, atol=1e-9)
+    wrong = run_here(f"{line} wrong.csv", tmp_path)
+    assert wrong.returncode == 2
+    assert "wrong.csv: rows have 3 numbers" in wrong.stderr
+
+
+
 def test_completed_shapes_have_three_corners_a_face():
     points, faces = icosphere()
     faces = np.vstack([faces, [(3, 3, 5), (7, 9, 9)]])

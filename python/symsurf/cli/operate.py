@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
-from .._core import Mirror, Operation
+import numpy as np
+
+from .._core import InvalidInput, Mirror, Operation
 from ..base.options import Search, part
 from ..base.printable import printable
 from ..batching.file_task import PAGE_SUFFIX, Record
+from ..mirror_operations.functions import takes_pairs
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
 from ..results import plane_of
@@ -71,6 +75,21 @@ class OperationCommand:
         if self._operation.takes_other:
             add_other(parser, "in place of a mirror")
         add_parameters(parser, self._operation)
+        if takes_pairs(self._operation):
+            landmarks = parser.add_argument_group("landmarks, with --pairing homologous")
+            landmarks.add_argument(
+                "--pairs",
+                type=Path,
+                metavar="CSV",
+                help="landmarks that mirror each other, a pair per row: two indices of points from 0, or the "
+                "six coordinates of both",
+            )
+            landmarks.add_argument(
+                "--pairs-sd",
+                type=float,
+                metavar="NUMBER",
+                help="standard deviation of placing a landmark, in the unit of the file; default 0",
+            )
         if self._operation.name == Asymmetry.operation:
             inspection = parser.add_argument_group("inspection, lengths in the unit of the file")
             inspection.add_argument(
@@ -110,7 +129,12 @@ class OperationCommand:
             arguments,
             given_values(arguments)
             | ({"kinds": kinds} if kinds else {})
-            | ({"bands": bands} if (bands := getattr(arguments, "bands", None)) else {}),
+            | ({"pairs": _landmarks(path)} if (path := getattr(arguments, "pairs", None)) else {})
+            | {
+                name: value
+                for name in ("bands", "pairs_sd")
+                if (value := getattr(arguments, name, None)) is not None
+            },
             operation=name,
             mirror=mirror,
             require_found=arguments.require_found,
@@ -140,6 +164,22 @@ class OperationCommand:
 
 def _limits(text: str) -> list[float]:
     return [float(each) for each in text.split(",")]
+
+
+def _landmarks(path: Path) -> list[Any]:
+    """Pairs of indices, or of places."""
+    try:
+        rows = np.loadtxt(path, delimiter=",", ndmin=2)
+    except ValueError as error:
+        raise InvalidInput(f"{path}: {error}") from None
+    if rows.shape[1] == 6:
+        return list(rows.reshape(-1, 2, 3).tolist())
+    if rows.shape[1] != 2 or np.any(rows != rows.round()):
+        raise InvalidInput(
+            f"{path}: rows have {rows.shape[1]} numbers; allowed are two whole numbers, the indices of "
+            "points, or six, the coordinates of both"
+        )
+    return list(rows.astype(int).tolist())
 
 
 def _mirror(given: str) -> Mirror:

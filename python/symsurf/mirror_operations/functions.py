@@ -60,13 +60,17 @@ def _takes_axis(operation: Operation) -> bool:
     return any(parameter.name == "symmetry" for parameter in operation.parameters)
 
 
+def takes_pairs(operation: Operation) -> bool:
+    """Whether landmarks may be given: ``pairs`` and ``pairs_sd``."""
+    return any(parameter.name == "pairing" for parameter in operation.parameters)
+
+
 def _lacking(operation: Operation) -> list[str]:
     """The arguments that the operation does not take."""
-    is_paired = any(parameter.name == "pairing" for parameter in operation.parameters)
     return [
         *([] if operation.takes_other else ["other"]),
         *([] if operation.takes_mask else ["mask"]),
-        *([] if is_paired else ["pairs", "pairs_sd"]),
+        *([] if takes_pairs(operation) else ["pairs", "pairs_sd"]),
         *([] if operation.name == "asymmetry" else ["bands"]),
     ]
 
