@@ -451,7 +451,6 @@ def test_the_command_line_reads_landmark_pairs(tmp_path):
     assert "wrong.csv: rows have 3 numbers" in wrong.stderr
 
 
-
 def test_completed_shapes_have_three_corners_a_face():
     points, faces = icosphere()
     faces = np.vstack([faces, [(3, 3, 5), (7, 9, 9)]])
