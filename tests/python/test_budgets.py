@@ -13,7 +13,7 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (131, 187727, 1224, 2, 3),
+    "heart": (131, 187755, 1227, 2, 3),
     "symmetries": (31, 81815, 568, 3, 0),
     "synthetic": (8, 17577, 283, 0, 1),
     "io": (7, 12886, 40, 0, 0),

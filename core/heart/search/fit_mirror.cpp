@@ -68,7 +68,8 @@ double nats(const Eigen::VectorXd& distances, double numbers) {
          numbers * std::log(count);
 }
 
-// The points in the frame of a search, which has some of them with their normals.
+// The points in the frame of a search, which has some of them with their normals. Of a large cloud
+// both have some.
 struct PointsOfMirror {
   perpendicular::SearchCloud search;
   std::vector<Vector3> all;
@@ -223,14 +224,16 @@ std::shared_ptr<Mirror> fit_mirror(PointsView points, std::string_view kind,
                                    const std::optional<Vector3>& direction,
                                    const Context& context) {
   constexpr Index searched = 4000;
+  constexpr Index most_fitted = 20000;  // points: more hold the numbers of no mirror better
   const KindThrough* only = asked(kind, direction.has_value());
   const auto least = static_cast<Index>(only ? only->numbers : kinds.front().numbers);
   const Cloud cloud = checked_cloud(points, {}, least, context.stage(0, 0.1));
   PointsOfMirror given{{cloud, searched, context.stage(0.1, 0.4)}, {}};
   if (given.search.noisy()) given.search.smooth(context.stage(0.4, 0.6));
   perpendicular::orient(given.search);
-  for (Index i = 0; i < points.size(); ++i)
-    given.all.emplace_back(given.search.axes.transpose() * (points[i] - given.search.centroid) /
+  const PointsView some = cloud.thinned(most_fitted, context.stage(0.6, 0.6)).points;
+  for (Index i = 0; i < some.size(); ++i)
+    given.all.emplace_back(given.search.axes.transpose() * (some[i] - given.search.centroid) /
                            given.search.diagonal);
   std::shared_ptr<Mirror> best;
   double most = -infinity;
