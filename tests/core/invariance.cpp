@@ -205,6 +205,26 @@ TEST_P(Invariance, OfTheThesisUnderOrderAndShift) {
   }
 }
 
+TEST(InvarianceOfBits, UnderTheNumberOfThreads) {
+  for (const TestCloud& cloud : clouds()) {
+    if (cloud.name != "random" && cloud.name != "box" && !cloud.name.starts_with("exact over"))
+      continue;
+    for (const char* method :
+         {"auto", "perpendicular", "quadric", "sphere", "cylinder", "oblique_plane"}) {
+      const std::string what = std::string(method) + ", " + cloud.name;
+      const auto detected = [&](int threads) {
+        return detect(cloud.points, {.method = method}, Context({}, threads));
+      };
+      const Result one = detected(1), many = detected(3);
+      EXPECT_EQ(many.score, one.score) << what;
+      EXPECT_EQ(many.candidates.size(), one.candidates.size()) << what;
+      EXPECT_EQ(many.pairs, one.pairs) << what;
+      EXPECT_EQ(many.residuals, one.residuals) << what;
+      EXPECT_EQ(many.surface_points.rows(), one.surface_points.rows()) << what;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Clouds, Invariance, testing::ValuesIn(clouds()), [](const auto& tested) {
   std::string name = tested.param.name;
   for (char& c : name)

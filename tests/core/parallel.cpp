@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "random_cloud.h"
@@ -40,6 +41,28 @@ TEST(Parallel, SumsToTheSameBitsForAnyNumberOfThreads) {
   };
   for (const int threads : {2, 3, 8}) EXPECT_EQ(sum(threads), sum(1));
   EXPECT_NEAR(sum(1), points.col(0).sum(), 1e-10);
+}
+
+// Of what is done at the same time nothing is told, and it starts no threads of its own.
+TEST(Parallel, ReportsOnTheCallingThreadBetweenItsChunksAlone) {
+  const auto caller = std::this_thread::get_id();
+  std::atomic<bool> is_nested{false};
+  const Context context(
+      [&](double) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        EXPECT_FALSE(is_nested);
+        return true;
+      },
+      4);
+  parallel_for(context, 8, 1, [&](Index, Index) {
+    const auto outer = std::this_thread::get_id();
+    if (outer == caller) is_nested = true;
+    parallel_for(context, 8, 1, [&](Index, Index) {
+      EXPECT_EQ(std::this_thread::get_id(), outer);
+      context.report(1);
+    });
+    if (outer == caller) is_nested = false;
+  });
 }
 
 TEST(Parallel, HandsOnWhatTheBodyThrows) {
