@@ -134,7 +134,8 @@ class OperationResult(BaseResult):
             return values[self.sources]
         if kind == "weight" and values.dtype.kind != "f":
             values = values.astype(float)
-        if kind in UNDIRECTED or not self.turns:
+        keeps_lengths = kind == "normal" and self.shares is not None  # also between others
+        if kind in UNDIRECTED or not (self.turns or keeps_lengths):
             if self.parents is None or self.shares is None:
                 return values[self.sources]
             return carried_values(values, self.sources, self.parents, self.shares)
