@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloud_conversion.h"
+#include "directions.h"
 
 namespace symsurf::meshlab {
 
@@ -29,7 +30,6 @@ void add_vertices(CMeshO& mesh, const std::vector<Index>& sources, std::size_t f
   for (std::size_t i = first; i < mesh.vert.size(); ++i) {
     const auto source = static_cast<std::size_t>(sources[i - first + from]);
     mesh.vert[i].ImportData(mesh.vert[source]);
-    mesh.vert[i].N() = Point3m(0, 0, 0);  // the mirrored one's, where faces do not give it another
     copy_attributes(mesh.vert_attr, i, source);
   }
 }
@@ -118,77 +118,62 @@ void put_others(MeshModel& layer, const OperationResult& result) {
       if (is_so(f, 0) != 0) mesh.face[static_cast<std::size_t>(f)].SetS();
 }
 
-// What lies between the values that the parents of each vertex have; `of`: a vertex's value.
-template <typename Value, typename Of>
-std::vector<Value> between(const CMeshO& mesh, const OperationResult& result, const Of& of) {
-  std::vector<Value> values(mesh.vert.size(), Value());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (Index k = 0; k < result.point_parents.cols(); ++k)
-      if (const double share = result.point_shares(static_cast<Index>(i), k); share > 0)
-        values[i] += of(static_cast<std::size_t>(result.point_parents(static_cast<Index>(i), k))) *
-                     static_cast<Scalarm>(share);
-  return values;
-}
-
-template <typename Value>
-void carry_attributes(CMeshO& mesh, const OperationResult& result) {
-  std::vector<std::string> names;
-  Allocator::GetAllPerVertexAttribute<Value>(mesh, names);
-  for (const std::string& name : names) {
-    auto attribute = Allocator::GetPerVertexAttribute<Value>(mesh, name);
-    const std::vector<Value> values =
-        between<Value>(mesh, result, [&](std::size_t i) { return attribute[i]; });
-    for (std::size_t i = 0; i < values.size(); ++i) attribute[i] = values[i];
-  }
+// Gives a number of the vertices what lies between those of their parents.
+template <typename Of>
+void blend(const CMeshO& mesh, const AttributeTransform& by, const Of& of) {
+  Eigen::MatrixXd rows(mesh.vert.size(), 1);
+  for (Index i = 0; i < rows.rows(); ++i) rows(i) = of(static_cast<std::size_t>(i));
+  rows = by(rows, AttributeKind::Scalar);
+  for (Index i = 0; i < rows.rows(); ++i)
+    of(static_cast<std::size_t>(i)) = static_cast<Scalarm>(rows(i));
 }
 
 // Colours, quality and attributes of the vertices; selects those without a counterpart.
-void carry_values(CMeshO& mesh, const OperationResult& result) {
-  using Colour = vcg::Point4<Scalarm>;
-  const auto colours = between<Colour>(mesh, result, [&](std::size_t i) {
-    const vcg::Color4b& c = mesh.vert[i].cC();
-    return Colour(c[0], c[1], c[2], c[3]);
-  });
-  const auto qualities =
-      between<Scalarm>(mesh, result, [&](std::size_t i) { return mesh.vert[i].cQ(); });
+void carry_values(CMeshO& mesh, const OperationResult& result, const AttributeTransform& by) {
+  Eigen::MatrixXd colours(mesh.vert.size(), 4);
+  for (Index i = 0; i < colours.rows(); ++i)
+    for (int c = 0; c < 4; ++c) colours(i, c) = mesh.vert[static_cast<std::size_t>(i)].cC()[c];
+  colours = by(colours, AttributeKind::Scalar);
   const Eigen::MatrixXd& failed = result.arrays.at("failed");
-  for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
+  for (Index i = 0; i < colours.rows(); ++i) {
+    CVertexO& vertex = mesh.vert[static_cast<std::size_t>(i)];
     for (int c = 0; c < 4; ++c)
-      mesh.vert[i].C()[c] = static_cast<unsigned char>(std::lround(colours[i][c]));
-    mesh.vert[i].Q() = qualities[i];
-    failed(static_cast<Index>(i), 0) != 0 ? mesh.vert[i].SetS() : mesh.vert[i].ClearS();
+      vertex.C()[c] = static_cast<unsigned char>(std::lround(colours(i, c)));
+    failed(i, 0) != 0 ? vertex.SetS() : vertex.ClearS();
   }
-  carry_attributes<Scalarm>(mesh, result);
-  carry_attributes<Point3m>(mesh, result);
-}
-
-// Those of a mesh its faces give anew. A cloud's are turned with it, or lost: all zero says so to
-// MeshLab.
-void move_normals(CMeshO& mesh, const OperationResult& result) {
-  const auto found = result.statistics.find("matrix");
-  if (found == result.statistics.end()) {
-    for (CVertexO& vertex : mesh.vert) vertex.N() = Point3m(0, 0, 0);
-    return;
-  }
-  const auto& matrix = std::get<Eigen::MatrixXd>(found->second);
-  for (CVertexO& vertex : mesh.vert) {
-    const Vector3 normal(vertex.cN()[0], vertex.cN()[1], vertex.cN()[2]);
-    const Vector3 turned = matrix.topLeftCorner<3, 3>() * normal;
-    vertex.N() = Point3m(turned.x(), turned.y(), turned.z());
+  blend(mesh, by, [&](std::size_t i) -> Scalarm& { return mesh.vert[i].Q(); });
+  std::vector<std::string> names;
+  Allocator::GetAllPerVertexAttribute<Scalarm>(mesh, names);
+  for (const std::string& name : names) {
+    auto attribute = Allocator::GetPerVertexAttribute<Scalarm>(mesh, name);
+    blend(mesh, by, [&](std::size_t i) -> Scalarm& { return attribute[i]; });
   }
 }
 
 }  // namespace
 
-void change_layer(MeshModel& layer, const OperationResult& result) {
+void change_layer(MeshModel& layer, const OperationResult& result, const AttributeTransform& by) {
   CMeshO& mesh = layer.cm;
-  if (operation(result.operation).carries_values) return carry_values(mesh, result);
-  const bool is_moved = operation(result.operation).moves_points;
-  if (is_moved && mesh.fn == 0) move_normals(mesh, result);
+  const Operation& done = operation(result.operation);
+  Directions directions(mesh);
+  if (by.turns()) directions.carry(by);
+  if (done.carries_values) {
+    std::vector<Point3m> normals;  // the points', which stay
+    for (const CVertexO& vertex : mesh.vert) normals.push_back(vertex.cN());
+    carry_values(mesh, result, by);
+    directions.set(mesh);
+    for (std::size_t i = 0; i < normals.size(); ++i) mesh.vert[i].N() = normals[i];
+    return;
+  }
+  // All zero says to MeshLab that there are none: of points that moved each by itself nobody knows
+  // them. Those of a mesh its faces give anew.
+  if (done.takes_mask && mesh.fn == 0 && !by.turns())
+    for (CVertexO& vertex : mesh.vert) vertex.N() = Point3m(0, 0, 0);
   if (result.is_other_shape())
     put_others(layer, result);
   else if (!result.point_sources.empty())
     add_what_is_new(layer, result);
+  if (by.turns()) directions.set(mesh);
   const auto is_placed = [&](Index i) { return result.points.row(i).allFinite(); };
   const Index count = result.points.rows();
   bool all_placed = true;

@@ -155,7 +155,7 @@ Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument
   // Rows of the result are vertices then.
   vcg::tri::Allocator<CMeshO>::CompactEveryVector(layer.cm);
   if (changes_shape())
-    change_layer(layer, result);
+    change_layer(layer, result, {result, cloud.points, mirror ? &**mirror : nullptr, context});
   else
     show_as_quality(layer, result);
   add_attributes(layer, result);

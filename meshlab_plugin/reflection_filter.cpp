@@ -5,6 +5,7 @@
 #include <vcg/complex/algorithms/clean.h>
 
 #include "cloud_conversion.h"
+#include "directions.h"
 #include "mirror_layer.h"
 
 namespace symsurf::meshlab {
@@ -21,15 +22,30 @@ int default_mirror_layer(const MeshDocument& document) {
   return id;
 }
 
-// Images keep no normals where faces do not give new ones: all zero says so to MeshLab.
-void drop_normals(CMeshO& mesh) {
-  for (CVertexO& vertex : mesh.vert) vertex.N() = Point3m(0, 0, 0);
+// From one layer's coordinates to the mirror's.
+Matrix44m from_layer(const MeshModel& mirror, const MeshModel& layer) {
+  return vcg::Inverse(mirror.cm.Tr) * layer.cm.Tr;
+}
+
+// What has directions, in the mirror's coordinates, reflected over it.
+Directions reflected(CMeshO& mesh, const Matrix44m& between, const Mirror& over,
+                     const Points& points, const Context& context) {
+  OperationResult into;  // a rigid motion is told as an alignment is
+  Eigen::MatrixXd matrix(4, 4);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) matrix(i, j) = between.ElementAt(i, j);
+  into.statistics["matrix"] = matrix;
+  into.points = points;
+  Directions directions(mesh);
+  directions.carry({into, points, nullptr});
+  directions.carry({over, points, context});
+  return directions;
 }
 
 // The points where MeshLab shows them beside the mirror: from one layer's coordinates to another's.
 Points in_coordinates_of(const MeshModel& mirror, const MeshModel& layer, const Points& points) {
   if (mirror.cm.Tr == layer.cm.Tr) return points;
-  const Matrix44m between = vcg::Inverse(mirror.cm.Tr) * layer.cm.Tr;
+  const Matrix44m between = from_layer(mirror, layer);
   Points moved(points.rows(), 3);
   for (Index i = 0; i < points.rows(); ++i) {
     const Point3m p = between * Point3m(points(i, 0), points(i, 1), points(i, 2));
@@ -57,7 +73,9 @@ std::string ReflectionFilter::info() const {
   return "Reflects the current layer over a mirror that was found before, into a new layer."
          "<br>Each vertex x becomes x + 2 (foot - x), where foot is the point of the mirror that x "
          "maps through; vertices without an image, and their faces, are left out. The orientation "
-         "of faces is reversed, so that their fronts stay outside; a cloud loses its normals.";
+         "of faces is reversed, so that their fronts stay outside; a cloud's normals and "
+         "attributes of "
+         "three numbers are reflected.";
 }
 
 FilterPlugin::FilterClass ReflectionFilter::menus() const {
@@ -93,9 +111,9 @@ Outcome ReflectionFilter::apply(const RichParameterList& parameters, MeshDocumen
   image.cm.Tr = mirror.cm.Tr;
   for (Index i = 0; i < images.rows(); ++i)
     image.cm.vert[i].P() = Point3m(images(i, 0), images(i, 1), images(i, 2));
+  reflected(image.cm, from_layer(mirror, layer), *over, points, context).set(image.cm);
   if (left < images.rows()) remove_vertices(image.cm, doomed);
   vcg::tri::Clean<CMeshO>::FlipMesh(image.cm);
-  if (image.cm.fn == 0) drop_normals(image.cm);
   for (const auto& [name, texture] : layer.getTextures()) image.addTexture(name, texture);
   image.updateBoxAndNormals();
   return {{{"reflection_layer", image.id()}, {"vertices", static_cast<int>(left)}},

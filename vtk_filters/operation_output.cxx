@@ -1,10 +1,10 @@
 #include "operation_output.h"
 
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <vector>
 
+#include "carried_arrays.h"
 #include "described_arrays.h"
 #include "field_values.h"
 #include "operation_names.h"
@@ -38,13 +38,6 @@ void add_arrays(vtkPolyData* output, const TriangleArray& faces,
   for (vtkIdType i = 0; i < face->GetNumberOfTuples(); ++i)  // a triangle is a part of a cell
     if (const auto triangle = static_cast<vtkIdType>(face->GetTuple1(i)); triangle >= 0)
       face->SetTuple1(i, static_cast<double>(faces.cells()->GetValue(triangle)));
-}
-
-void copy_rows(vtkDataSetAttributes* to, vtkDataSetAttributes* from, const Rows& rows) {
-  const auto count = static_cast<vtkIdType>(rows.size());
-  to->CopyAllOn();
-  to->CopyAllocate(from, count);
-  for (vtkIdType i = 0; i < count; ++i) to->CopyData(from, rows[i], i);
 }
 
 vtkNew<vtkCellArray> joined(vtkCellArray* first, vtkCellArray* second) {
@@ -113,36 +106,9 @@ void add_parts(vtkPolyData* output, vtkPolyData* input, const AddedCells& added,
                     range(strips, cells)}));
 }
 
-// Whether there are values between two: of real numbers, and of colours.
-bool lies_between(const vtkDataArray* values) {
-  const int type = values->GetDataType(), components = values->GetNumberOfComponents();
-  const bool is_colour = type == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
-  return is_colour || type == VTK_FLOAT || type == VTK_DOUBLE;
-}
-
-// Rows between those of another's data by their shares, or those of the source where there is
-// nothing between two.
-void blend_rows(vtkDataSetAttributes* to, vtkDataSetAttributes* from,
-                const symsurf::OperationResult& result) {
-  copy_rows(to, from, result.point_sources);
-  for (int k = 0; k < from->GetNumberOfArrays(); ++k) {
-    vtkDataArray* values = from->GetArray(k);
-    if (!values || !lies_between(values)) continue;
-    const bool is_rounded = values->GetDataType() == VTK_UNSIGNED_CHAR;
-    for (vtkIdType i = 0; i < result.points.rows(); ++i)
-      for (int component = 0; component < values->GetNumberOfComponents(); ++component) {
-        double sum = 0;
-        for (symsurf::Index parent = 0; parent < result.point_parents.cols(); ++parent)
-          sum += result.point_shares(i, parent) *
-                 values->GetComponent(result.point_parents(i, parent), component);
-        to->GetArray(k)->SetComponent(i, component, is_rounded ? std::round(sum) : sum);
-      }
-  }
-}
-
 // Points and cells in place of those of the input, with the data that lie between theirs.
 void set_others(vtkPolyData* output, vtkPolyData* input, const AddedCells& made,
-                const symsurf::OperationResult& result) {
+                const std::vector<symsurf::Index>& point_sources) {
   vtkNew<vtkCellArray> none;
   output->DeleteCells();
   output->SetLines(none);
@@ -151,7 +117,7 @@ void set_others(vtkPolyData* output, vtkPolyData* input, const AddedCells& made,
   output->SetPolys(made.polys);
   output->GetPointData()->Initialize();
   output->GetCellData()->Initialize();
-  blend_rows(output->GetPointData(), input->GetPointData(), result);
+  copy_rows(output->GetPointData(), input->GetPointData(), point_sources);
   copy_rows(output->GetCellData(), input->GetCellData(),
             joined({made.vert_sources, made.poly_sources}));
 }
@@ -159,22 +125,27 @@ void set_others(vtkPolyData* output, vtkPolyData* input, const AddedCells& made,
 }  // namespace
 
 vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
-                                 const TriangleArray& faces,
-                                 const symsurf::OperationResult& result) {
+                                 const TriangleArray& faces, const symsurf::OperationResult& result,
+                                 const symsurf::AttributeTransform& by) {
   const symsurf::Operation& operation = symsurf::operation(result.operation);
   const AddedCells cells = added_cells(input, faces, result);
+  vtkPointData *data = output->GetPointData(), *given = input->GetPointData();
   output->ShallowCopy(input);
-  if (operation.carries_values) {
-    blend_rows(output->GetPointData(), input->GetPointData(), result);
-    output->GetPointData()->SetNormals(input->GetPointData()->GetNormals());
-    output->GetPointData()->SetTCoords(input->GetPointData()->GetTCoords());
-  } else if (result.is_other_shape())
-    set_others(output, input, cells, result);
+  if (operation.carries_values)
+    copy_rows(data, given, result.point_sources);
+  else if (result.is_other_shape())
+    set_others(output, input, cells, result.point_sources);
   else if (!result.point_sources.empty())
     add_parts(output, input, cells, result.point_sources);
+  carry_values(data, given, by, result.point_parents.rows() > 0);
+  if (operation.carries_values) {
+    data->SetNormals(given->GetNormals());
+    data->SetTCoords(given->GetTCoords());
+  }
   if (operation.moves_points || operation.adds_points) {
     set_points(output, result.points);
-    output->GetPointData()->SetNormals(nullptr);
+    // Of points that moved each by itself nobody knows the normals.
+    if (operation.takes_mask && !by.turns()) data->SetNormals(nullptr);
     output->GetCellData()->SetNormals(nullptr);
   }
   add_arrays(output, faces, result);

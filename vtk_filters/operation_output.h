@@ -1,18 +1,19 @@
 #ifndef operation_output_h
 #define operation_output_h
 
-#include <symsurf/operations.h>
+#include <symsurf/attributes.h>
 
 #include "vtkNew.h"
 
 class TriangleArray;
 class vtkPolyData;
 
-/// Makes the output the input with what an operation on its points and its triangles gave. Gives
-/// what was added: the output's points with the added cells alone, and their data.
+/// Makes the output the input with what an operation on its points and its triangles gave, and what
+/// the transform makes of its arrays. Gives what was added: the output's points with the added
+/// cells alone, and their data.
 vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
-                                 const TriangleArray& faces,
-                                 const symsurf::OperationResult& result);
+                                 const TriangleArray& faces, const symsurf::OperationResult& result,
+                                 const symsurf::AttributeTransform& by);
 
 /// Makes the patch what was added, with the points from `first_added` on and those that added cells
 /// share with the input, and no others.

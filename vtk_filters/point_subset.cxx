@@ -1,5 +1,6 @@
 #include "point_subset.h"
 
+#include "carried_arrays.h"
 #include "point_arrays.h"
 #include "vtkCellData.h"
 #include "vtkIdList.h"
@@ -8,15 +9,6 @@
 #include "vtkPolyData.h"
 
 namespace {
-
-void copy_point_data(vtkPolyData* output, vtkPolyData* input,
-                     const std::vector<symsurf::Index>& kept) {
-  const auto count = static_cast<vtkIdType>(kept.size());
-  output->GetPointData()->CopyAllOn();
-  output->GetPointData()->CopyAllocate(input->GetPointData(), count);
-  for (vtkIdType row = 0; row < count; ++row)
-    output->GetPointData()->CopyData(input->GetPointData(), kept[row], row);
-}
 
 void copy_whole_cells(vtkPolyData* output, vtkPolyData* input,
                       const std::vector<symsurf::Index>& kept) {
@@ -52,6 +44,6 @@ void set_subset(vtkPolyData* output, vtkPolyData* input, const symsurf::Points& 
   }
   set_points(output, points);
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
-  copy_point_data(output, input, kept);
+  copy_rows(output->GetPointData(), input->GetPointData(), kept);
   copy_whole_cells(output, input, kept);
 }

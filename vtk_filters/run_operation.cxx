@@ -1,5 +1,6 @@
 #include "run_operation.h"
 
+#include <symsurf/attributes.h>
 #include <symsurf/detect.h>
 #include <symsurf/operations.h>
 
@@ -84,7 +85,8 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
         call.operation, input, mirror.get(), call.parameters, context.stage(found_at, 1));
     warn_of(filter, result.statistics);
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);
-    const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result);
+    const symsurf::AttributeTransform by(result, points.view(), mirror.get(), context.stage(1, 1));
+    const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result, by);
     if (filter->GetNumberOfOutputPorts() > 1)
       set_patch(vtkPolyData::GetData(outputs, 1), added, points.view().size());
   });

@@ -13,11 +13,13 @@
  *
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
- * those of the input, with the data of the points and cells that they are made from. Normals are
- * not passed on where points are moved or added. What the operation gives each point are point
- * arrays that begin with the filter's name without "vtk", one of them the active scalars. Figures
- * about the whole are field data. Polygons of more than three corners, and strips, are divided into
- * triangles for the operation alone.
+ * those of the input, with the data of the points and cells that they are made from. Active
+ * vectors, normals and tensors of points go along by the local Jacobian J of what moves the points
+ * or makes images of them: vectors J v, normals J^-T n at their length, tensors J T J'. Normals of
+ * points that are moved each by itself (symmetrization) and of cells are not passed on. What the
+ * operation gives each point are point arrays that begin with the filter's name without "vtk", one
+ * of them the active scalars. Figures about the whole are field data. Polygons of more than three
+ * corners, and strips, are divided into triangles for the operation alone.
  *
  * Points that are not finite, less than half of the points with an image over the mirror, an
  * unknown method or a value out of range are errors and leave the outputs empty. Where several

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "carried_arrays.h"
 #include "core_call.h"
 #include "mirror_input.h"
 #include "point_arrays.h"
@@ -36,13 +37,17 @@ int vtkMirrorReflection::RequestData(vtkInformation*, vtkInformationVector** inp
   vtkPolyData* mirror = vtkPolyData::GetData(inputs[1]);
   return core_call(this, [&] {
     const auto input = shape_of(this, inputs);
-    const symsurf::Points images =
-        mirror_of(mirror)->reflect(points_of(input).view(), context_of(this));
+    const auto over = mirror_of(mirror);
+    const PointArray points = points_of(input);
+    const symsurf::Points images = over->reflect(points.view(), context_of(this));
     const std::vector<symsurf::Index> kept = rows_without_nan(images);
     vtkNew<vtkPolyData> reflected;
     set_subset(reflected, input, images(kept, Eigen::indexing::all), kept);
-    reflected->GetPointData()->SetNormals(nullptr);
     reflected->GetCellData()->SetNormals(nullptr);
+    vtkNew<vtkPointData> given;
+    given->ShallowCopy(reflected->GetPointData());
+    const symsurf::Points own = points.view().matrix()(kept, Eigen::indexing::all);
+    carry_values(reflected->GetPointData(), given, {*over, own}, false);
 
     vtkNew<vtkReverseSense> reverse;
     reverse->SetInputData(reflected);

@@ -5,7 +5,8 @@
  * Input 0 is what is reflected, input 1 the mirror: output 1 of vtkMirrorDetection, whose field
  * data (Kind and numbers) says everything; its triangles, of candidates or not, are not looked at,
  * so one saved and read again will do. Cells are turned over, so that the outside stays the
- * outside; normals are not passed on. Points that have no image over the mirror (beyond a sphere's
+ * outside; active vectors, normals and tensors of points are reflected by the local Jacobian,
+ * normals of cells are not passed on. Points that have no image over the mirror (beyond a sphere's
  * centre) are left out, together with the cells that need them.
  */
 #ifndef vtkMirrorReflection_h

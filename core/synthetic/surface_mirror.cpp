@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/math.h"
 #include "base/named_values.h"
@@ -177,6 +178,26 @@ std::optional<Foot> SurfaceMirror::at(const Vector3& x) const {
   if (!normal.allFinite()) normal = foot;  // on the rim of f6, a half sphere
   return Foot{placed_(foot), placed_.rotation * normal,
               placed_.scale * (is_below ? -distance : distance)};
+}
+
+// Of differences of the slope, which is exact; their errors are the sixth power of the step and
+// rounding over it.
+Matrix3 SurfaceMirror::shape_operator(const Foot& foot) const {
+  Matrix3 bend = Matrix3::Zero();
+  if (mapping_ == Mapping::Fixed) return bend;
+  constexpr double step = 5e-3;  // of the surface's own unit, in which its waves are some long
+  const Slope at = to_frame(foot.point).head<2>();
+  for (int axis = 0; axis < 2; ++axis)
+    for (const auto& [steps, weight] :
+         {std::pair(1, 45.0), std::pair(2, -9.0), std::pair(3, 1.0)}) {
+      const Slope beside = steps * step * Slope::Unit(axis);
+      bend.col(axis).head<2>() -= weight / (60 * step) *
+                                  (surface_.gradient(at.x() + beside.x(), at.y() + beside.y()) -
+                                   surface_.gradient(at.x() - beside.x(), at.y() - beside.y()));
+    }
+  const Vector3 normal = placed_.rotation.transpose() * foot.normal;
+  const Matrix3 tangent = placed_.rotation * across(normal);
+  return tangent * bend * tangent.transpose() * (normal.z() / placed_.scale);
 }
 
 Values SurfaceMirror::numbers() const {

@@ -1,5 +1,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <symsurf/attributes.h>
 #include <symsurf/detect.h>
 #include <symsurf/operations.h>
 
@@ -50,9 +51,96 @@ py::dict operate_fields(const std::string& name, const PointsArgument& points,
   return fields;
 }
 
+using Parents = py::array_t<Index, py::array::c_style | py::array::forcecast>;
+
+Eigen::MatrixXd column(const py::array_t<double, py::array::forcecast>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+}
+
+// With what it looks at.
+struct HeldTransform {
+  PointsArgument points;
+  std::shared_ptr<const Mirror> mirror;
+  AttributeTransform by;
+};
+
+HeldTransform transform_by(const std::string& operation, const PointsArgument& given,
+                           const PointsArgument& made, const Parents& sources,
+                           const std::optional<Parents>& parents,
+                           const std::optional<Eigen::MatrixXd>& shares,
+                           const std::map<std::string, py::array>& arrays,
+                           const py::dict& parameters, const py::dict& statistics,
+                           const std::optional<std::shared_ptr<Mirror>>& mirror) {
+  OperationResult result;
+  result.operation = operation;
+  result.points = PointsView(made).matrix();
+  result.point_sources.assign(sources.data(), sources.data() + sources.size());
+  if (parents && shares) {
+    result.point_parents = Eigen::Map<const AttributeTransform::Rows>(
+        parents->data(), parents->shape(0), parents->shape(1));
+    result.point_shares = *shares;
+  }
+  for (const char* name : {"partner", "origin"})
+    if (const auto found = arrays.find(name); found != arrays.end())
+      result.arrays[name] = column(found->second);
+  result.parameters = values_from(parameters, {});
+  result.statistics = values_from(statistics, {});
+  const std::shared_ptr<Mirror> used = mirror.value_or(nullptr);
+  return {given, used, AttributeTransform(result, given, used.get())};
+}
+
+AttributeKind kind_from(const std::string& name) {
+  if (name == "vector") return AttributeKind::Vector;
+  return name == "normal" ? AttributeKind::Normal : AttributeKind::Tensor;
+}
+
+void bind_attributes(py::module_& module) {
+  py::class_<HeldTransform>(
+      module, "AttributeTransform",
+      "Takes arrays at the points of a shape to those of its image, or of an operation's result.")
+      .def(py::init([](const std::shared_ptr<Mirror>& mirror, const PointsArgument& points) {
+             return HeldTransform{points, mirror, AttributeTransform(*mirror, points)};
+           }),
+           py::arg("mirror"), py::arg("points"), "Of the image over the mirror.")
+      .def_static("of_result", &transform_by, py::arg("operation"), py::arg("given"),
+                  py::arg("points"), py::arg("sources"), py::arg("parents"), py::arg("shares"),
+                  py::arg("arrays"), py::arg("parameters"), py::arg("statistics"),
+                  py::arg("mirror"), "Of the fields of an operation's result.")
+      .def_property_readonly(
+          "turns", [](const HeldTransform& held) { return held.by.turns(); },
+          "Whether directions change, of some points at least.")
+      .def_property_readonly(
+          "jacobians",
+          [](const HeldTransform& held) {
+            const std::vector<Matrix3>& found =
+                without_gil([&]() -> const std::vector<Matrix3>& { return held.by.jacobians(); });
+            py::array_t<double> rows(
+                {static_cast<py::ssize_t>(found.size()), py::ssize_t{3}, py::ssize_t{3}});
+            double* value = rows.mutable_data();
+            for (const Matrix3& each : found)
+              for (const double entry : each.reshaped<Eigen::RowMajor>()) *value++ = entry;
+            return rows;
+          },
+          "The local Jacobians (j, 3, 3) of the map.")
+      .def_property_readonly(
+          "jacobian_of",
+          [](const HeldTransform& held) { return owned_array(held.by.jacobian_of()); },
+          "(n, k) of each point and each of its parents the row of jacobians, -1 for none.")
+      .def(
+          "__call__",
+          [](const HeldTransform& held, const Eigen::MatrixXd& values, const std::string& kind) {
+            return owned_array(without_gil(
+                [&] { return AttributeTransform::Shares(held.by(values, kind_from(kind))); }));
+          },
+          py::arg("values"), py::arg("kind"),
+          "Values (n, c) of the kind \"vector\", \"normal\" or \"tensor\" from those (k, c) of the "
+          "shape's points.");
+}
+
 }  // namespace
 
 void bind_operations(py::module_& module) {
+  bind_attributes(module);
   py::class_<PointArray>(module, "PointArray",
                          "An array that an operation or an analysis gives each point.")
       .def_readonly("name", &PointArray::name)

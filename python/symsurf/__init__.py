@@ -42,6 +42,7 @@ from .detection.summaries import summarize
 from .mirror_operations import functions
 from .mirror_operations.bending import bend, straight_mirror
 from .mirror_operations.functions import *  # one for each in operations()
+from .mirror_operations.measuring import repeatability
 from .morphometrics import (
     AnovaRow,
     Cohort,
@@ -159,6 +160,7 @@ __all__ = [
     "read",
     "read_landmark_sets",
     "read_landmarks",
+    "repeatability",
     "save_matches",
     "straight_mirror",
     "summarize",

@@ -2,35 +2,24 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Mirror
+from ._core import AttributeTransform, Mirror
 from .shapes import Shape, objects
-from .shapes.kinds import UNDIRECTED, Carry, affine_jacobian, jacobian, moved
-
-
-def is_flat(mirror: Mirror) -> bool:
-    """Whether its reflection is affine."""
-    return mirror.kind in ("plane", "oblique plane")
+from .shapes.kinds import UNDIRECTED, Carry, carried_by
 
 
 def carry_over(mirror: Mirror, points: NDArray[np.float64]) -> Carry:
     """What takes values of points (n, 3) to their images."""
-
-    @cache
-    def own() -> NDArray[np.float64]:
-        return (
-            affine_jacobian(mirror.reflect) if is_flat(mirror) else jacobian(mirror.reflect, points)
-        )
+    by, rows = AttributeTransform(mirror, points), np.arange(len(points))[:, None]
 
     def carried(values: NDArray[Any], kind: str, name: object) -> NDArray[Any]:
         if kind in UNDIRECTED:
             return values
-        return moved(values, kind, mirror.reflect, own(), name).astype(values.dtype)
+        return carried_by(by, values, kind, lambda p, _: mirror.reflect(p), rows, name=name)
 
     return carried
 

@@ -113,19 +113,55 @@ def test_a_mirror_that_was_moved_is_where_it_was_moved_to():
     assert np.allclose(reflected, images, rtol=0, atol=1e-9 * shape.diagonal)
 
 
-def test_normals_of_a_reflected_cloud_are_none_and_of_a_mesh_its_own():
-    for shape, has_normals in ((lump_cloud(8), False), (lump(8), True)):
-        mesh_set = pymeshlab.MeshSet()
-        faces = {} if shape.faces is None else {"face_matrix": shape.faces}
-        normals = np.tile(shape.normal, (len(shape.points), 1))
-        mesh = pymeshlab.Mesh(vertex_matrix=shape.points, v_normals_matrix=normals, **faces)
-        mesh_set.add_mesh(mesh)
-        mesh_set.apply_filter("compute_mirror_plane")
+def test_normals_of_a_reflected_mesh_are_its_own():
+    shape = lump(8)
+    normals = np.tile(shape.normal, (len(shape.points), 1))
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(shape.points, shape.faces, v_normals_matrix=normals))
+    mesh_set.apply_filter("compute_mirror_plane")
+    reflected = mesh_set[mesh_set.apply_filter("apply_mirror_reflection")["reflection_layer"]]
+    outward = reflected.vertex_matrix() - reflected.vertex_matrix().mean(axis=0)
+    assert ((reflected.vertex_normal_matrix() * outward).sum(axis=1) > 0).mean() > 0.9
+
+
+DIRECTED = {
+    "align": {},
+    "straighten": {},
+    "complete": {"search": False},
+    "transfer": {},
+}
+
+
+@pytest.mark.parametrize("method", ["plane", "sphere", "cylinder", "perpendicular"])
+@pytest.mark.parametrize("operation", ["reflect", *DIRECTED])
+def test_directions_are_carried_as_in_python(operation, method):
+    """Normals of a cloud, and an attribute of three numbers as a vector."""
+    shape = lump_cloud(8)
+    random = np.random.default_rng(0)
+    normals, winds = random.normal(size=(2, *shape.points.shape))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(vertex_matrix=shape.points, v_normals_matrix=normals))
+    mesh_set.current_mesh().add_vertex_custom_point_attribute(winds, "wind")
+    found = mesh_set.apply_filter("compute_mirror_" + method)
+    mirror = symsurf.detect(shape.points, method).mirror
+    if operation == "reflect":
         returned = mesh_set.apply_filter("apply_mirror_reflection")
-        reflected = mesh_set[returned["reflection_layer"]]
-        if not has_normals:
-            assert not reflected.vertex_normal_matrix().any()
-            continue
-        outward = reflected.vertex_matrix() - reflected.vertex_matrix().mean(axis=0)
-        normals = reflected.vertex_normal_matrix()
-        assert ((normals * outward).sum(axis=1) > 0).mean() > 0.9
+        layer = mesh_set[returned["reflection_layer"]]
+        by = symsurf._core.AttributeTransform(mirror, shape.points)
+        kept = np.isfinite(mirror.reflect(shape.points)).all(axis=1)
+        expected = {kind: by(v, kind)[kept] for kind, v in (("vector", winds), ("normal", normals))}
+    else:
+        described = symsurf.operations()[operation]
+        name = "apply_" + described.title.lower().replace(" ", "_")
+        mesh_set.apply_filter(name, mirror_layer=found["mirror_layer"], **DIRECTED[operation])
+        layer = mesh_set.current_mesh()
+        given = [None] if operation == "transfer" else []
+        made = getattr(symsurf, operation)(*given, shape.points, mirror, **DIRECTED[operation])
+        expected = {
+            "vector": made.carried(winds, "vector"),
+            "normal": normals if operation == "transfer" else made.carried(normals, "normal"),
+        }
+    seen = layer.vertex_custom_point_attribute_matrix("wind")
+    assert np.allclose(seen, expected["vector"], rtol=0, atol=1e-9)
+    assert np.allclose(layer.vertex_normal_matrix(), expected["normal"], rtol=0, atol=1e-9)

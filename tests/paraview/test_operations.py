@@ -133,3 +133,91 @@ def test_mirrors_are_translucent_and_legends_name_what_was_found(
     assert answer["own"] == 0.9  # what is shown again stays as it was made
     assert answer["shape"]["legend"].startswith("plane, score 1.00, found\n")
     assert answer["elements"]["legend"].startswith("D6h, score ")
+
+
+def directed_half() -> dict[str, Any]:
+    """Half a bumpy ball about x = 0 with a bit of its other side, and directions of its points."""
+    up, around = np.meshgrid(np.linspace(0.2, 2.9, 14), np.linspace(-1.8, 1.8, 18), indexing="ij")
+    up, around = up.ravel(), around.ravel()
+    ball = np.column_stack([np.sin(up) * np.cos(around), np.sin(up) * np.sin(around), np.cos(up)])
+    points = ball * (0.6 + 0.1 * np.sin(3 * ball[:, 1:2]) + 0.08 * ball[:, 2:])
+    i, j = np.meshgrid(np.arange(13), np.arange(17), indexing="ij")
+    corner = (18 * i + j).ravel()
+    faces = np.vstack([corner + np.array([[0], [18], [19]]), corner + np.array([[0], [19], [1]])])
+    random = np.random.default_rng(0)
+    normals = ball / np.linalg.norm(ball, axis=1, keepdims=True)
+    square = random.normal(size=(len(ball), 3, 3))
+    return {
+        "points": points,
+        "faces": np.ascontiguousarray(faces.reshape(2, 3, -1).swapaxes(1, 2).reshape(-1, 3)),
+        "Vectors": random.normal(size=points.shape),
+        "Normals": normals,
+        "Tensors": (square + square.swapaxes(1, 2)).reshape(-1, 9),
+    }
+
+
+def free_form() -> symsurf.Mirror:
+    x, y = np.meshgrid(np.linspace(-1, 1, 40), np.linspace(-1, 1, 40))
+    heights = 0.1 * x * x - 0.05 * x * y + 0.08 * np.sin(2 * y)
+    return symsurf.fit_mirror(np.column_stack([heights.ravel(), x.ravel(), y.ravel()]), "free-form")
+
+
+DIRECTED: dict[str, dict[str, Any]] = {
+    "MirrorAlignment": {},
+    "MirrorStraightening": {},
+    "MirrorCompletion": {"search": False},
+    "MirrorTransfer": {},
+    "MirrorSymmetrization": {"triangles": "mirrored"},
+    "MirrorRemeshing": {},
+    "MirrorCut": {},
+}
+EXACT = 1e-9
+
+
+def test_directions_are_carried_as_in_python(run_host: Callable[..., Any], tmp_path: Path) -> None:
+    given = directed_half()
+    mirrors: dict[str, symsurf.Mirror] = {
+        "plane": symsurf.Plane((1, 0.1, 0), 0.02),
+        "sphere": symsurf.Sphere((-3, 0, 0), 3.05),
+        "cylinder": symsurf.Cylinder((-3, 0, 0), (0, 0.2, 1), 3.05),
+        "free-form": free_form(),
+    }
+    np.savez(tmp_path / "shape.npz", **given)
+    numbers = {
+        name: (each.kind, {key: np.asarray(value).tolist() for key, value in each.numbers.items()})
+        for name, each in mirrors.items()
+    }
+    (tmp_path / "mirrors.json").write_text(json.dumps(numbers))
+    proxies = ["MirrorReflection", *DIRECTED]
+    words = [
+        f"{proxy}:Triangles=mirrored"
+        if proxy == "MirrorSymmetrization"
+        else f"{proxy}:Search=0"
+        if proxy == "MirrorCompletion"
+        else proxy
+        for proxy in proxies
+    ]
+    run_host("pvpython", "directions.py", tmp_path, *words)
+    kinds = {"Vectors": "vector", "Normals": "normal", "Tensors": "tensor"}
+    for name, mirror in mirrors.items():
+        own = symsurf.make_mirror(mirror.kind, mirror.numbers)
+        for proxy in proxies:
+            seen = np.load(tmp_path / f"{name}-{proxy}.npz")
+            if proxy == "MirrorReflection":
+                carried = _core.AttributeTransform(own, given["points"])
+                expected = {each: carried(given[each], kind) for each, kind in kinds.items()}
+            else:
+                made = getattr(symsurf, PROXIES[proxy].name)(
+                    *([None] if proxy == "MirrorTransfer" else []),
+                    symsurf.Shape(given["points"], given["faces"]),
+                    own,
+                    **DIRECTED[proxy],
+                )
+                np.testing.assert_allclose(seen["points"], made.shape.points, atol=EXACT)
+                expected = {each: made.carried(given[each], kind) for each, kind in kinds.items()}
+                if proxy == "MirrorTransfer":
+                    expected["Normals"] = given["Normals"]  # the points', which stay
+            for each, values in expected.items():
+                np.testing.assert_allclose(
+                    seen[each], values, atol=EXACT, err_msg=f"{name} {proxy} {each}"
+                )

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from command_line import run_here
 from symmetric_shapes import random_rotation
+from symsurf._core import AttributeTransform
 
 import symsurf
-from symsurf.shapes.kinds import jacobian, moved
+from symsurf.shapes.kinds import turned
 
 TURN = random_rotation(np.random.default_rng(2))
 PLANE = symsurf.Plane(TURN[:, 0], 0.1)
@@ -60,7 +61,7 @@ def test_aligned_splats_turn_and_keep_types_order_and_all_else(tmp_path):
     np.testing.assert_allclose(aligned[:, :3], made.shape.points, atol=1e-6)
     np.testing.assert_allclose(aligned[:, 3:6], rows[:, 3:6] @ turn.T, atol=1e-6)
     for kind, columns in (("quaternion", ROTATION), ("harmonics", HARMONICS)):
-        wanted = moved(rows[:, columns], kind, lambda x: x @ turn.T, turn)
+        wanted = turned(rows[:, columns].astype(float), kind, turn)
         np.testing.assert_allclose(aligned[:, columns], wanted, atol=1e-6)
     others = [i for i, name in enumerate(SPLAT) if name[0] in "os" or name.startswith("f_dc")]
     np.testing.assert_array_equal(aligned[:, others].astype("f4"), rows[:, others])
@@ -78,7 +79,7 @@ def test_images_of_splats_reflected_again_are_these(tmp_path):
     flip = np.eye(3) - 2 * np.outer(PLANE.normal, PLANE.normal)
     for kind, first, count in (("quaternion", "rot_0", 4), ("harmonics", "f_rest_0", 45)):
         columns = slice(names.index(first), names.index(first) + count)
-        again = moved(images[:, columns], kind, lambda x: x, flip)
+        again = turned(images[:, columns].astype(float), kind, flip)
         np.testing.assert_array_equal(own[:, columns], rows[:, SPLAT.index(first) :][:, :count])
         np.testing.assert_allclose(again, own[:, columns], atol=1e-6)
         assert np.abs(images[:, columns] - own[:, columns]).max() > 0.1
@@ -106,7 +107,7 @@ def test_images_of_ellipsoids_are_those_of_the_local_map(mirror, tmp_path):
     _, table = read(tmp_path / "whole.ply")
     own, images = table[:300], table[300:]
     points = np.column_stack([own[axis] for axis in "xyz"]).astype(float)
-    local = jacobian(mirror.reflect, points)
+    local = AttributeTransform(mirror, points).jacobians
     wanted = local @ covariances(own) @ np.swapaxes(local, 1, 2)
     np.testing.assert_allclose(covariances(images), wanted, rtol=1e-4, atol=1e-5 * wanted.max())
     assert len(images) == 300

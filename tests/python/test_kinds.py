@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import pyvista
 from symmetric_shapes import random_rotation
+from symsurf._core import AttributeTransform
 
 import symsurf
-from symsurf.shapes.kinds import jacobian, moved
+from symsurf.reflection import carry_over
+from symsurf.shapes.kinds import turned
 from symsurf.vtk import operations as filters
 
 
@@ -48,8 +50,8 @@ def test_reflected_twice_is_itself(mirror, kind):
         pytest.skip("the closest orthogonal matrix of a shear is not its own inverse")
     points, given = body(), drawn(kind)
     images = mirror.reflect(points)
-    once = moved(given, kind, mirror.reflect, jacobian(mirror.reflect, points))
-    twice = moved(once, kind, mirror.reflect, jacobian(mirror.reflect, images))
+    once = carry_over(mirror, points)(given, kind, "given")
+    twice = carry_over(mirror, images)(once, kind, "once")
     assert np.abs(once - given).max() > 0.1
     np.testing.assert_allclose(twice, given, atol=1e-9)
 
@@ -59,35 +61,32 @@ def test_directions_are_those_of_curves_and_surfaces_through_the_points(mirror):
     """Short steps along a vector lead to steps along its image; normals stay perpendicular to the
     tangents; a tensor v v^T is that of the image of v."""
     points, along = body(), drawn("vector")
-    own = jacobian(mirror.reflect, points)
-    image = moved(along, "vector", mirror.reflect, own)
+    carried = AttributeTransform(mirror, points)
+    image = carried(along, "vector")
     step = 1e-5
     chord = (mirror.reflect(points + step * along) - mirror.reflect(points - step * along)) / step
     np.testing.assert_allclose(image, chord / 2, atol=1e-8)
     tangent = drawn("normal")[::-1]
     normal = np.cross(along, tangent)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    turned = moved(normal, "normal", mirror.reflect, own)
-    np.testing.assert_allclose((turned * image).sum(axis=1), 0, atol=1e-9)
-    np.testing.assert_allclose(np.linalg.norm(turned, axis=1), 1)
+    across = carried(normal, "normal")
+    np.testing.assert_allclose((across * image).sum(axis=1), 0, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(across, axis=1), 1)
     square = np.einsum("ni,nj->nij", along, along).reshape(-1, 9)
     wanted = np.einsum("ni,nj->nij", image, image).reshape(-1, 9)
-    np.testing.assert_allclose(moved(square, "tensor", mirror.reflect, own), wanted, atol=1e-9)
+    np.testing.assert_allclose(carried(square, "tensor"), wanted, atol=1e-9)
 
 
 @pytest.mark.parametrize("matrix", [rotation(3), -rotation(4)], ids=["rotation", "reflection"])
 def test_rotations_and_harmonics_turn_with_what_they_describe(matrix):
-    def turned(points):
-        return points @ matrix.T
-
     quaternions = drawn("quaternion")
-    made = moved(quaternions, "quaternion", turned, matrix)
+    made = turned(quaternions, "quaternion", matrix)
     last = np.diag((np.sign(np.linalg.det(matrix)), 1, 1))
     np.testing.assert_allclose(frames(made), matrix @ frames(quaternions) @ last, atol=1e-12)
     # A lobe, the cube of the cosine with a direction, is that with the turned direction.
     lobe = drawn("normal", 1)[0]
     before, after = (lobe_harmonics(d) for d in (lobe, matrix @ lobe))
-    np.testing.assert_allclose(moved(before, "harmonics", turned, matrix), after, atol=1e-12)
+    np.testing.assert_allclose(turned(before, "harmonics", matrix), after, atol=1e-12)
     assert np.abs(before - after).max() > 0.1
 
 
@@ -102,14 +101,23 @@ def frames(quaternions):
 
 
 def lobe_harmonics(lobe):
-    """Coefficients (1, 45) of t + t^2 + t^3, t the cosine with the lobe, by the polynomials of the
-    splats' renderer."""
+    """Coefficients (1, 45) of t + t^2 + t^3, t the cosine with the lobe."""
     d = np.random.default_rng(5).normal(size=(400, 3))
     d /= np.linalg.norm(d, axis=1, keepdims=True)
-    x, y, z = d.T
+    cosine = d @ lobe
+    found = np.linalg.lstsq(
+        np.column_stack(lobe_basis(d.T)), cosine + cosine**2 + cosine**3, rcond=None
+    )[0]
+    return np.tile(found[1:], 3)[None]
+
+
+def lobe_basis(d):
+    """(16, ...) harmonics of unit vectors (3, ...) up to degree 3, by the polynomials of the splats'
+    renderer."""
+    x, y, z = d
     xx, yy, zz = x * x, y * y, z * z
-    basis = [
-        np.ones(len(d)),
+    return [
+        np.ones_like(x),
         -0.4886025119029199 * y,
         0.4886025119029199 * z,
         -0.4886025119029199 * x,
@@ -126,9 +134,6 @@ def lobe_harmonics(lobe):
         1.445305721320277 * z * (xx - yy),
         -0.5900435899266435 * x * (xx - 3 * yy),
     ]
-    cosine = d @ lobe
-    found = np.linalg.lstsq(np.column_stack(basis), cosine + cosine**2 + cosine**3, rcond=None)[0]
-    return np.tile(found[1:], 3)[None]
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +218,8 @@ def test_images_of_half_a_shape_have_the_images_of_its_vectors(mirror):
     wind = drawn("vector", len(cloud))
     whole = symsurf.complete(cloud, mirror, search=False)
     made = whole.carried(wind, "vector")
-    own = jacobian(mirror.reflect, cloud[whole.sources])
+    own = AttributeTransform(mirror, cloud).jacobians
+    own = own[whole.sources] if len(own) > 1 else own
     images = (own @ wind[whole.sources][:, :, None])[:, :, 0]
     wanted = np.where(whole.origin[:, None] > 0, images, wind[whole.sources])
     np.testing.assert_allclose(made, wanted, atol=1e-9)

@@ -94,6 +94,27 @@ def test_page_of_a_mesh(ball, browse, tmp_path):
     assert np.count_nonzero((frame[..., 0] - frame[..., 2]) > 60) > 300
 
 
+def test_an_inspection_is_printed_with_six_sides_and_signed(ball, browse, tmp_path):
+    page = tmp_path / "part.html"
+    bands = ["--bands", "0.01,0.05", "--unit", "mm", "--method", "plane"]
+    done = run("asymmetry", ball, "--output", page, *bands)
+    assert done.returncode == 0, done.stderr
+    content = page.read_text()
+    text = told(content)
+    for word in ("part", "date", "symmetry value", "settings", "versions", "Signature"):
+        assert f">{word}<" in text
+    assert "Tolerance bands" in text and "NumPy " in text and "ball.ply" in text
+    assert text.count("<figure>") == 6 and "from -z" in text
+    # As it is on paper: without the scene, which does not run there.
+    printed = tmp_path / "printed.html"
+    printed.write_text(content.replace("@media print {", "@media all {"))
+    seen = browse(printed)
+    assert coloured(seen) > 5_000
+    plain = tmp_path / "plain.html"
+    assert run("asymmetry", ball, "--output", plain, "--method", "plane").returncode == 0
+    assert "Signature" not in told(plain.read_text())
+
+
 def test_the_page_turns(ball, browse, tmp_path):
     """A drag by the mouse shows another side, a page that is left alone does not change."""
     from symsurf.plotting.drawing import new_plotter

@@ -19,6 +19,9 @@ inline constexpr double single_rounding = 1e-6;
 /// The same of double precision, after some arithmetic.
 inline constexpr double double_rounding = 1e-9;
 
+/// The projection across a unit vector.
+inline Matrix3 across(const Vector3& unit) { return Matrix3::Identity() - unit * unit.transpose(); }
+
 /// The points that are finite: what has no foot on a mirror is not.
 inline Points finite_rows(Points points) {
   Index rows = 0;

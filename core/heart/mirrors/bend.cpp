@@ -226,6 +226,23 @@ struct Workplace {
     return chart.origin + chart.axes * Vector3(at.x(), at.y(), chart.rise * foot->distance);
   }
 
+  // The derivative of straightened(); NaN without a foot.
+  Matrix3 jacobian(const Vector3& x) const {
+    const std::optional<Foot> foot = mirror->at(x);
+    if (!foot) return Matrix3::Constant(NAN);
+    constexpr double step = 1e-5;  // of the extent: its square and rounding over it are as small
+    Matrix3 rows;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 beside = step * Vector3::Unit(axis);
+      rows.col(axis).head<2>() =
+          (chart.flatten(foot->point + beside) - chart.flatten(foot->point - beside)) / (2 * step);
+    }
+    rows.topRows<2>() *= mirror->foot_jacobian(*foot);
+    const Vector3& normal = foot->normal;
+    rows.row(2) = chart.rise / normal.dot(mirror->direction(*foot)) * normal.transpose();
+    return chart.axes * rows;
+  }
+
   Vector3 restored(const Vector3& x) const {
     const Vector3 at = chart.axes.transpose() * (x - chart.origin);
     const std::optional<Foot> foot = chart.lift(at.head<2>());
@@ -243,7 +260,7 @@ constexpr Index chunk = 512;  // points; some ten microseconds each over a free-
 
 // Points beyond the mirror, which have no place, go rigidly with the nearest that has one.
 Index carry_unplaced(Points& out, PointsView points, Bend way, const Workplace& position,
-                     const Context& context) {
+                     const Context& context, std::vector<Matrix3>* jacobians) {
   std::vector<Index> placed, unplaced;
   for (Index i = 0; i < points.size(); ++i)
     if (points[i].allFinite()) (out.row(i).allFinite() ? placed : unplaced).push_back(i);
@@ -265,6 +282,7 @@ Index carry_unplaced(Points& out, PointsView points, Bend way, const Workplace& 
                along_mirror(position.chart.axes.col(0), foot->normal).transpose();
       if (way == Bend::Restore) turn.transposeInPlace();
       out.row(i) = there + turn * (points[i] - points[near]);
+      if (jacobians) (*jacobians)[i] = turn;
     }
   });
   return count;
@@ -273,18 +291,23 @@ Index carry_unplaced(Points& out, PointsView points, Bend way, const Workplace& 
 }  // namespace
 
 Points bend(PointsView points, const Mirror& mirror, Bend way, const Context& context,
-            Index* unplaced) {
+            Index* unplaced, std::vector<Matrix3>* jacobians) {
   context.report(0);
   const Workplace position(mirror, points, context);
   Points out(points.size(), 3);
+  if (jacobians) jacobians->resize(points.size());
   parallel_for(context.stage(0, 0.9), points.size(), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Vector3 x = position.to_frame(points[i]);
       out.row(i) = position.from_frame(way == Bend::Straighten ? position.straightened(x)
                                                                : position.restored(x));
+      if (!jacobians) continue;
+      (*jacobians)[i] = way == Bend::Straighten
+                            ? position.jacobian(x)
+                            : Matrix3(position.jacobian(position.to_frame(out.row(i))).inverse());
     }
   });
-  const Index count = carry_unplaced(out, points, way, position, context.stage(0.9, 1));
+  const Index count = carry_unplaced(out, points, way, position, context.stage(0.9, 1), jacobians);
   context.report(1);
   if (unplaced) *unplaced = count;
   return out;

@@ -27,6 +27,9 @@ struct FreeForm::Blend {
   // The surface's point closest to x; `precision` is relative to the patches.
   std::optional<Foot> closest(const Vector3& x, double precision) const;
 
+  // Second over first derivatives at a point of the surface.
+  Matrix3 bend(const Vector3& foot) const;
+
  private:
   struct Jet {
     double value;
@@ -190,6 +193,14 @@ std::optional<Foot> FreeForm::Blend::closest(const Vector3& x, double precision)
   return std::nullopt;
 }
 
+Matrix3 FreeForm::Blend::bend(const Vector3& foot) const {
+  std::vector<std::int32_t> patches;
+  const Vector3 from_origin = foot - origin_;
+  around(from_origin, 0, patches);
+  const std::optional<Jet> here = jet(from_origin, patches);
+  return here ? Matrix3(here->hessian / here->gradient.norm()) : Matrix3::Constant(NAN);
+}
+
 FreeForm::FreeForm(std::vector<Patch> patches) {
   require_valid(patches);
   blend_ = std::make_shared<const Blend>(std::move(patches));
@@ -208,6 +219,11 @@ bool FreeForm::foot(const Vector3& x, double precision, Vector3& foot, Vector3& 
 std::optional<Foot> FreeForm::at(const Vector3& x) const {
   constexpr double full_precision = 1e-14;
   return blend_->closest(x, full_precision);
+}
+
+Matrix3 FreeForm::shape_operator(const Foot& foot) const {
+  const Matrix3 tangent = across(foot.normal);
+  return tangent * blend_->bend(foot.point) * tangent;
 }
 
 Values FreeForm::numbers() const {

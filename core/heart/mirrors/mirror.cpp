@@ -58,6 +58,20 @@ Vector3 Mirror::reflect(const Vector3& x) const {
   return foot && has_image(*foot) ? Vector3(x + 2 * (foot->point - x)) : Vector3::Constant(NAN);
 }
 
+// Of x = y + d v, y on the mirror: along a perpendicular one, whose v is the normal n, steps dx are
+// (I + d dn) dy, and across it the foot stays.
+Matrix3 Mirror::foot_jacobian(const Foot& foot) const {
+  const Vector3 v = direction(foot), &n = foot.normal;
+  const Matrix3 along = Matrix3::Identity() + foot.distance * shape_operator(foot);
+  return along.inverse() - v * n.transpose() / n.dot(v);
+}
+
+Matrix3 Mirror::jacobian(const Vector3& x) const {
+  const std::optional<Foot> foot = at(x);
+  if (!foot || !has_image(*foot)) return Matrix3::Constant(NAN);
+  return 2 * foot_jacobian(*foot) - Matrix3::Identity();
+}
+
 Points Mirror::reflect(PointsView points, const Context& context) const {
   Points images(points.size(), 3);
   for_each(points, context, [&](Index i, const Vector3& x) { images.row(i) = reflect(x); });

@@ -136,6 +136,8 @@ std::optional<Foot> Sphere::at(const Vector3& x) const {
   return radial_foot(centre_, x - centre_, radius_);
 }
 
+Matrix3 Sphere::shape_operator(const Foot& foot) const { return across(foot.normal) / radius_; }
+
 Values Sphere::numbers() const { return {{"centre", centre_}, {"radius", radius_}}; }
 
 std::unique_ptr<Mirror> Sphere::moved(const Motion& by) const {
@@ -185,6 +187,10 @@ Cylinder::Cylinder(const Vector3& point, const Vector3& axis, double radius)
 std::optional<Foot> Cylinder::at(const Vector3& x) const {
   const Vector3 d = x - point_, from = d - d.dot(axis_) * axis_;
   return radial_foot(x - from, from, radius_);
+}
+
+Matrix3 Cylinder::shape_operator(const Foot& foot) const {
+  return (across(foot.normal) - axis_ * axis_.transpose()) / radius_;
 }
 
 Values Cylinder::numbers() const {
@@ -265,6 +271,11 @@ std::optional<Foot> Quadric::at(const Vector3& x) const {
   const Vector3 point = origin_ + axes_ * y;
   const double distance = (x - point).norm();
   return Foot{point, axes_ * g.stableNormalized(), this->value(x) < 0 ? -distance : distance};
+}
+
+Matrix3 Quadric::shape_operator(const Foot& foot) const {
+  const Matrix3 tangent = across(foot.normal);
+  return tangent * matrix_ * tangent * (2 / gradient(foot.point).norm());
 }
 
 Values Quadric::numbers() const {

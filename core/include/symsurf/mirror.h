@@ -47,6 +47,12 @@ class Mirror {
   /// The distance of x from its foot, NaN where it has none.
   double signed_distance(const Vector3& x) const;
 
+  /// The derivative of the foot by the point that has it.
+  Matrix3 foot_jacobian(const Foot& foot) const;
+
+  /// The derivative of the image of x by x, NaN where it has none.
+  Matrix3 jacobian(const Vector3& x) const;
+
   /// The image of x, NaN where it has none.
   Vector3 reflect(const Vector3& x) const;
   Points reflect(PointsView points, const Context& context = {}) const;
@@ -108,6 +114,8 @@ class Mirror {
 
   /// False for points that are mirrored nowhere, although they have a foot.
   virtual bool has_image(const Foot&) const { return true; }
+  /// The derivative of the unit normal along the surface of a perpendicular mirror, 0 across it.
+  virtual Matrix3 shape_operator(const Foot&) const { return Matrix3::Zero(); }
   virtual std::unique_ptr<Mirror> moved(const Motion& by) const = 0;
   /// The part of the mirror over at least one of its feet.
   virtual Mesh mesh_over(const std::vector<Foot>& feet, int resolution,

@@ -102,6 +102,7 @@ class Sphere final : public Mirror {
 
  private:
   bool has_image(const Foot& foot) const override { return foot.distance <= radius_; }
+  Matrix3 shape_operator(const Foot& foot) const override;
   std::unique_ptr<Mirror> moved(const Motion& by) const override;
   /// The cap about the mean direction of the feet.
   Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
@@ -131,6 +132,7 @@ class Cylinder final : public Mirror {
 
  private:
   bool has_image(const Foot& foot) const override { return foot.distance <= radius_; }
+  Matrix3 shape_operator(const Foot& foot) const override;
   std::unique_ptr<Mirror> moved(const Motion& by) const override;
   /// The shell over the angles and heights of the feet.
   Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
@@ -170,6 +172,7 @@ class Quadric final : public Mirror {
   Values numbers() const override;
 
  private:
+  Matrix3 shape_operator(const Foot& foot) const override;
   std::unique_ptr<Mirror> moved(const Motion& by) const override;
   Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
                  const Context& context) const override;
@@ -243,6 +246,7 @@ class SurfaceMirror final : public Mirror {
   Values numbers() const override;
 
  private:
+  Matrix3 shape_operator(const Foot& foot) const override;
   std::unique_ptr<Mirror> moved(const Motion& by) const override;
   Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
                  const Context& context) const override;
@@ -329,6 +333,7 @@ class FreeForm final : public Mirror {
  private:
   struct Blend;
 
+  Matrix3 shape_operator(const Foot& foot) const override;
   std::unique_ptr<Mirror> moved(const Motion& by) const override;
   Mesh mesh_over(const std::vector<Foot>& feet, int resolution,
                  const Context& context) const override;
@@ -360,11 +365,13 @@ enum class Bend {
 /// that the mirror reflects onto itself comes out symmetric about straight_mirror().
 /// A mirror made by hand is laid out over the points' feet unless it was given a footprint; going
 /// there and back needs the same footprint. Points beyond the mirror, which have no foot on it, go
-/// rigidly with the nearest that has one; `unplaced`, where given, is set to their number. Rows
-/// that are not finite stay so. Throws InvalidInput when no point of the footprint, or none of the
-/// points, has a foot or the points extend over more than 1e50, Cancelled.
+/// rigidly with the nearest that has one; `unplaced`, where given, is set to their number,
+/// `jacobians` to the derivatives of the map at the points. Rows that are not finite stay so.
+/// Throws InvalidInput when no point of the footprint, or none of the points, has a foot or the
+/// points extend over more than 1e50, Cancelled.
 Points bend(PointsView points, const Mirror& mirror, Bend way = Bend::Straighten,
-            const Context& context = {}, Index* unplaced = nullptr);
+            const Context& context = {}, Index* unplaced = nullptr,
+            std::vector<Matrix3>* jacobians = nullptr);
 
 /// The plane that the mirror becomes: its tangent plane in the middle of its footprint.
 /// `object` stands in for a mirror made by hand's missing footprint.

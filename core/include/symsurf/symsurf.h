@@ -1,6 +1,7 @@
 #pragma once
 
 #include <symsurf/analyses.h>
+#include <symsurf/attributes.h>
 #include <symsurf/context.h>
 #include <symsurf/detect.h>
 #include <symsurf/io.h>

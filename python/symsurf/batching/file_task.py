@@ -174,6 +174,7 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         faces=shape.faces,
         use_faces=task.use_faces,
         normals=shape.normals if task.use_normals else None,
+        weights=shape.weights,
         threads=task.threads,
         progress=share(progress, 0, found_at),
         **part(Search, task),
@@ -189,7 +190,8 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         if warning:
             notices.append(warning)
         record.pop("candidates")
-        _operate(task, shape, mirror, record, share(progress, found_at, 1))
+        over = found if "repeat" in task.parameters else mirror
+        _operate(task, shape, over, record, share(progress, found_at, 1))
 
 
 def _is_read_in_chunks(task: FileTask) -> bool:
@@ -270,7 +272,11 @@ def _analyse(task: FileTask, shape: Shape, record: Record, progress: Progress | 
 
 
 def _operate(
-    task: FileTask, shape: Shape, mirror: Mirror | None, record: Record, progress: Progress | None
+    task: FileTask,
+    shape: Shape,
+    mirror: Result | Mirror | None,
+    record: Record,
+    progress: Progress | None,
 ) -> None:
     result = operate(
         task.operation,

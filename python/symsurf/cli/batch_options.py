@@ -204,9 +204,12 @@ def with_outputs(
 
 
 def run_tasks(
-    tasks: Sequence[FileTask], arguments: argparse.Namespace, text_of: Callable[[Record], str]
+    tasks: Sequence[FileTask],
+    arguments: argparse.Namespace,
+    text_of: Callable[[Record], str],
+    hear: Callable[[Record], object] | None = None,
 ) -> tuple[int, list[dict[str, Any]]]:
-    """Does the tasks and prints each record. Gives the exit status, 1 where any failed, and the
+    """Does the tasks, prints each record and passes it to ``hear``. Gives the exit status, 1 where any failed, and the
     rows of the table."""
     if arguments.table is not None:
         _require_table(arguments.table, tasks)
@@ -224,6 +227,8 @@ def run_tasks(
         status = 0
         for record in worked_on([tasks[index] for index in left], arguments, keep):
             status = max(status, tell(record))
+            if hear is not None:
+                hear(record)
             if "error" not in record:
                 say(json.dumps(record) if arguments.json else _said(record, text_of))
     return status, [rows[index] for index in range(len(tasks))]

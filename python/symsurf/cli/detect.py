@@ -15,6 +15,7 @@ from ..saving import FORMATS
 from .batch_options import add_batch_options, add_files, input_tasks, run_tasks, with_outputs
 from .method_options import add_method_options, given_parameters
 from .output_paths import add_output
+from .repeat_options import DEVIATIONS, add_repeat, given_repeat, tell_repeatability
 from .shared_options import add_options
 from .terminal import Parser
 from .values import duration
@@ -65,6 +66,7 @@ def add_arguments(parser: Parser) -> None:
         help="downsample to about one point in DIVISOR, the means of the cells of a uniform grid; pairs "
         "are then pairs of these",
     )
+    add_repeat(group)
     add_method_options(parser)
 
 
@@ -75,14 +77,17 @@ def run(arguments: argparse.Namespace) -> int:
         raise InvalidParameter("use_normals is given beside downsample; allowed is one of them")
     tasks = input_tasks(
         arguments,
-        given_parameters(arguments),
+        given_parameters(arguments) | given_repeat(arguments),
         use_faces=not arguments.ignore_faces,
         use_normals=arguments.use_normals,
         in_chunks=arguments.in_chunks,
         downsample=None if divisor is None else _divisor(divisor),
     )
     tasks = with_outputs(tasks, arguments, lambda _: suffixes, arguments.formats, _FORMATS)
-    return run_tasks(tasks, arguments, _text)[0]
+    measured: list[Record] = []
+    status = run_tasks(tasks, arguments, _text, measured.append)[0]
+    tell_repeatability(arguments, measured)
+    return status
 
 
 def _divisor(text: str) -> float:
@@ -117,6 +122,9 @@ def _text(record: Record) -> str:
     if others := record["candidates"]:
         scores = " ".join(shown(other["score"], ".3f") for other in others)
         lines.append(f"  others    {len(others)} with scores {scores}")
+    repeated = [(name, record["statistics"].get(name)) for name in DEVIATIONS]
+    figures = ", ".join(f"{name} {shown(value)}" for name, value in repeated if value is not None)
+    lines += [f"  repeats   {figures}"] if figures else []
     lines.append(f"  time      {duration(record['seconds'])}")
     return "\n".join(lines)
 

@@ -31,6 +31,7 @@ from .batch_options import (
 )
 from .described_options import add_parameters, given_values
 from .output_paths import add_output
+from .repeat_options import add_repeat, given_repeat, tell_repeatability
 from .shared_options import given_options
 from .terminal import complain
 
@@ -99,6 +100,7 @@ class OperationCommand:
                 help="limits of the distance, such as 0.1,0.3: report the area within each and the "
                 "connected patches above the smallest",
             )
+            add_repeat(inspection)
             inspection.add_argument(
                 "--fail-above",
                 type=float,
@@ -129,12 +131,17 @@ class OperationCommand:
             arguments,
             given_values(arguments)
             | ({"kinds": kinds} if kinds else {})
+<<<<<<< HEAD
             | ({"pairs": _landmarks(path)} if (path := getattr(arguments, "pairs", None)) else {})
             | {
                 name: value
                 for name in ("bands", "pairs_sd")
                 if (value := getattr(arguments, name, None)) is not None
             },
+=======
+            | ({"bands": bands} if (bands := getattr(arguments, "bands", None)) else {})
+            | given_repeat(arguments),
+>>>>>>> 80e15302
             operation=name,
             mirror=mirror,
             require_found=arguments.require_found,
@@ -150,7 +157,9 @@ class OperationCommand:
             arguments.format,
             [*formats_of(RESULTS[name]), *own, *pages],
         )
-        status, rows = run_tasks(tasks, arguments, _text)
+        measured: list[Record] = []
+        status, rows = run_tasks(tasks, arguments, _text, measured.append)
+        tell_repeatability(arguments, measured)
         limit = getattr(arguments, "fail_above", None)
         if status or limit is None:
             return status

@@ -13,6 +13,8 @@ from ..base.options import Reading, documented, part
 from ..base.progress import Progress
 from ..reading.inputs import as_input, refuses, warn
 from ..results import Result, mirror_of
+from .faint_points import faint_statistics, without_faint
+from .repeating import deviations, half_samples, require_repeat
 from .summaries import summary_in, summary_statistics
 
 
@@ -25,12 +27,14 @@ def detect(
     faces: ArrayLike | None = None,
     use_faces: bool = True,
     normals: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
     nonfinite: str = "skip",
     threshold: float | None = None,
     label: int | str | None = None,
     scalars: str | None = None,
     external_files: bool = False,
     absolute: bool = False,
+    repeat: int = 0,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -56,9 +60,16 @@ def detect(
             or a mesh are used only if they are given here, in place of estimates, by
             ``perpendicular``, ``quadric``, ``separation_normals``, ``normals_only``, and ``auto``
             if it tries one of these.
+        weights: (n,) how much each point counts, 0 to 1; None: those of the shape, the opacity of
+            Gaussian splats. A point of weight 0.3 takes part as one of ten such points in three
+            cases; which do depends on their numbers alone. The others get no partners.
         {Reading}
         absolute: True: parameters that are lengths (unit "diagonal") are given in input units, not
             as fractions of the diagonal of the bounding box. ``Result.parameters`` has fractions.
+        repeat: number of random halves of the points in which the mirror is found again, 0 or
+            [2, 10000]: ``statistics`` has the standard deviations "angle_sd" (degrees), "offset_sd"
+            (input units, at the centroid) and "score_sd". They are upper estimates of those of
+            several measurements, which ``repeatability`` gives: a half is sampled more coarsely.
         threads: number of threads; 0: all of the machine. The result does not depend on it.
         progress: called with the fraction done, on this thread; return False to cancel.
         **parameters: parameters of the method, as in ``methods()[method].parameters``.
@@ -74,6 +85,7 @@ def detect(
     A point set without symmetry is no error: its result has a low score, and the verdict "none".
     """
     refuse = refuses(nonfinite)
+    require_repeat(repeat)
     reading = Reading(**part(Reading, locals()))
     summary = summary_in(shape)
     given = as_input(shape if summary is None else summary.means, faces, reading)
@@ -83,11 +95,30 @@ def detect(
         parameters = as_fractions(
             parameters, described, lambda: _core.diagonal(given.points, method, refuse)
         )
+    points, faint = given.points, 0
+    weights = given.shape.weights if weights is None else weights
+    if weights is not None:
+        points, faint = without_faint(given.points, weights, refuse)
+        refuse = False
     fields = _core.detect(
-        given.points, used, method, normals, refuse, seed, threads, progress, parameters
+        points, used, method, normals, refuse, seed, threads, progress, parameters
     )
+    if faint:
+        fields["points"] = given.points
+        fields["statistics"] |= faint_statistics(fields["statistics"], faint)
     if summary is not None:
         fields["statistics"] |= summary_statistics(summary)
+    if repeat:
+        again = half_samples(
+            given.points,
+            repeat,
+            fields["mirror"],
+            method=fields["method"],
+            parameters=fields["parameters"],
+            seed=seed,
+            threads=threads,
+        )
+        fields["statistics"] |= deviations([made for _, made in again], given.points)
     warn(fields["statistics"])
     return Result.from_fields(fields | {"faces": given.faces, "space": given.space})
 

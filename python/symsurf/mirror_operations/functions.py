@@ -39,6 +39,9 @@ _DOCUMENTED = {
     '``dict(wind="vector")``; None: what the object or the file says of them.',
     "bands": "limits of the distance, above 0 and in input units: ``bands`` of the result has the area "
     "within each, ``patches`` the connected regions above the smallest.",
+    "repeat": "number of random halves of the points in which the mirror is found again, as for ``detect``: "
+    '``statistics`` also has "rms_sd" of the asymmetry, input units. Needs a mirror that is found, or the '
+    "result of its detection.",
     "absolute": "True: lengths are given in input units, not as fractions of the diagonal of the "
     "bounding box; ``parameters`` of the result has fractions.",
     "require_found": f"{require_found_parameter().doc} A given result is refused likewise.",
@@ -71,7 +74,7 @@ def _lacking(operation: Operation) -> list[str]:
         *([] if operation.takes_other else ["other"]),
         *([] if operation.takes_mask else ["mask"]),
         *([] if takes_pairs(operation) else ["pairs", "pairs_sd"]),
-        *([] if operation.name == "asymmetry" else ["bands"]),
+        *([] if operation.name == "asymmetry" else ["bands", "repeat"]),
     ]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
@@ -17,6 +17,7 @@ from ..base.lengths import as_fractions, diagonal_of
 from ..base.options import Reading, Search, part
 from ..base.progress import Progress, share
 from ..detection import detect
+from ..detection.repeating import deviations, half_samples, require_repeat
 from ..reading.inputs import Input, as_input, refuses, require_finite
 from ..results import Axis, OperationResult, Result, Transferred, found_mirror, mirror_of
 from ..results.inspection import limits_of
@@ -39,6 +40,7 @@ def operate(
     faces: ArrayLike | None = None,
     kinds: Mapping[str, str] | None = None,
     bands: ArrayLike | None = None,
+    repeat: int = 0,
     absolute: bool = False,
     require_found: bool = False,
     method: str = "auto",
@@ -61,13 +63,14 @@ def operate(
     known_kinds = require_kinds(kinds)
     if bands is not None:
         limits_of(bands)
+    require_repeat(repeat)
     described = _core.operations()[name].parameters
     if any(each.name == "symmetry" for each in described):
         mirror, parameters = _named_symmetry(mirror, parameters)
     _require_conditions(parameters, described)
     if absolute:
         parameters = as_fractions(parameters, described, lambda: diagonal_of(given.points))
-    used, found, own = None, None, progress
+    used, found, searched, own = None, None, None, progress
     second = Input(None, None) if other is None else as_input(other, None, reading)
     if other is not None and mirror is not None:
         raise InvalidParameter("mirror and other are both given; allowed is one of them")
@@ -79,11 +82,18 @@ def operate(
             finding, own = share(progress, 0, FOUND_AT), share(progress, FOUND_AT, 1)
             options = part(Search, search)
             found = detect(
-                given.points, faces=given.faces, threads=threads, progress=finding, **options
+                given.points,
+                faces=given.faces,
+                weights=given.shape.weights,
+                threads=threads,
+                progress=finding,
+                **options,
             )
+            searched = found
             used, warning = found_mirror(found, require_found)
             warn_of([warning] if warning else [])
-        elif require_found and isinstance(mirror, Result):
+        elif isinstance(mirror, Result) and (require_found or repeat):
+            searched = mirror
             used = found_mirror(mirror, require_found)[0]
         else:
             used = mirror_of(mirror)
@@ -91,19 +101,26 @@ def operate(
         if used.footprint is None and not _core.operations()[name].takes_any_mirror:
             used = _core.make_mirror(used.kind, used.numbers, given.points)
     started = time.perf_counter()
-    made = _core.operate(
-        name,
-        given.points,
-        given.faces,
-        used,
-        _mask_of(mask),
-        threads,
-        own,
-        parameters,
-        _landmark_pairs(pairs, pairs_sd, given.points),
-        second.points,
-        second.faces,
-    )
+    landmarks = _landmark_pairs(pairs, pairs_sd, given.points)
+
+    def made_over(mirror: Mirror | None, report: Progress | None) -> dict[str, Any]:
+        return _core.operate(
+            name,
+            given.points,
+            given.faces,
+            mirror,
+            _mask_of(mask),
+            threads,
+            report,
+            parameters,
+            landmarks,
+            second.points,
+            second.faces,
+        )
+
+    made = made_over(used, own)
+    if repeat:
+        made["statistics"] |= _repeated(given.points, repeat, searched, seed, threads, made_over)
     if require_found and made["statistics"].get("pair_verdict") == "none":
         raise InvalidInput(made["statistics"]["warning"])
     if "warning" in made["statistics"]:
@@ -119,6 +136,38 @@ def operate(
         }
     )
     return result if bands is None else cast(Asymmetry, result).with_bands(bands)
+
+
+def _repeated(
+    points: NDArray[np.float64],
+    repeat: int,
+    found: Result | None,
+    seed: int,
+    threads: int,
+    made_over: Callable[[Mirror | None, Progress | None], dict[str, Any]],
+) -> dict[str, Any]:
+    """The deviations of the mirror and of the asymmetry over it."""
+    if found is None:
+        raise InvalidParameter(
+            "repeat is given beside a mirror; allowed is with one that is found, or the result of "
+            "its detection"
+        )
+    halves = half_samples(
+        points,
+        repeat,
+        found.mirror,
+        method=found.method,
+        parameters=found.parameters,
+        seed=seed,
+        threads=threads,
+    )
+    measured = []
+    for rows, each in halves:
+        if each.mirror is not None:
+            distance = made_over(each.mirror, None)["arrays"]["distance"][rows]
+            each = each._replace(rms=float(np.sqrt(np.nanmean(np.square(distance)))))
+        measured.append(each)
+    return deviations(measured, points)
 
 
 def with_values(made: Transferred, values: Any) -> Transferred:

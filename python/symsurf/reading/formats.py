@@ -92,6 +92,7 @@ FORMATS: dict[str, Format] = {
         Format(".3mf", "threemf", unpacks=True),
         Format(".las", "las"),
         Format(".pcd", "pcd"),
+        Format(".splat", "splat"),
         Format(".vtp", "vtk_data", ("pyvista",), "formats"),
         Format(".vtu", "vtk_data", ("pyvista",), "formats"),
         Format(".vtk", "vtk_data", ("pyvista",), "formats", is_image=True),

@@ -33,6 +33,16 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .wide { overflow-x: auto; }
 svg { max-width: 100%; height: auto; }
 footer { color: #777; margin-top: 2rem; font-size: .85rem; }
+.pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: .6rem; }
+figure { margin: 0; break-inside: avoid; }
+figure img { width: 100%; border: 1px solid #ddd; border-radius: 4px; }
+figcaption { color: #555; font-size: .85rem; }
+.signature { display: flex; gap: 2rem; margin-top: 3.5rem; break-inside: avoid; }
+.signature > div { flex: 1; border-top: 1px solid #777; padding-top: .2rem; font-size: .85rem; }
+@page { margin: 16mm; }
+@media print { body { padding: 0; max-width: none; font-size: 10pt; }
+  iframe, .screen { display: none; } tr, svg { break-inside: avoid; } h2 { break-after: avoid; }
+  thead { display: table-header-group; } .sheet { break-before: page; } }
 @media (max-width: 600px) { body { padding: .6rem; } th, td { padding-right: .5rem; } }
 @media (prefers-color-scheme: dark) { body { color: #ddd; background: #1b1d20; }
   th, td { border-color: #333; } thead th { color: #aaa; border-color: #555; }
@@ -121,6 +131,22 @@ def framed(whole_page: str, title: str) -> str:
         f'<iframe title="{escape(title)}" sandbox="allow-scripts" '
         f'srcdoc="{escape(whole_page)}"></iframe>'
     )
+
+
+def pictures(drawn: Iterable[tuple[str, bytes]]) -> str:
+    """PNGs with their captions, three in a row."""
+    figures = (
+        f'<figure><img src="data:image/png;base64,{b64encode(png).decode()}" alt="{escape(caption)}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
+        for caption, png in drawn
+    )
+    return f'<div class="pictures">{"".join(figures)}</div>'
+
+
+def signature(*words: str) -> str:
+    """A line to write on above each word."""
+    fields = "".join(f"<div>{escape(word)}</div>" for word in words)
+    return f'<div class="signature">{fields}</div>'
 
 
 def columns(*parts: str) -> str:

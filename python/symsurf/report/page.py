@@ -5,25 +5,30 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from datetime import datetime, timezone
+from importlib.metadata import version
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from .._core import __version__
 from ..base.plain import shown
-from ..plotting.drawing import new_plotter
+from ..plotting.drawing import finite_object, new_plotter
 from ..plotting.operation_plotting import draw
 from ..results import Asymmetry
 from ..results.summary import figures, fixed, of_the_diagonal, percent, value_text
 from .charts import histogram
-from .html import columns, framed, heading, page, paragraph, table
+from .html import columns, framed, heading, page, paragraph, pictures, signature, table
 from .scene import scripts_of, viewer_page
 
 Record = Mapping[str, Any]
 
 
 def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
-    """The page of a file.
+    """The page of a file; with tolerance bands an inspection report to print and to sign.
 
     Args:
         record: what was reported of it.
@@ -38,6 +43,7 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
     percent = 100 * signed / diagonal
     kind = asymmetry.mirror.kind
     name = Path(record["file"]).name
+    is_inspection = bool(record.get("bands"))
     return page(
         name,
         [
@@ -47,11 +53,14 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
                 else []
             ),
             paragraph(_sentence(record, kind)),
+            *(_about(record) if is_inspection else []),
             framed(scene, f"{name} in 3D"),
+            paragraph("Drag to turn, roll the wheel to zoom.", "screen"),
+            *(_sides(asymmetry) if is_inspection else []),
             paragraph(
-                "Drag to turn, roll the wheel to zoom. Blue: further out than the mirrored other side; "
-                "red: further in; grey: no counterpart."
+                "Blue: further out than the mirrored other side; red: further in; grey: no counterpart."
             ),
+            *([_bands_and_patches(record)] if is_inspection else []),
             columns(
                 heading("Signed asymmetry")
                 + histogram(percent, "% of the diagonal", "points", symmetric=True),
@@ -65,28 +74,86 @@ def shape_page(record: Record, asymmetry: Asymmetry) -> bytes:
                 ),
                 heading("Parameters") + table(_parameter_rows(record), numbers=False),
             ),
-            *_inspection(record),
+            *([signature("Date", "Name", "Signature")] if is_inspection else []),
         ],
         scripts_of(scene),
     )
 
 
-def _inspection(record: Record) -> list[str]:
-    """The tolerance bands and the patches above the smallest, where they were asked for."""
-    if not record.get("bands"):
-        return []
+def _about(record: Record) -> list[str]:
+    """What an inspection report begins with."""
+    value = f"{record['statistics']['symmetry_value']:.4g} {record['unit'] or 'input units'}"
+    rows = [
+        ("part", Path(record["file"]).name),
+        ("date", datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")),
+        ("symmetry value", value),
+        ("settings", record["settings"]),
+        (
+            "versions",
+            f"symsurf {__version__}, PyVista {version('pyvista')}, NumPy {np.__version__}",
+        ),
+    ]
+    return [table(rows, numbers=False)]
+
+
+_SIDE = (720, 540)
+_NUMBERED = 20
+
+
+def _sides(asymmetry: Asymmetry) -> list[str]:
+    """Six pictures, as the scene is not printed, with the numbers of the patches in view."""
+    return [
+        heading("Six sides"),
+        pictures(
+            (f"from {'+' if way > 0 else '-'}{axis}", _side(asymmetry, way * direction))
+            for axis, direction in zip("xyz", np.eye(3))
+            for way in (1, -1)
+        ),
+    ]
+
+
+def _side(asymmetry: Asymmetry, direction: NDArray[np.float64]) -> bytes:
+    plotter = new_plotter(off_screen=True, window_size=_SIDE)
+    draw(plotter, asymmetry, score=False, camera=direction)
+    surface = finite_object(asymmetry.shape)[0]
+    far = direction * surface.length
+    in_view = {
+        str(number): patch.place
+        for number, patch in enumerate(asymmetry.patches[:_NUMBERED], 1)
+        if asymmetry.shape.faces is None
+        or not len(surface.ray_trace(patch.place + 1e-3 * far, patch.place + 2 * far)[0])
+    }
+    if in_view:
+        plotter.add_point_labels(
+            np.array([*in_view.values()]),
+            [*in_view],
+            font_size=36,
+            shape_color="white",
+            always_visible=True,
+        )
+    picture = BytesIO()
+    plotter.screenshot(picture)
+    plotter.close()
+    return picture.getvalue()
+
+
+def _bands_and_patches(record: Record) -> str:
     unit = record["unit"] or "input units"
     bands = [(f"{band['limit']:g}", percent(band["share"])) for band in record["bands"]]
     patches = [
-        (str(number), f"{patch['largest']:.4g}", "  ".join(f"{x:.4g}" for x in patch["place"]))
+        (
+            str(number),
+            f"{patch['largest']:.4g}",
+            "" if patch["area"] is None else f"{patch['area']:.4g}",
+            "  ".join(f"{x:.4g}" for x in patch["place"]),
+        )
         for number, patch in enumerate(record["patches"], 1)
     ]
-    return [
-        columns(
-            heading("Tolerance bands") + table(bands, (f"within, {unit}", "share of the area")),
-            heading("Patches") + table(patches, ("", f"largest deviation, {unit}", "place")),
-        )
-    ]
+    names = ("", f"largest deviation, {unit}", "area", "place")
+    return columns(
+        heading("Tolerance bands") + table(bands, (f"within, {unit}", "share of the area")),
+        heading("Patches") + table(patches, names),
+    )
 
 
 def _sentence(record: Record, kind: str) -> str:

@@ -4,26 +4,17 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import InvalidInput, Mirror, Plane, operations
+from .._core import AttributeTransform, InvalidInput, Mirror, Plane, operations
 from ..base.plain import plain
-from ..reflection import is_flat
 from ..shapes import Shape
-from ..shapes.kinds import (
-    UNDIRECTED,
-    Move,
-    PointMap,
-    affine_jacobian,
-    jacobian,
-    moved,
-    with_lengths,
-)
+from ..shapes.kinds import UNDIRECTED, carried_by
 from ..shapes.objects import Remade, remade_like
 from ..shapes.polygons import carried_polygons
 from .base_result import BaseResult, mirror_record
@@ -143,65 +134,45 @@ class OperationResult(BaseResult):
             return values[self.sources]
         if kind == "weight" and values.dtype.kind != "f":
             values = values.astype(float)
-        if kind in UNDIRECTED or not self._moves:
+        keeps_lengths = kind == "normal" and self.shares is not None  # also between others
+        if kind in UNDIRECTED or not (self.turns or keeps_lengths):
             if self.parents is None or self.shares is None:
                 return values[self.sources]
             return carried_values(values, self.sources, self.parents, self.shares)
-        rows = values[self._rows].astype(float, copy=False)
-        for move in self._moves:
-            rows[move.chosen] = moved(rows[move.chosen], kind, move.apply, move.jacobian, name)
-        if self.shares is None:
-            made = rows[:, 0]
-        else:
-            counts = self.shares.reshape(*self.shares.shape, *[1] * (values.ndim - 1))
-            if kind in ("quaternion", "ellipsoid"):  # q and -q are one rotation
-                turns = rows[..., :4]
-                turns *= np.where((turns * turns[:, :1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
-            made = (np.where(counts == 0, 0, rows) * counts).sum(axis=1)
-            if kind in ("normal", "quaternion"):
-                lengths = np.linalg.norm(rows, axis=-1)
-                made = with_lengths(made, (lengths * (self.shares > 0)).max(axis=1))
-        return made.astype(values.dtype if values.dtype.kind == "f" else float, copy=False)
-
-    @property
-    def _rows(self) -> NDArray[np.int64]:
-        """(n, k) the input points whose values each point gets."""
-        return self.sources[:, None] if self.parents is None else self.parents
+        rows = self.sources[:, None] if self.parents is None else self.parents
+        return carried_by(self._transform, values, kind, self._placed, rows, self.shares, name)
 
     @property
     def turns(self) -> bool:
         """Whether directions change, of some points at least."""
-        return any(chosen.any() for chosen, _, _ in self._maps())
+        return self._transform.turns
 
     @cached_property
-    def _moves(self) -> list[Move]:
-        """How rows of values are moved; rows of none stay as they are."""
-        moves = []
-        for chosen, apply, is_affine in self._maps():
-            if not chosen.any():
-                continue
-            if is_affine:
-                own = affine_jacobian(apply)
-            else:
-                used, rows = np.unique(self._rows[chosen], return_inverse=True)
-                own = jacobian(apply, self.given.points[used])[rows]
-            moves.append(Move(chosen, apply, own))
-        return moves
+    def _transform(self) -> AttributeTransform:
+        return AttributeTransform.of_result(
+            self.operation,
+            self.given.points,
+            self.shape.points,
+            self.sources,
+            self.parents,
+            self.shares,
+            self.arrays,
+            self.parameters,
+            self.statistics,
+            self.mirror,
+        )
 
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        """The maps of the rows, each with the rows (n, k) that it moves and whether it is affine."""
-        matrix = self.statistics.get("matrix")
-        if matrix is None:
-            return []
-        turn, shift = np.asarray(matrix)[:3, :3], np.asarray(matrix)[:3, 3]
-        return [(np.ones(self._rows.shape, bool), lambda points: points @ turn.T + shift, True)]
+    def _placed(
+        self, points: NDArray[np.float64], jacobians: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Positions (n, 3) after the map that has these Jacobians."""
+        if (matrix := self.statistics.get("matrix")) is not None:
+            return points @ matrix[:3, :3].T + matrix[:3, 3]
+        assert self.mirror is not None
+        return self.mirror.reflect(points)
 
-    def _images(self, chosen: NDArray[np.bool_]) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        """The map of rows that are images over the mirror."""
-        if self.mirror is None:
-            return []
-        wide = np.broadcast_to(chosen.reshape(len(chosen), -1), self._rows.shape)
-        return [(wide, self.mirror.reflect, is_flat(self.mirror))]
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_transform"}
 
     @property
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -412,9 +383,6 @@ class Symmetrized(_OverMirror):
     partner: NDArray[np.int64] | None = None
     """(n,) with mirrored triangles: index of the point that is its image, its own on the mirror."""
 
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        return [] if self.partner is None else self._images(is_image(self.partner))
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Remeshed(_OverMirror):
@@ -425,9 +393,6 @@ class Remeshed(_OverMirror):
 
     partner: NDArray[np.int64]
     """(n,) index of the point that is its image, its own on the mirror."""
-
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        return self._images(is_image(self.partner))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -454,10 +419,6 @@ class Transferred(_OverMirror):
     """(n,) whether the point has no counterpart to take values from: it keeps its own."""
     values: Any = None
     """What was given: an array (n, ...), or a dictionary of them; None where nothing was."""
-
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        assert self.shares is not None
-        return self._images((self.shares > 0) & (np.arange(self.shares.shape[1]) > 0))
 
     def displaced(self, vectors: NDArray[Any]) -> NDArray[np.float64]:
         """Displacements (n, 3) of the points, as shape keys have them, carried likewise: what comes
@@ -508,11 +469,12 @@ class Straightened(_OverMirror):
         None over other mirrors."""
         return self.statistics.get("matrix")
 
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        if self.matrix is not None or self.mirror.kind == "plane":
-            return super()._maps()
-        bend = partial(_core.bend, mirror=self.mirror, back=self.parameters["back"])
-        return [(np.ones(self._rows.shape, bool), bend, False)]
+    def _placed(
+        self, points: NDArray[np.float64], jacobians: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        if self.matrix is not None:
+            return super()._placed(points, jacobians)
+        return _core.bend(points, self.mirror, self.parameters["back"])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -548,22 +510,13 @@ class Completed(OperationResult):
             return None
         return Axis(given["axis_point"], given["axis_direction"], given["axis_order"], self._ends)
 
-    def _maps(self) -> list[tuple[NDArray[np.bool_], PointMap, bool]]:
-        axis = self.axis
-        if axis is None:
-            return self._images(self.origin > 0)
-        direction = axis.direction / np.linalg.norm(axis.direction)
-        before, after = (
-            p - axis.point for p in (self.given.points[self.sources], self.shape.points)
-        )
-        sines = np.cross(before, after) @ direction
-        cosines = (before * after).sum(axis=1) - (before @ direction) * (after @ direction)
-        step = 2 * np.pi / (axis.order or 360 * 3600)  # of a continuous axis: to the arc second
-        turns = (np.arctan2(sines, cosines) / step).round().astype(int) * (self.origin > 0)
-        return [
-            ((turns == turn)[:, None], partial(_turned, axis.point, direction, turn * step), True)
-            for turn in np.unique(turns[turns != 0])
-        ]
+    def _placed(
+        self, points: NDArray[np.float64], jacobians: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        if self.axis is None:
+            return super()._placed(points, jacobians)
+        arms = points - self.axis.point
+        return self.axis.point + (jacobians @ arms[..., None])[..., 0]
 
     @property
     def _ends(self) -> NDArray[np.float64]:
@@ -578,25 +531,6 @@ class Completed(OperationResult):
     def _own_fields(made: dict[str, Any]) -> dict[str, Any]:
         first = len(made["faces"]) - added_faces(made["statistics"])
         return {"patch": _patch(made["points"], len(made["given"].points), made["faces"][first:])}
-
-
-def _turned(
-    centre: NDArray[np.float64],
-    direction: NDArray[np.float64],
-    angle: float,
-    points: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Points turned about an axis (Rodrigues)."""
-    arms = points - centre
-    along = np.outer(arms @ direction, direction)
-    return (
-        centre + along + np.cos(angle) * (arms - along) + np.sin(angle) * np.cross(direction, arms)
-    )
-
-
-def is_image(partner: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Images follow the points that they are images of."""
-    return partner < np.arange(len(partner))
 
 
 def added_faces(statistics: dict[str, Any]) -> int:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from .._core import InvalidInput, InvalidParameter
+from .._core import AttributeTransform, InvalidInput, InvalidParameter
 
-PointMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Placed = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+"""Positions (n, 3) after a map, given its Jacobians at the points that have them."""
 
 COMPONENTS: dict[str, tuple[int, ...]] = {
     "scalar": (),
@@ -28,28 +29,11 @@ COMPONENTS: dict[str, tuple[int, ...]] = {
 
 UNDIRECTED = ("scalar", "label", "weight")
 
-# The components of a symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
-_SYMMETRIC = (np.array([0, 1, 2, 0, 1, 0]), np.array([0, 1, 2, 1, 2, 2]))
-
-# Of the extent of the points. The error of the differences is its sixth power and rounding over it.
-_STEP = 2e-3
-_WEIGHTS = ((1, 45 / 60), (2, -9 / 60), (3, 1 / 60))
-
 
 class Carry(Protocol):
     """Values of points from those of others, by the rule of a kind."""
 
     def __call__(self, values: NDArray[Any], kind: str, name: object) -> NDArray[Any]: ...
-
-
-class Move(NamedTuple):
-    """How some rows of values, which come from points of a shape, are moved."""
-
-    chosen: NDArray[np.bool_]
-    """(n, k) of which rows."""
-    apply: PointMap
-    jacobian: NDArray[np.float64]
-    """(3, 3), or (count of the chosen, 3, 3)."""
 
 
 def require_kinds(kinds: Mapping[str, str] | None) -> dict[str, str]:
@@ -112,79 +96,86 @@ def unknown_groups(names: Sequence[str], kinds: Mapping[str, str]) -> list[str]:
     ]
 
 
-def affine_jacobian(apply: PointMap) -> NDArray[np.float64]:
-    """(3, 3) of an affine map."""
-    images = apply(np.vstack([np.zeros(3), np.eye(3)]))
-    return (images[1:] - images[0]).T
-
-
-def jacobian(apply: PointMap, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3, 3) derivatives of a map at points, by central differences of the sixth order; NaN beside
-    points without an image."""
-    finite = points[np.isfinite(points).all(axis=1)]
-    extent = float(np.linalg.norm(np.ptp(finite, axis=0))) if len(finite) else 0.0
-    step = _STEP * (extent or 1.0)
-    columns = []
-    for axis in np.eye(3):
-        pairs = (
-            (w, apply(points + i * step * axis), apply(points - i * step * axis))
-            for i, w in _WEIGHTS
-        )
-        columns.append(sum(w * (after - before) for w, after, before in pairs) / step)
-    return np.stack(columns, axis=-1)
-
-
-def moved(
-    values: ArrayLike,
+def carried_by(
+    by: AttributeTransform,
+    values: NDArray[Any],
     kind: str,
-    apply: PointMap,
-    matrices: NDArray[np.float64],
+    placed: Placed,
+    rows: NDArray[np.int64],
+    shares: NDArray[np.float64] | None = None,
     name: object = "values",
-) -> NDArray[np.float64]:
-    """Values (n, ...) of a kind after their points were moved by a map.
+) -> NDArray[Any]:
+    """Values (k, ...) with directions after their points were moved, as real numbers of their type.
 
     Args:
-        matrices: (3, 3) or (n, 3, 3), the Jacobian J of the map at the points.
+        placed: what becomes of positions.
+        rows: (n, m) the points that each value lies between; ``shares``: what each of them counts.
 
-    Returns: positions p as apply(p), vectors v as J v, normals n as the direction of J^-T n with the
-        length of n, symmetric tensors T as J T J^T, (n, 9) or, in VTK's order xx yy zz xy yz xz, (n, 6);
-        quaternions (w, x, y, z) of rotations R as those of M R, or M R diag(-1, 1, 1) where M, the
-        orthogonal matrix closest to J, is a reflection; coefficients of spherical harmonics of
-        degrees 1 to 3 as those of the function turned by M; ellipsoids, a quaternion and the logarithms
-        of three semi-axes, as the ellipsoids that J makes of them.
+    Returns: positions p as placed(p); vectors, normals and symmetric tensors by the core's rule,
+        ``symsurf/attributes.h``; quaternions (w, x, y, z) of rotations R as those of M R, or
+        M R diag(-1, 1, 1) where M, the orthogonal matrix closest to the Jacobian J, is a reflection;
+        coefficients of spherical harmonics of degrees 1 to 3 as those of the function turned by M;
+        ellipsoids, a quaternion and the logarithms of three semi-axes, as the ellipsoids that J makes
+        of them.
 
     Raises InvalidInput for another number of components.
     """
-    rows = np.asarray(values, dtype=float)
-    flat = rows.reshape(len(rows), -1)
-    if COMPONENTS[kind] and flat.shape[1] not in COMPONENTS[kind]:
+    flat = values.reshape(len(values), -1)
+    if kind != "harmonics" or values.dtype.kind != "f":  # of splats these are many, and single
+        flat = flat.astype(float, copy=False)
+    if flat.shape[1] not in COMPONENTS[kind]:
         allowed = " or ".join(map(str, COMPONENTS[kind]))
         raise InvalidInput(
             f"{name} of the kind {kind} have {flat.shape[1]} components; allowed is {allowed}"
         )
-    if kind in UNDIRECTED:
-        return rows
-    if kind == "position":
-        made = apply(flat)
-    elif kind == "vector":
-        made = _times(matrices, flat)
-    elif kind == "normal":
-        cofactors = np.stack(  # J^-T but for its determinant: sound where J has no inverse
-            [np.cross(matrices[..., (i + 1) % 3], matrices[..., (i + 2) % 3]) for i in range(3)],
-            axis=-1,
-        )
-        sign = np.where(np.linalg.det(matrices) < 0, -1.0, 1.0)[..., None]
-        made = with_lengths(sign * _times(cofactors, flat), np.linalg.norm(flat, axis=1))
-    elif kind == "tensor":
-        whole = _full(flat)
-        made = matrices @ whole @ np.swapaxes(matrices, -1, -2)
-        made = made.reshape(-1, 9) if flat.shape[1] == 9 else made[:, _SYMMETRIC[0], _SYMMETRIC[1]]
-    elif kind == "ellipsoid":
-        made = _stretched(matrices, flat)
+    if kind in ("vector", "normal", "tensor"):
+        made = by(flat, kind)
     else:
-        closest = orthogonal(matrices)
-        made = _turned(closest, flat) if kind == "quaternion" else _harmonics(closest, flat)
-    return made.reshape(rows.shape)
+        made = _moved(by, flat, kind, placed, rows, shares)
+    numbers = values.dtype if values.dtype.kind == "f" else float
+    return made.reshape(-1, *values.shape[1:]).astype(numbers, copy=False)
+
+
+def _moved(
+    by: AttributeTransform,
+    flat: NDArray[Any],
+    kind: str,
+    placed: Placed,
+    rows: NDArray[np.int64],
+    shares: NDArray[np.float64] | None,
+) -> NDArray[Any]:
+    def map_(values: NDArray[Any], jacobians: NDArray[np.float64]) -> NDArray[Any]:
+        return placed(values, jacobians) if kind == "position" else turned(values, kind, jacobians)
+
+    moves, found = by.jacobian_of >= 0, by.jacobians
+    own = found[0] if len(found) == 1 else found[by.jacobian_of[moves]]
+    if shares is None and moves.all():
+        is_same = len(rows) == len(flat) and (rows[:, 0] == np.arange(len(flat))).all()
+        return map_(flat if is_same else flat[rows[:, 0]], own)
+    each = flat[rows]
+    each[moves] = map_(each[moves], own)
+    return each[:, 0] if shares is None else _mean(each, kind, shares)
+
+
+def turned(
+    values: NDArray[np.float64], kind: str, jacobians: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Quaternions, harmonics or ellipsoids (n, ...) by Jacobians (3, 3) or (n, 3, 3)."""
+    if kind == "ellipsoid":
+        return _stretched(jacobians, values)
+    closest = orthogonal(jacobians)
+    return _turned(closest, values) if kind == "quaternion" else _harmonics(closest, values)
+
+
+def _mean(each: NDArray[np.float64], kind: str, shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    if kind in ("quaternion", "ellipsoid"):  # q and -q are one rotation
+        turns = each[..., :4]
+        turns *= np.where((turns * turns[:, :1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    counts = shares[..., None]
+    made = (np.where(counts == 0, 0, each) * counts).sum(axis=1)
+    if kind != "quaternion":
+        return made
+    return with_lengths(made, (np.linalg.norm(each, axis=-1) * (shares > 0)).max(axis=1))
 
 
 def with_lengths(vectors: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -199,20 +190,6 @@ def orthogonal(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
     finite = np.isfinite(matrices).all(axis=(-2, -1), keepdims=True)
     left, _, right = np.linalg.svd(np.where(finite, matrices, np.eye(3)))
     return np.where(finite, left @ right, np.nan)
-
-
-def _times(matrices: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    return (matrices @ vectors[..., None])[..., 0]
-
-
-def _full(tensors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3, 3)"""
-    if tensors.shape[1] == 9:
-        return tensors.reshape(-1, 3, 3)
-    whole = np.empty((len(tensors), 3, 3))
-    for i, (row, column) in enumerate(zip(*_SYMMETRIC, strict=True)):
-        whole[:, row, column] = whole[:, column, row] = tensors[:, i]
-    return whole
 
 
 def _turned(matrices: NDArray[np.float64], quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -285,7 +262,9 @@ def _harmonics(
     directions = np.column_stack([radii * np.cos(turns), radii * np.sin(turns), heights])
     inverse = np.linalg.pinv(_basis(directions)[:, :count])
     before = directions @ matrices  # the rows M^T d
-    turn = inverse @ _basis(before)[..., :count]
+    turn = (inverse @ _basis(before)[..., :count]).astype(coefficients.dtype)
+    if turn.ndim == 2:  # columns at once, which lie one after the other in tables
+        return (turn @ coefficients.T.reshape(3, count, -1)).reshape(3 * count, -1).T
     colours = coefficients.reshape(-1, 3, count)
     return (colours @ np.swapaxes(turn, -1, -2)).reshape(coefficients.shape)
 

@@ -40,6 +40,8 @@ class Shape:
     """"RAS" or "LPS" where the file says which way its axes point; None where it does not."""
     colours: NDArray[np.float64] | None = None
     """(n, k), one channel per column, as the file gives them; None where it gives none."""
+    weights: NDArray[np.float64] | None = None
+    """(n,) how much each point counts for ``detect``, 0 to 1: the opacity of Gaussian splats."""
 
     polygons: NDArray[np.int64] | None = None
     """(m,) the number of the polygon that each triangle is a part of; None where all polygons of the

@@ -102,7 +102,7 @@ def set_subset(
     output: vtkPolyData, data: vtkPolyData, points: NDArray[np.float64], kept: NDArray[np.int64]
 ) -> None:
     """Makes the output the rows ``kept`` (rising) of the data set, moved to ``points``, with their
-    data and with the cells that need no other rows. All rows: the cells as they are. No normals."""
+    data and with the cells that need no other rows. All rows: the cells as they are."""
     if len(kept) == data.GetNumberOfPoints():
         output.ShallowCopy(data)
     else:
@@ -110,7 +110,6 @@ def set_subset(
         copy_rows(output.GetPointData(), data.GetPointData(), kept)
         _copy_whole_cells(output, data, kept)
     output.SetPoints(vtk_points(points))
-    drop_normals(output)
 
 
 def drop_normals(data: vtkPolyData) -> None:
@@ -131,14 +130,14 @@ def copy_rows(
 def carry_rows(
     to: vtkDataSetAttributes, source: vtkDataSetAttributes, made: OperationResult
 ) -> None:
-    """Makes the data those of the points of a result: active vectors and tensors are turned with their
-    points; of others real numbers and colours are interpolated where points lie between several."""
+    """Makes the data those of the points of a result: active vectors, normals and tensors are turned
+    with their points; of others real numbers and colours are interpolated where points lie between several."""
     copy_rows(to, source, made.sources)
     _set_carried(to, source, made.carried)
 
 
 def turn_rows(data: vtkDataSetAttributes, carried: Carry) -> None:
-    """Turns active vectors and tensors, in arrays of their own."""
+    """Turns active vectors, normals and tensors, in arrays of their own."""
     before = vtkPointData()
     before.ShallowCopy(data)
     copy_rows(data, before, np.arange(before.GetNumberOfTuples()))

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from .. import _core
 from ..shapes.poly_data import points_of
 from .algorithm import Algorithm, Property, selected
-from .arrays import set_subset
+from .arrays import drop_normals, set_subset
 
 _OWN = {"seed": Property(0, "The same seed gives the same damage on every machine.")}
 
@@ -34,3 +34,4 @@ class PointDamage(Algorithm):
             self._options["seed"],
         )
         set_subset(outputs[0], shape, points, np.asarray(kept, np.int64))
+        drop_normals(outputs[0])

@@ -34,7 +34,6 @@ from .arrays import (
     add_values,
     carry_rows,
     copy_rows,
-    drop_normals,
     mirror_of,
     set_subset,
     vtk_cells,
@@ -56,8 +55,9 @@ class MirrorOperation(Algorithm):
 
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
-    from. Normals are not passed on where points are moved or added. Figures about the whole are
-    field data.
+    from. Active vectors, normals and tensors of points go along with them; normals of points that
+    are moved each by itself (symmetrization) and of cells are not passed on. Figures about the whole
+    are field data.
     """
 
     operation: ClassVar[Operation]
@@ -199,7 +199,9 @@ def _set_operated(
         carry_rows(output.GetPointData(), shape.GetPointData(), made)
     if operation.moves_points or operation.adds_points:
         output.SetPoints(vtk_points(result["points"]))
-        drop_normals(output)
+        if operation.takes_mask and not made.turns:  # each by itself: nobody knows the normals
+            output.GetPointData().SetNormals(None)
+        output.GetCellData().SetNormals(None)
     _add_arrays(output, faces, operation, result)
     add_values(output.GetFieldData(), result["statistics"])
 
@@ -212,6 +214,7 @@ def _set_operated(
     copy_rows(
         added.GetCellData(), shape.GetCellData(), np.concatenate([vert_sources, poly_sources])
     )
+    added.GetCellData().SetNormals(None)
     return added
 
 

@@ -19,9 +19,9 @@ class MirrorReflection(Algorithm):
     """Reflects a shape over a mirror; ``vtkMirrorReflection`` in Python.
 
     Input 0 is what is reflected, input 1 the mirror: output 1 of ``MirrorDetection``, whose field
-    data says everything. Cells are turned over, so that the outside stays the outside; normals are
-    not passed on, active vectors and tensors are reflected, too. Points that have no image over the mirror are left out, together with the cells
-    that need them.
+    data says everything. Cells are turned over, so that the outside stays the outside; active vectors,
+    normals and tensors of points are reflected, too, normals of cells are not passed on. Points that
+    have no image over the mirror are left out, together with the cells that need them.
     """
 
     _inputs: ClassVar = {
@@ -40,6 +40,7 @@ class MirrorReflection(Algorithm):
         kept = np.flatnonzero(np.isfinite(images).all(axis=1))
         reflected = vtkPolyData()
         set_subset(reflected, shape, images[kept], kept)
+        reflected.GetCellData().SetNormals(None)
         if kinds_of(shape.GetPointData()):
             turn_rows(reflected.GetPointData(), carry_over(over, points[kept]))
         reverse = vtkReverseSense()

@@ -18,6 +18,7 @@ from .obj import rewritten_obj
 from .obj_faces import other_obj
 from .off import rewritten_off
 from .ply import rewritten_ply
+from .splat import rewritten_splat
 from .stl import rewritten_stl
 
 __all__ = [
@@ -39,6 +40,7 @@ REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".csv": rewritten_columns,
     ".txt": rewritten_columns,
     ".fcsv": rewritten_columns,
+    ".splat": rewritten_splat,
 }
 
 
@@ -46,6 +48,7 @@ OTHER_REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".ply": rewritten_ply,
     ".obj": other_obj,
     ".off": rewritten_off,
+    ".splat": rewritten_splat,
 }
 """Of those, the ones that take points and faces none of which are the file's."""
 

@@ -16,8 +16,8 @@ from ...shapes.kinds import (
     Carry,
     column_groups,
     kept_as_number,
-    moved,
     unknown_groups,
+    with_lengths,
 )
 from ...shapes.polygons import corners_of
 from ...shapes.space import SPACE, TABLE
@@ -106,7 +106,8 @@ class NewShape:
     def turned(self, normals: NDArray[Any]) -> NDArray[np.float64]:
         if self.turn is None:
             return normals
-        return moved(normals, "normal", lambda points: points, self.turn)
+        made = np.asarray(normals, dtype=float) @ np.linalg.inv(self.turn)
+        return with_lengths(made, np.linalg.norm(normals, axis=1))
 
     def directed_columns(
         self, names: Iterable[bytes], column: Callable[[bytes], Any]
@@ -117,7 +118,8 @@ class NewShape:
         made: dict[bytes, NDArray[np.float64]] = {}
         for name, kind, group in column_groups([each.decode() for each in names], self.kinds):
             own = [each.encode() for each in group]
-            values = np.column_stack([column(each) for each in own]).astype(float, copy=False)
+            values = np.stack([column(each) for each in own]).T
+            values = values if values.dtype.kind == "f" else values.astype(float)
             made.update(zip(own, self.directed(values, kind, name).T, strict=True))
         return made
 
