@@ -84,8 +84,8 @@ TEST(Attributes, JacobiansAreThoseOfDifferences) {
 TEST(Attributes, ReflectedTwiceAreThemselves) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RandomCloud random(seed);
-    const Points points = 0.5 * random.box(50), given = random.box(50);
-    const Eigen::MatrixXd tensors = given.replicate(1, 2);
+    const Points points = 0.5 * random.box(50);
+    const Eigen::MatrixXd given = random.box(50), tensors = given.replicate(1, 2);
     for (const auto& [name, mirror] : mirrors(random)) {
       SCOPED_TRACE(name);
       const Points images = mirror->reflect(points);

@@ -16,6 +16,7 @@ from symmetric_shapes import difference, mirrored_surface
 
 import symsurf
 from symsurf.reading.formats import FORMATS
+from symsurf.reading.splat import SPLAT
 
 pyvista = pytest.importorskip("pyvista")
 trimesh = pytest.importorskip("trimesh")
@@ -77,6 +78,12 @@ def write_pcd(path):
     pypcd4.PointCloud.from_xyz_points(POINTS.astype("f4")).save(path)
 
 
+def write_splat(path):
+    table = np.zeros(len(POINTS), SPLAT)
+    table["position"] = POINTS
+    path.write_bytes(table.tobytes())
+
+
 def write_nrrd(path):
     header = {"space": "left-posterior-superior", "space origin": AFFINE[:3, 3]}
     nrrd.write(str(path), mask(), header | {"space directions": AFFINE[:3, :3].T})
@@ -100,6 +107,7 @@ WRITTEN = {
     ".las": (write_las, FAR, None),
     ".laz": (write_las, FAR, None),
     ".pcd": (write_pcd, POINTS, None),
+    ".splat": (write_splat, POINTS, None),
     ".nrrd": (write_nrrd, chosen(mask()), None),
     ".nii": (write_nifti, chosen(mask()), None),
 }
@@ -140,7 +148,7 @@ def test_broken_files_are_named_with_the_reason(suffix, kind, tmp_path, capfd):
     path = tmp_path / f"shape{suffix}"
     WRITTEN[suffix][0](path)
     content = path.read_bytes()
-    broken = {"half": content[: len(content) // 2], "text": b"no shape\n" * 9, "nothing": b""}
+    broken = {"half": content[: len(content) // 2 | 1], "text": b"no shape\n" * 9, "nothing": b""}
     path.write_bytes(broken[kind])
     with pytest.raises(symsurf.InvalidInput) as error:
         symsurf.read(path)

@@ -48,7 +48,7 @@ WRONG = {
     "symsurf.asymmetry(points).index": "index",
     "symsurf.asymmetry(points, speed=3)": "speed",
     "symsurf.symmetries(points, minimum_scores=3)": "minimum_scores",
-    "plane.reflect(symsurf.Shape(points)).weights": "weights",
+    "plane.reflect(symsurf.Shape(points)).scales": "scales",
 }
 
 

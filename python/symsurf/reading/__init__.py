@@ -32,9 +32,10 @@ def read(
 ) -> Shape:
     """Reads a mesh, a cloud, or the points of a mask.
 
-    PLY, OBJ, OFF, STL, XYZ, CSV, TXT, FCSV, GLB, GLTF, 3MF, LAS and PCD; with ``symsurf[formats]``
-    VTP, VTU, VTK, VTI, LAZ, NRRD and NIfTI (NII); each also compressed, as ``.ply.gz``. Coordinates keep every digit a double holds, in the unit and the axes of the file. Of masks and
-    images they are the centres of voxels in world coordinates: RAS of NIfTI, the header's space
+    PLY, OBJ, OFF, STL, XYZ, CSV, TXT, FCSV, GLB, GLTF, 3MF, LAS, PCD and SPLAT; with
+    ``symsurf[formats]`` VTP, VTU, VTK, VTI, LAZ, NRRD and NIfTI (NII); each also compressed, as
+    ``.ply.gz``. Coordinates keep every digit a double holds, in the unit and the axes of the file. Of
+    masks and images they are the centres of voxels in world coordinates: RAS of NIfTI, the header's space
     (LPS of 3D Slicer) of NRRD.
 
     Args:
