@@ -131,17 +131,13 @@ class OperationCommand:
             arguments,
             given_values(arguments)
             | ({"kinds": kinds} if kinds else {})
-<<<<<<< HEAD
             | ({"pairs": _landmarks(path)} if (path := getattr(arguments, "pairs", None)) else {})
             | {
                 name: value
                 for name in ("bands", "pairs_sd")
                 if (value := getattr(arguments, name, None)) is not None
-            },
-=======
-            | ({"bands": bands} if (bands := getattr(arguments, "bands", None)) else {})
+            }
             | given_repeat(arguments),
->>>>>>> 80e15302
             operation=name,
             mirror=mirror,
             require_found=arguments.require_found,
