@@ -18,8 +18,9 @@ namespace {
 
 const std::vector<AnalysisImplementation>& analysis_implementations() {
   static const std::vector<AnalysisImplementation> all{
-      symmetries_analysis(),         partial_symmetries_analysis(), recurring_parts_analysis(),
-      symmetry_embedding_analysis(), intrinsic_symmetry_analysis(), match_pair_analysis()};
+      symmetries_analysis(),       partial_symmetries_analysis(), recurring_parts_analysis(),
+      helical_symmetry_analysis(), symmetry_embedding_analysis(), intrinsic_symmetry_analysis(),
+      match_pair_analysis()};
   return all;
 }
 

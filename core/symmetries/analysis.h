@@ -29,6 +29,7 @@ AnalysisImplementation symmetry_embedding_analysis();
 AnalysisImplementation intrinsic_symmetry_analysis();
 AnalysisImplementation partial_symmetries_analysis();
 AnalysisImplementation recurring_parts_analysis();
+AnalysisImplementation helical_symmetry_analysis();
 AnalysisImplementation match_pair_analysis();
 
 /// Throws InvalidInput unless there are no colours, or one a point, finite where the point is.

@@ -15,6 +15,7 @@ from symsurf import Shape
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 from accuracy.coloured_parts import COLOURED_PARTS
+from accuracy.helical import polygon, turned
 from accuracy.limbed import BODIES
 from accuracy.posing import posed
 from accuracy.repeated import facade
@@ -54,6 +55,18 @@ def upright_facade():
 def labelled_bottle():
     points, faces, colours = COLOURED_PARTS["bottle with a label"].mesh(edge=0.02)
     return symsurf.symmetries(points, faces=faces, colours=colours, texture=True)
+
+
+def bolt(pitch=0.25):
+    """A thread, a shank and a hexagonal head, along the x axis."""
+
+    def thread(angle, z):
+        return 0.5 - 0.5 * pitch * np.abs(2 * ((z / pitch - angle / (2 * np.pi)) % 1) - 1)
+
+    mesh = turned(thread, 0, 2, 160)
+    mesh += turned(lambda angle, z: 0.5 + 0 * z, 2, 2.6, 30)
+    mesh += turned(lambda angle, z: 0.95 * polygon(6, angle), 2.6, 3.2, 20, 96)
+    return Shape(mesh.points[:, [2, 0, 1]], mesh.faces)
 
 
 def bone(cells=90):
@@ -110,6 +123,7 @@ def main(folder):
     body = BODIES["animal"]
     points = posed(body, np.random.default_rng(1), 0.9)
     write(symsurf.intrinsic_symmetry(points, faces=body.faces), folder / "intrinsic_symmetry.png")
+    write(symsurf.helical_symmetry(bolt()), folder / "helical_symmetry.png", (0.3, -1, 0.4))
     write_pair(folder / "match_pair.png")
 
 

@@ -18,6 +18,7 @@ from . import (
     exact,
     given_surfaces,
     halves,
+    helical,
     homologous,
     intrinsic,
     judged_bends,
@@ -47,7 +48,7 @@ from .solids import FOLDER, lacking
 from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
-           given_surfaces, halves, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, pairs, partial, point_groups,
+           given_surfaces, halves, helical, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, pairs, partial, point_groups,
            pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, topology,
            without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}

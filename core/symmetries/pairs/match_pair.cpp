@@ -13,8 +13,7 @@
 #include "fit/candidate.h"
 #include "fit/refinement.h"
 #include "fit/shapes.h"
-#include "preprocess/preprocessing.h"
-#include "preprocess/surface_samples.h"
+#include "sampled_shape.h"
 #include "score/mirror_score.h"
 #include "score/verdict.h"
 
@@ -23,23 +22,6 @@ namespace symsurf {
 namespace {
 
 using Placement = Candidate<UnitPlacement>;
-
-// A shape as a sample of its surface without outliers.
-struct Sampled {
-  Sampled(const Cloud& shape, const Context& context) : outliers(minimum_points), cloud(shape) {
-    const auto apply = [&](Stage& stage) {
-      if (stage.apply(cloud, context))
-        validate(cloud, needed_points(cloud, minimum_points), context);
-    };
-    apply(outliers);
-    if (!cloud.faces.empty()) apply(samples);
-  }
-
-  static constexpr Index minimum_points = 10;
-  OutlierRemoval outliers;
-  SurfaceSamples samples;
-  Cloud cloud;
-};
 
 // What the search looks at of a shape.
 struct Side {
@@ -254,7 +236,7 @@ std::string reason_against(double score, double evidence, double minimum_score) 
 
 void run_match_pair(const ColouredCloud& given, const ParameterValues& values,
                     const Context& context, AnalysisResult& result) {
-  Sampled left(given, context.stage(0, 0.1)), right(given.other, context.stage(0.1, 0.2));
+  SampledShape left(given, context.stage(0, 0.1)), right(given.other, context.stage(0.1, 0.2));
   const double own_size = left.cloud.frame.size, other_size = right.cloud.frame.size;
   const double size = std::max(own_size, other_size);
   require_like_sizes(own_size, other_size);
@@ -316,7 +298,7 @@ AnalysisImplementation match_pair_analysis() {
       {"distance", ParameterType::Real, 1,
        "Distance of the image from that point, input units; NaN without one."}};
   analysis.shown = "distance";
-  analysis.minimum_points = Sampled::minimum_points;
+  analysis.minimum_points = SampledShape::minimum_points;
   analysis.takes_other = analysis.finds_transforms = true;
   analysis.run = run_match_pair;
   return analysis;

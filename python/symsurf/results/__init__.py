@@ -2,6 +2,7 @@
 
 from .analysis_results import (
     AnalysisResult,
+    HelicalSymmetry,
     IntrinsicSymmetry,
     PairMatch,
     PartialSymmetries,
@@ -36,6 +37,7 @@ __all__ = [
     "Completed",
     "Correspondences",
     "Half",
+    "HelicalSymmetry",
     "Illuminated",
     "IntrinsicSymmetry",
     "OperationResult",

@@ -483,6 +483,62 @@ class PairMatch(AnalysisResult):
         return f"PairMatch({self.shape!r}, {self.verdict}, score {self.score:.3f})"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class HelicalSymmetry(AnalysisResult):
+    """The axis, pitch, handedness and extent of a spring, thread or drill.
+
+    ``transformations`` has the screw motion by a quarter of a turn, ``arrays["helical"]`` marks the
+    points of the helical part. Both are empty and False if the verdict is "none".
+    """
+
+    analysis = "helical_symmetry"
+    FIRST = ("verdict", "reason", "handedness", "pitch", "length", "score", "evidence")
+
+    @property
+    def axis(self) -> Axis | None:
+        """The axis through the middle of the helical part; None if the verdict is "none"."""
+        return self.axes[0] if self.axes else None
+
+    @property
+    def pitch(self) -> float:
+        """How far a full turn moves along the axis, input units, above 0; NaN if the verdict is
+        "none"."""
+        return float(self.statistics.get("pitch", np.nan))
+
+    @property
+    def handedness(self) -> str:
+        """ "right", "left", or "" if the verdict is "none"."""
+        return str(self.statistics.get("handedness", ""))
+
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """(2, 3) the points of the axis where the helical part begins and ends, input units; NaN if
+        the verdict is "none"."""
+        if self.axis is None:
+            return np.full((2, 3), np.nan)
+        half = self.statistics["length"] / 2 * self.axis.direction
+        return np.array([self.axis.point - half, self.axis.point + half])
+
+    @property
+    def score(self) -> float:
+        """Share of the helical part that screw motions map onto the shape, 0 to 1."""
+        return float(self.statistics["score"])
+
+    @property
+    def verdict(self) -> str:
+        """ "found" or "none"."""
+        return str(self.statistics["verdict"])
+
+    @property
+    def reason(self) -> str:
+        """Why the verdict is "none"; empty if it is "found"."""
+        return str(self.statistics["reason"])
+
+    def __repr__(self) -> str:
+        found = f"{self.handedness}-handed, pitch {self.pitch:.4g}" if self.axis else "none"
+        return f"HelicalSymmetry({self.shape!r}, {found}, score {self.score:.3f})"
+
+
 RESULTS: dict[str, type[AnalysisResult]] = {
     kind.analysis: kind
     for kind in (
@@ -492,5 +548,6 @@ RESULTS: dict[str, type[AnalysisResult]] = {
         SymmetryEmbedding,
         IntrinsicSymmetry,
         PairMatch,
+        HelicalSymmetry,
     )
 }
