@@ -7,7 +7,6 @@ from pathlib import Path
 
 from .._core import Mirror, Operation
 from ..base.options import Search, part
-from ..base.printable import printable
 from ..batching.file_task import PAGE_SUFFIX, Record
 from ..mirror_operations.operate import require_no_search
 from ..reading.json_records import read_mirror
@@ -23,6 +22,7 @@ from .batch_options import (
     add_other,
     input_tasks,
     run_tasks,
+    title_of,
     with_outputs,
 )
 from .described_options import add_parameters, given_values
@@ -149,7 +149,7 @@ def _mirror(given: str) -> Mirror:
 
 
 def _text(record: Record) -> str:
-    lines = [printable(record["file"])]
+    lines = [title_of(record)]
     if record["verdict"] is not None:
         lines += [
             f"  verdict             {record['verdict']}: {record['reason']}",
