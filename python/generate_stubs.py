@@ -67,11 +67,39 @@ def analyses_stub() -> str:
 
 
 def _functions_stub(module: ModuleType, *imports: str) -> str:
-    lines = ["from typing import Literal", "", *imports, "", f"__all__ = {module.__all__}"]
+    lines = [
+        "from typing import Literal, overload",
+        "",
+        *imports,
+        "",
+        f"__all__ = {module.__all__}",
+    ]
     for function in (getattr(module, name) for name in module.__all__):
-        lines += ["", *_declaration(function.__name__, inspect.signature(function))]
+        signature = inspect.signature(function)
+        for each in _overloads(signature):
+            lines += ["", *(["@overload"] if each is not signature else [])]
+            lines += _declaration(function.__name__, each)
+            lines += ["    ..."] if each is not signature else []
+        if each is not signature:
+            lines.pop()
         lines += textwrap.indent(f'"""{inspect.getdoc(function)}\n"""', "    ").splitlines()
     return "\n".join(lines) + "\n"
+
+
+def _overloads(signature: inspect.Signature) -> list[inspect.Signature]:
+    """With parts the functions return lists."""
+    words = signature.parameters
+    if "parts" not in words:
+        return [signature]
+    whole = words["parts"].replace(annotation="None")
+    parts = words["parts"].replace(annotation="str | ArrayLike", default=inspect.Parameter.empty)
+    lists = f"list[{signature.return_annotation}]"
+    return [
+        signature.replace(
+            parameters=[*(words | {"parts": parts}).values()], return_annotation=lists
+        ),
+        signature.replace(parameters=[*(words | {"parts": whole}).values()]),
+    ]
 
 
 def _declaration(name: str, signature: inspect.Signature) -> list[str]:

@@ -14,7 +14,7 @@ from ..base.options import Reading, Search, documented, part
 from ..reading import files_in
 from ..saving.output_files import output_files
 from ..saving.shape_files import output_suffix
-from .file_task import DETECT, FileTask
+from .file_task import DETECT, FileTask, of_parts
 from .result_table import row_of
 from .running import records
 
@@ -33,6 +33,7 @@ def batch(
     threads: int = 0,
     output: str | os.PathLike[str] | None = None,
     unit: str = "",
+    parts: str | None = None,
     seed: int = 0,
     nonfinite: str = "skip",
     threshold: float | None = None,
@@ -61,6 +62,8 @@ def batch(
         output: folder for the results: the shapes, in the format of each file, or in PLY if that
             format cannot hold the arrays of the operation; for "detect" a small JSON file per file.
         unit: of the coordinates, such as "mm": a label for the rows.
+        parts: "connected", or the name of a point array with labels: one row per part of each file,
+            with the number of the part in "part"; as for ``detect``. Not beside ``output``.
         {Reading}
         **parameters: parameters of the operation, for "detect" of the method.
 
@@ -103,6 +106,10 @@ def batch(
         )
         for path in paths
     ]
+    if parts is not None:
+        if output is not None:
+            raise InvalidParameter("output is given beside parts; allowed is one of them")
+        tasks = [each for task in tasks for each in of_parts(task, parts)]
     return map(row_of, records(tasks, executor, jobs))
 
 

@@ -6,7 +6,7 @@ import json
 import math
 import time
 import warnings
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from ..mirror_operations.operate import FOUND_AT, operate
 from ..reading import read, suffix_of
 from ..reading.in_chunks import chunks_of, is_chunked
 from ..reading.inputs import nonfinite_message
+from ..reading.splitting import CONNECTED, named_array, parts_of
 from ..report.page import shape_page
 from ..results import AnalysisResult, Asymmetry, OperationResult, Result, Symmetries, found_mirror
 from ..results.base_result import mirror_record
@@ -84,6 +85,10 @@ class FileTask(Reading, Search):
     """What is read in place of a file, such as standard input; it needs ``input_format``."""
     unit: str = ""
     """Of the coordinates: a label."""
+    parts: str | None = None
+    """Of a scene: what its parts are, as for ``detect``."""
+    part: int | None = None
+    """Which of them is worked on."""
     outputs: tuple[Path, ...] = ()
     """The files to write, each in the format of its suffix, and PNGs to draw."""
 
@@ -103,6 +108,15 @@ class FileTask(Reading, Search):
         }
         words = sorted((chosen | self.parameters).items())
         return " ".join([self.operation, *(f"{name}={_shown(value)}" for name, value in words)])
+
+
+def of_parts(task: FileTask, parts: str) -> list[FileTask]:
+    """One task per part; the task itself where the file cannot be read, to report it."""
+    try:
+        scene = _parts(_shape(task), replace(task, parts=parts))
+    except (InvalidInput, OSError, MemoryError):
+        return [task]
+    return [replace(task, parts=parts, part=number) for number in range(len(scene))]
 
 
 class _Content(BytesIO):
@@ -152,8 +166,10 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
     if _is_read_in_chunks(task):
         _detect_in_chunks(task, record, progress)
         return
-    given = task.file if task.content is None else _Content(task.content, str(task.file))
-    shape = read(given, task.input_format, **part(Reading, task))
+    shape = _shape(task)
+    if task.parts is not None and task.part is not None:
+        shape = _parts(shape, task)[task.part]
+        record["part"] = task.part
     if task.downsample is not None:
         shape = _downsampled(shape, task, notices)
     if task.use_normals and shape.normals is None:
@@ -194,11 +210,23 @@ def _perform(task: FileTask, record: Record, progress: Progress | None) -> None:
         _operate(task, shape, over, record, share(progress, found_at, 1))
 
 
+def _shape(task: FileTask) -> Shape:
+    given = task.file if task.content is None else _Content(task.content, str(task.file))
+    return read(given, task.input_format, **part(Reading, task))
+
+
+def _parts(shape: Shape, task: FileTask) -> list[Shape]:
+    assert task.parts is not None
+    labels = task.parts if task.parts == CONNECTED else named_array(task.file, task.parts)
+    return parts_of(shape, labels)
+
+
 def _is_read_in_chunks(task: FileTask) -> bool:
     needs_all = {
         "an operation": task.operation != DETECT,
         "use_normals": task.use_normals,
         "downsample": task.downsample is not None,
+        "parts": task.parts is not None,
         "input_format": task.input_format is not None,
         **dict.fromkeys(task.of_image(), True),
     }

@@ -68,17 +68,18 @@ class GrowingTable:
 
 def _kept(path: Path, tasks: Sequence[FileTask]) -> dict[int, Cells]:
     """The rows that need not be done again, by the index of their task."""
-    rows: dict[str, deque[Cells]] = {}
+    rows: dict[tuple[str, str], deque[Cells]] = {}
     for row in read_table(path):
-        rows.setdefault(row.get("file", ""), deque()).append(row)
+        rows.setdefault((row.get("file", ""), row.get("part", "")), deque()).append(row)
     kept = {}
     for index, task in enumerate(tasks):
-        if left := rows.get(written(str(task.file))):
+        part = "" if task.part is None else written(task.part)
+        if left := rows.get((written(str(task.file)), part)):
             row = left.popleft()
             _require_settings(path, row, task)
             if _is_done(row, task):
                 kept[index] = row
-    if strangers := [name for name, left in rows.items() if left]:
+    if strangers := [file for (file, _), left in rows.items() if left]:
         raise InvalidParameter(
             f"{path} has rows of files that are not given, such as {strangers[0]}; allowed is another "
             "table, or all its files"

@@ -44,7 +44,7 @@ def row_of(record: Record) -> dict[str, Any]:
     asymmetry, and else those of the residuals of the pairs; of vectors each component has a column,
     as "normal_x"; what is not known is missing."""
     row: dict[str, Any] = {"file": record["file"], "unit": record["unit"]}
-    for name in ("points", "method", "score", "verdict"):
+    for name in ("part", "points", "method", "score", "verdict"):
         if name in record:
             row[name] = record[name]
     mirror = dict(record.get("mirror") or {})

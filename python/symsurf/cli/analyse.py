@@ -12,7 +12,6 @@ from typing import Any
 from .._core import Analysis, InvalidParameter
 from ..base.options import Search
 from ..base.plain import shown
-from ..base.printable import printable
 from ..batching.file_task import FileTask, Record
 from ..results import Symmetries
 from ..results.analysis_results import RESULTS
@@ -24,6 +23,7 @@ from .batch_options import (
     input_tasks,
     run_tasks,
     tell,
+    title_of,
     with_outputs,
     worked_on,
 )
@@ -119,7 +119,7 @@ def _object_number(file: str) -> str | None:
 
 
 def _text(record: Record) -> str:
-    lines = [printable(record["file"])]
+    lines = [title_of(record)]
     if "group" in record:
         lines += [
             f"  group     {record['group']}, score {record['score']:.3f}",

@@ -15,7 +15,7 @@ from .._core import InvalidParameter, require_found_parameter
 from ..base.options import Reading, Search
 from ..base.printable import printable
 from ..batching import require_jobs, threads_of_each
-from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, perform
+from ..batching.file_task import PICTURE_SUFFIX, FileTask, Record, of_parts, perform
 from ..batching.growing_table import GrowingTable
 from ..batching.result_table import row_of
 from ..batching.running import Ended, ended, in_order
@@ -48,6 +48,11 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         help="read the files as this format, such as ply or ply.gz; standard input needs it",
     )
     add_options(group, Reading)
+    group.add_argument(
+        "--parts",
+        metavar="WORD",
+        help="one result per part of each file: connected, or the name of a point array with labels",
+    )
     group.add_argument(
         "--absolute",
         action="store_const",
@@ -91,7 +96,17 @@ def input_tasks(
         else:
             content = standard_input()
             tasks.append(replace(asked, file=Path(f"stdin.{input_format}"), content=content))
-    return tasks
+    if arguments.parts is None:
+        return tasks
+    if getattr(arguments, "output", None) is not None:
+        raise InvalidParameter("output is given beside parts; allowed is one of them")
+    return [each for task in tasks for each in of_parts(task, arguments.parts)]
+
+
+def title_of(record: Record) -> str:
+    """The file, and the part of it that was worked on."""
+    part = f", part {record['part']}" if "part" in record else ""
+    return printable(record["file"]) + part
 
 
 def _beside(other: Path | None, path: Path) -> Path | None:

@@ -9,10 +9,16 @@ from typing import Any
 from .._core import InvalidParameter
 from ..base.options import Search
 from ..base.plain import shown
-from ..base.printable import printable
 from ..batching.file_task import LARGE, MATCHES_SUFFIX, SUMMARY_SUFFIX, Record
 from ..saving import FORMATS
-from .batch_options import add_batch_options, add_files, input_tasks, run_tasks, with_outputs
+from .batch_options import (
+    add_batch_options,
+    add_files,
+    input_tasks,
+    run_tasks,
+    title_of,
+    with_outputs,
+)
 from .method_options import add_method_options, given_parameters
 from .output_paths import add_output
 from .repeat_options import DEVIATIONS, add_repeat, given_repeat, tell_repeatability
@@ -109,7 +115,7 @@ def _suffixes(formats: str) -> list[str]:
 
 
 def _text(record: Record) -> str:
-    lines = [printable(record["file"])]
+    lines = [title_of(record)]
     if record["mirror"] is not None:
         lines.append(f"  mirror    {_mirror(record['mirror'])}")
     lines.append(f"  verdict   {record['verdict']}: {record['reason']}")

@@ -10,7 +10,6 @@ import numpy as np
 
 from .._core import InvalidInput, Mirror, Operation
 from ..base.options import Search, part
-from ..base.printable import printable
 from ..batching.file_task import PAGE_SUFFIX, Record
 from ..mirror_operations.functions import takes_pairs
 from ..mirror_operations.operate import require_no_search
@@ -27,6 +26,7 @@ from .batch_options import (
     add_other,
     input_tasks,
     run_tasks,
+    title_of,
     with_outputs,
 )
 from .described_options import add_parameters, given_values
@@ -194,7 +194,7 @@ def _mirror(given: str) -> Mirror:
 
 
 def _text(record: Record) -> str:
-    lines = [printable(record["file"])]
+    lines = [title_of(record)]
     if record["verdict"] is not None:
         lines += [
             f"  verdict             {record['verdict']}: {record['reason']}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal, overload
 
 from numpy.typing import ArrayLike
 
@@ -12,18 +12,19 @@ from ..base.lengths import as_fractions
 from ..base.options import Reading, documented, part
 from ..base.progress import Progress
 from ..reading.inputs import as_input, refuses, warn
+from ..reading.splitting import parts_of
 from ..results import Result, mirror_of
 from .faint_points import faint_statistics, without_faint
 from .repeating import deviations, half_samples, require_repeat
 from .summaries import summary_in, summary_statistics
 
 
-@documented
-@renamed(points="shape")
+@overload
 def detect(
     shape: object,
     method: str = "auto",
     *,
+    parts: None = None,
     faces: ArrayLike | None = None,
     use_faces: bool = True,
     normals: ArrayLike | None = None,
@@ -39,7 +40,32 @@ def detect(
     threads: int = 0,
     progress: Progress | None = None,
     **parameters: object,
-) -> Result[_core.Mirror]:
+) -> Result[_core.Mirror]: ...
+@overload
+def detect(
+    shape: object, method: str = "auto", *, parts: str | ArrayLike, **options: Any
+) -> list[Result[_core.Mirror]]: ...
+@documented
+@renamed(points="shape")
+def detect(
+    shape: object,
+    method: str = "auto",
+    *,
+    parts: str | ArrayLike | None = None,
+    faces: ArrayLike | None = None,
+    use_faces: bool = True,
+    normals: ArrayLike | None = None,
+    nonfinite: str = "skip",
+    threshold: float | None = None,
+    label: int | str | None = None,
+    scalars: str | None = None,
+    external_files: bool = False,
+    absolute: bool = False,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Progress | None = None,
+    **parameters: object,
+) -> Result[_core.Mirror] | list[Result[_core.Mirror]]:
     """Finds the mirror of a point set, a mesh or a mask.
 
     Args:
@@ -52,6 +78,10 @@ def detect(
             the cells, chosen by ``threshold`` or ``label``, which become ``Result.points``; pairs are
             indices into them. An array of Dask or a ``PointSummary``: as for ``detect_chunks``.
         {Search}
+        parts: search each part of a scene by itself, and return a list of results: "connected", the
+            name of a point array with labels, or (n,) labels. Connected are the faces of a mesh that
+            share corners, and points about three spacings apart. Parts of fewer than 10 points are
+            ignored.
         faces: (m, 3) indices of points, if ``shape`` has none of its own. With faces the search, the
             score and the candidates use samples spread evenly over the surface; pairs are those of
             the points. The methods of the thesis use the points only.
@@ -87,6 +117,21 @@ def detect(
     refuse = refuses(nonfinite)
     require_repeat(repeat)
     reading = Reading(**part(Reading, locals()))
+    if parts is not None:
+        scene = parts_of(shape, parts, faces, reading, normals)
+        options: dict[str, Any] = parameters | {
+            "use_faces": use_faces,
+            "nonfinite": nonfinite,
+            "absolute": absolute,
+            "seed": seed,
+            "threads": threads,
+            "progress": progress,
+        }
+        own = [None if normals is None else each.normals for each in scene]
+        return [
+            detect(each, method, normals=some, **options)
+            for each, some in zip(scene, own, strict=True)
+        ]
     summary = summary_in(shape)
     given = as_input(shape if summary is None else summary.means, faces, reading)
     used = given.faces if use_faces else None

@@ -7,9 +7,10 @@ import textwrap
 from collections.abc import Callable
 from typing import Any
 
-from .._core import Analysis, analyses
+from .._core import Analysis, InvalidParameter, analyses
 from ..base.descriptions import argument_text, keyword, name_function, parameter_texts
-from ..base.options import Reading, Search, documentation
+from ..base.options import Reading, Search, documentation, part
+from ..reading.splitting import parts_of
 from ..results.analysis_results import RESULTS, AnalysisResult
 from .analyse import analyse
 
@@ -20,7 +21,14 @@ _COLOURS = (
     "(n, k) of the points, one channel per column, for ``texture``; without them those that ``shape`` "
     "brings: a Shape, a file (PLY, OBJ, OFF, columns, VTK's), a mesh of PyVista, trimesh or Open3D."
 )
+_PARTS = inspect.Parameter(
+    "parts",
+    inspect.Parameter.KEYWORD_ONLY,
+    default=None,
+    annotation="str | ArrayLike | None",
+)
 _DOCUMENTED = {
+    "parts": "analyse each part of a scene by itself, and return a list of results; as for ``detect``.",
     "faces": "(m, 3) indices of points, if ``shape`` has none of its own.",
     "colours": _COLOURS,
     "nonfinite": f"{documentation(Search)['nonfinite']}.",
@@ -37,7 +45,7 @@ def _left_out(analysis: Analysis) -> set[str]:
         "name",
         "parameters",
         *([] if analysis.takes_colours else ["colours"]),
-        *(["faces"] if analysis.takes_other else ["other"]),
+        *(["faces", "parts"] if analysis.takes_other else ["other"]),
     }
 
 
@@ -47,7 +55,8 @@ def _signature(analysis: Analysis) -> inspect.Signature:
     shape = shared.pop("shape")
     shared.pop("other", None)
     names = _PAIR if analysis.takes_other else ("shape",)
-    words = {name: shape.replace(name=name) for name in names} | own | shared
+    parts = {} if analysis.takes_other else {"parts": _PARTS}
+    words = {name: shape.replace(name=name) for name in names} | own | parts | shared
     returned = RESULTS[analysis.name].__name__
     return inspect.Signature(list(words.values()), return_annotation=returned)
 
@@ -76,8 +85,20 @@ def _documentation(analysis: Analysis) -> list[str]:
 
 
 def _function(analysis: Analysis) -> Callable[..., AnalysisResult]:
-    def function(shape: Any, **options: Any) -> AnalysisResult:
-        return analyse(analysis.name, shape, **options)
+    def function(
+        shape: Any, *, parts: Any = None, **options: Any
+    ) -> AnalysisResult | list[AnalysisResult]:
+        if parts is None:
+            return analyse(analysis.name, shape, **options)
+        if options.get("colours") is not None:
+            raise InvalidParameter(
+                "colours are given beside parts; allowed is a Shape that has them"
+            )
+        reading = Reading(**part(Reading, options))
+        faces = options.pop("faces", None)
+        own = {name: value for name, value in options.items() if name not in part(Reading, reading)}
+        scene = parts_of(shape, parts, faces, reading)
+        return [analyse(analysis.name, each, **own) for each in scene]
 
     def of_two(left: Any, right: Any, **options: Any) -> AnalysisResult:
         return analyse(analysis.name, left, right, **options)
