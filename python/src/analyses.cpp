@@ -38,15 +38,24 @@ py::dict analyse_fields(const std::string& name, const PointsArgument& points,
   const Context context = context_from(progress, threads);
   const AnalysisResult result =
       without_gil([&] { return analyse(name, points, options, context); });
-  py::list axes, transformations;
+  py::list axes, transformations, chain;
   for (const SymmetryAxis& axis : result.axes)
     axes.append(py::make_tuple(axis.point, axis.direction, axis.order,
                                ends_of(axis.segment(*result.footprint))));
   for (const Transformation& each : result.transformations)
     transformations.append(py::make_tuple(each.kind, each.matrix, each.score, to_python(each.from),
                                           to_python(each.onto), each.place(points)));
+  for (const Symmetries& group : result.by_tolerance) {
+    py::list continuous;
+    for (const SymmetryAxis& axis : group.axes)
+      if (axis.order == 0)
+        continuous.append(py::make_tuple(axis.point, axis.direction, axis.order));
+    chain.append(py::make_tuple(group.max_deviation(), group.group, group.quantile_deviation(),
+                                group.elements, continuous));
+  }
   py::dict fields;
   fields["points"] = points.array;
+  fields["by_tolerance"] = chain;
   fields["arrays"] = to_python(result.arrays, described.arrays);
   fields["planes"] = result.planes;
   fields["axes"] = axes;

@@ -78,6 +78,7 @@ from .results import (
     Symmetrized,
     SymmetryAxis,
     SymmetryEmbedding,
+    TolerancedGroup,
     Transferred,
     Transformation,
 )
@@ -138,6 +139,7 @@ __all__ = [
     "Symmetrized",
     "SymmetryAxis",
     "SymmetryEmbedding",
+    "TolerancedGroup",
     "Transferred",
     "Transformation",
     "__version__",

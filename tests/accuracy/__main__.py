@@ -40,6 +40,7 @@ from . import (
     spheres,
     symmetries,
     textures,
+    toleranced,
     topology,
     without_mirror,
 )
@@ -49,7 +50,7 @@ from .table import COLUMNS, line, rows
 
 MODULES = (bodies, curved, deformed, embedding, kinds, planes, nearly_symmetric, cad_planes, candidates, exact,
            given_surfaces, halves, helical, homologous, intrinsic, judged_bends, judged_scores, judged_verdicts, light, operations, pairs, partial, point_groups,
-           pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, topology,
+           pots, recurring, scores, sheared, single_kinds, spheres, symmetries, textures, toleranced, topology,
            without_mirror)  # fmt: skip
 CASES = {case.name: case for module in MODULES for case in module.CASES}
 

@@ -250,6 +250,36 @@ TEST(Symmetries, SayHowFarTheyAreOff) {
   EXPECT_THROW(find_symmetries(points, {.tolerance = -1}), InvalidParameter);
 }
 
+// A box, one corner of which is moved by a length along the diagonal.
+TEST(Symmetries, HoldFromATolerance) {
+  constexpr double moved = 0.05;
+  RandomCloud random(2);
+  const Matrix3 rotation = random.rotation();
+  Points corners(8, 3);
+  for (Index i = 0; i < 8; ++i)
+    corners.row(i) << (i & 1 ? 1 : -1), (i & 2 ? 1.4 : -1.4), (i & 4 ? 2 : -2);
+  corners.row(7) += Eigen::RowVector3d::Constant(moved / std::sqrt(3));
+  corners *= rotation.transpose();
+  Triangles faces(12, 3);
+  faces << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6,
+      1, 3, 5, 3, 7, 5;
+  EXPECT_EQ(find_symmetries(corners, {.faces = faces}).group, "C1");
+  const Symmetries found = find_symmetries(corners, {.faces = faces, .tolerance = moved});
+  ASSERT_EQ(found.group, "D2h");
+  EXPECT_LE(found.max_deviation(), moved);
+  EXPECT_LE(found.quantile_deviation(), found.max_deviation());
+  ASSERT_GE(found.by_tolerance.size(), 2u);
+  EXPECT_EQ(found.by_tolerance.front().group, "C1");
+  for (std::size_t k = 1; k < found.by_tolerance.size(); ++k)
+    EXPECT_LT(found.by_tolerance[k - 1].max_deviation(), found.by_tolerance[k].max_deviation());
+  EXPECT_EQ(find_symmetries(corners, {.faces = faces, .tolerance_rule = "object"}).group, "D2h");
+  EXPECT_EQ(find_symmetries(corners, {.faces = faces, .tolerance_rule = "given"}).group, "C1");
+  EXPECT_THROW(find_symmetries(corners, {.faces = faces, .tolerance_rule = "mine"}),
+               InvalidParameter);
+  EXPECT_THROW(find_symmetries(corners, {.tolerance = 1, .tolerance_rule = "bop"}),
+               InvalidParameter);
+}
+
 TEST(Symmetries, RefusesScoresThatThereAreNot) {
   const Points points = RandomCloud(0).box(100);
   EXPECT_THROW(find_symmetries(points, {.minimum_score = -0.1}), InvalidParameter);

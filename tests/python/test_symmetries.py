@@ -7,7 +7,10 @@ import json
 
 import numpy as np
 import pytest
-from accuracy.symmetric_parts import PARTS, Part, box, cut, noisy
+import pyvista
+from accuracy.symmetric_parts import PARTS, Part, box, cut, extruded, noisy, polygon, turned
+from accuracy.toleranced import BODIES, spoilt
+from accuracy.toleranced import posed as posed_mesh
 from command_line import run
 from numpy.typing import NDArray
 from seeds import each_seed, full_run
@@ -283,3 +286,67 @@ def test_a_tolerance_admits_what_a_pin_spoils():
     within = symsurf.symmetries(points, tolerance=0.04)
     assert within.group != "D∞h"
     assert within.max_deviation.max() <= 0.04
+
+
+def deviation(found: symsurf.TolerancedGroup | symsurf.Symmetries, mesh: symsurf.Shape) -> float:
+    """The greatest distance of the image of a vertex from the surface, by VTK."""
+    surface = pyvista.PolyData.from_regular_faces(mesh.points, mesh.faces)
+    images = [mesh.points @ each[:3, :3].T + each[:3, 3] for each in found.elements]
+    _, closest = surface.find_closest_cell(np.concatenate(images), return_closest_point=True)
+    return float(np.linalg.norm(np.concatenate(images) - closest, axis=1).max())
+
+
+def test_the_groups_of_a_bolt_by_tolerance():
+    head, shaft = 0.3 * polygon(6), turned([0, 0.15, 0.15, 0], [-1, -1, 1, 1], steps=96)
+    bolt = np.concatenate([extruded(head, 0.25) + (0, 0, 1.1), shaft])
+    mesh = posed_mesh(bolt, np.random.default_rng(0))
+    found = symsurf.symmetries(mesh)
+    names = [group for _, group in found.by_tolerance]
+    assert names[:3] == ["C1", "C6v", "C∞v"]
+    assert found.group == "C6v"
+    sagitta = 30 * (1 - np.cos(np.pi / 6))  # of the head; posed_mesh() has hundredths
+    assert found.by_tolerance[2].tolerance == pytest.approx(sagitta, rel=0.1)
+    assert len(found.by_tolerance[2].axes) == 1
+    for (tolerance, group), (above, _) in zip(found.by_tolerance[1:], found.by_tolerance[2:]):
+        assert tolerance < above
+        within = symsurf.symmetries(mesh, tolerance=(tolerance + above) / 2)
+        assert within.group == group
+    assert symsurf.symmetries(mesh, tolerance_rule="object").group == "C∞v"
+    with pytest.raises(symsurf.InvalidParameter, match="tolerance is 1"):
+        symsurf.symmetries(mesh, tolerance=1, tolerance_rule="bop")
+
+
+@each_seed
+@pytest.mark.parametrize("name", BODIES)
+def test_no_element_deviates_by_more_than_the_tolerance(name, seed):
+    rng = np.random.default_rng(seed)
+    mesh = posed_mesh(spoilt(BODIES[name][1], rng), rng)
+    tolerance = rng.uniform(0.001, 0.1) * np.linalg.norm(np.ptp(mesh.points, axis=0))
+    found = symsurf.symmetries(mesh, tolerance=tolerance)
+    assert deviation(found, mesh) <= tolerance
+    assert found.statistics["max_deviation"] <= tolerance
+    for group in found.by_tolerance:
+        assert deviation(group, mesh) <= group.tolerance * (1 + 1e-9) + 1e-6
+        assert 0 <= group.quantile <= group.tolerance
+
+
+@each_seed
+@pytest.mark.parametrize("name", ["box", "can", "cup", "mug", "bolt", "asymmetric part"])
+def test_pins_and_labels_leave_the_group_that_benchmarks_accept(name, seed):
+    rng = np.random.default_rng(seed)
+    group, triangles = BODIES[name]
+    found = symsurf.symmetries(posed_mesh(spoilt(triangles, rng), rng), tolerance_rule="object")
+    assert found.group == group
+
+
+def test_a_rim_is_no_contradiction():
+    """An open bowl with a chip out of it, whose images fall beyond the rim of the chip."""
+    radius, height = [0.05, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8], [0, 0.05, 0.15, 0.25, 0.4, 0.5, 0.6]
+    bowl = turned(radius, height, steps=90)
+    middles = bowl.mean(axis=1)
+    chipped = bowl[~((middles[:, 0] > 0.4) & (np.abs(middles[:, 1]) < 0.25))]
+    found = symsurf.symmetries(
+        posed_mesh(chipped, np.random.default_rng(0)), tolerance_rule="object"
+    )
+    assert found.group == "C∞v"
+    assert 0.01 < found.missing < 0.2

@@ -44,12 +44,18 @@ struct Symmetries {
   /// Every element on homogeneous columns (x, y, z, 1), the identity first; of a continuous group
   /// those that, with the turns about the continuous axes, make up all.
   std::vector<Matrix4> elements;
-  /// Of each element how far it takes the shape off itself, input units: the greatest distance from
-  /// the image of a vertex to the surface, of a cloud from that of a point to the nearest point. Of
-  /// large shapes by a sample of their points.
-  std::vector<double> max_deviations;
+  /// Of each element how far it takes the shape off itself, input units: the greatest distance of
+  /// images from the surface, and the 95 % quantile over samples by area. Distances are those to
+  /// triangles, of clouds to tangent planes, of at most 1000 points to the nearest point. Images
+  /// beyond a rim are left out; those of large shapes are sampled.
+  std::vector<double> max_deviations, quantile_deviations;
   /// The same of the turns about each continuous axis, in the order of axes: of eight.
-  std::vector<double> axis_max_deviations;
+  std::vector<double> axis_max_deviations, axis_quantile_deviations;
+  /// The groups that hold within larger and larger tolerances, each of which contains the one
+  /// before, from C1 to what an eighth of the diameter allows; this group is one of them.
+  std::vector<Symmetries> by_tolerance;
+  double max_deviation() const;       ///< the largest of all elements and turns
+  double quantile_deviation() const;  ///< likewise
   double score = 1;    ///< how well images lie on the shape where it has points, 0 to 1
   double missing = 0;  ///< share of the images that fall where it has none: what is cut away
   double seconds = 0;  ///< that it took
@@ -59,7 +65,13 @@ struct SymmetryOptions {
   TrianglesView faces = {};       ///< optional, between the points, as detect() takes them
   bool refuse_nonfinite = false;  ///< whether a point that is not finite is an error
   double minimum_score = 0.7;     ///< of a group, [0, 1]
-  double tolerance = 0;           ///< of Symmetries::max_deviations, input units; 0: any
+  double tolerance = 0;  ///< of Symmetries::max_deviations, input units; 0: by tolerance_rule
+  /// What is the largest group: "given": max_deviations are within the tolerance; "rounding": they
+  /// are within 0.1 % of the diameter or twice the sagitta of the tessellation, of open surfaces
+  /// and clouds within what these show, unless a tolerance is given; "object": what pose benchmarks
+  /// accept, quantile_deviations within 2.5 % of the diameter, of continuous groups 5 %; "bop":
+  /// max_deviations within 15 units, millimetres there, or a tenth of the diameter.
+  std::string tolerance_rule = "rounding";
   /// One row a point, a column a channel; empty: colours do not count. Else only what keeps them is
   /// a symmetry: nowhere may most of a dozen neighbours, of 20000 samples of the surface, fall
   /// where the colours differ by more than a tenth of their range, beyond what neighbours differ
@@ -134,6 +146,7 @@ struct AnalysisResult {
   std::vector<Plane> planes;  ///< each with the footprint
   std::vector<SymmetryAxis> axes;
   std::vector<Transformation> transformations;
+  std::vector<Symmetries> by_tolerance;  ///< Symmetries::by_tolerance, of "symmetries"
   /// Points that stand for the shape: what planes and axes are drawn over.
   std::shared_ptr<const Points> footprint;
   Values parameters;  ///< as used

@@ -90,10 +90,8 @@ OrbitVote orbit_vote(const MirrorScore& score, const GroupPose& pose,
 
 }  // namespace
 
-SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, bool is_limited,
-                           const Context& context)
+SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context)
     : minimum_score_(minimum_score),
-      is_limited_(is_limited),
       points_(cloud, context.stage(0, 0.2)),
       coarse_(cloud.patches(surfels, context.stage(0.2, 0.4))),
       fine_(cloud.finer_patches(surfels, context.stage(0.4, 0.6))),
@@ -101,9 +99,8 @@ SymmetryTest::SymmetryTest(const Cloud& cloud, double minimum_score, bool is_lim
       fit_(cloud, points_, coarse_, fine_) {}
 
 bool SymmetryTest::may_be(const OrbitVote& vote) const {
-  return vote.support >= minimum_score_ &&
-         (is_limited_ ||
-          (vote.missing <= most_missing && vote.outliers <= most_outliers_of_elements));
+  return vote.support >= minimum_score_ && vote.missing <= most_missing &&
+         vote.outliers <= most_outliers_of_elements;
 }
 
 std::optional<SymmetryTest::Passed> SymmetryTest::tried(const GroupPose& start,
@@ -130,7 +127,6 @@ std::optional<SymmetryTest::Passed> SymmetryTest::passed(const GroupPose& start,
   const GroupPose pose = fit_.closely(start, spread(group), samples_of_group);
   const OrbitVote vote = orbit_vote(score_, pose, group, many_images);
   if (!may_be(vote)) return {};
-  if (is_limited_) return Passed{pose, vote};
   const double most_outliers = continuous ? most_outliers_of_continuous : most_outliers_of_group;
   const bool decided =
       group.size() > 2 ? vote.outliers <= most_outliers : vote.share() >= minimum_score_;
@@ -153,6 +149,17 @@ std::vector<Matrix3> any_turns(const Vector3& axis, int count) {
   for (int k = 1; k <= count; ++k)
     turns.push_back(turn(axis, 2 * std::numbers::pi * std::numbers::phi * k));
   return turns;
+}
+
+std::vector<Matrix3> tested_elements(const PointGroup& group) {
+  constexpr int turns = 8;
+  std::vector<Matrix3> elements = group.elements;
+  // About every axis, as of K two make all turns.
+  for (const PointGroup::Axis& axis : group.axes())
+    if (axis.order == 0)
+      for (const Matrix3& turned : any_turns(axis.direction, turns))
+        for (const Matrix3& element : group.elements) elements.push_back(turned * element);
+  return elements;
 }
 
 namespace {

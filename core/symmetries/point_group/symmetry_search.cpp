@@ -2,27 +2,19 @@
 
 #include <symsurf/analyses.h>
 #include <symsurf/context.h>
-#include <symsurf/parameter.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "analysis.h"
 #include "base/linear_algebra.h"
 #include "base/math.h"
-#include "base/parallel.h"
-#include "cloud/closest_point_on_mesh.h"
 #include "cloud/exact_isometries.h"
-#include "cloud/triangle_mesh.h"
-#include "detection/pipeline.h"
 #include "point_group/point_group.h"
 
 namespace symsurf {
@@ -44,12 +36,12 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
 
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Cloud& cloud, double minimum_score, bool is_limited,
-                 const std::function<bool(Symmetries&)>& accepts, const Context& context)
+  SymmetrySearch(const Cloud& cloud, double minimum_score,
+                 const std::function<bool(const Symmetries&)>& accepts, const Context& context)
       : cloud_(cloud),
         accepts_(accepts),
         context_(context),
-        test_(cloud, minimum_score, is_limited, context.stage(0, 0.4)) {}
+        test_(cloud, minimum_score, context.stage(0, 0.4)) {}
 
   Symmetries run() {
     planes_ = find_planes(test_);
@@ -267,18 +259,8 @@ class SymmetrySearch {
   }
 
   std::optional<Symmetries> verified(const Placed& placed) const {
-    std::vector<Matrix3> elements = placed.group.elements;
     const bool continuous = placed.group.continuous || placed.group.all;
-    if (continuous) {
-      // About every axis, as of K two make all turns.
-      constexpr int turns = 8;
-      for (const PointGroup::Axis& axis : placed.group.axes())
-        if (axis.order == 0)
-          for (const Matrix3& turned : any_turns(axis.direction, turns))
-            for (const Matrix3& element : placed.group.elements)
-              elements.push_back(turned * element);
-    }
-    const auto passed = test_.passed(placed.pose, elements, continuous);
+    const auto passed = test_.passed(placed.pose, tested_elements(placed.group), continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
     Symmetries found = described(placed.group, passed->pose, passed->vote, cloud_.frame);
     if (!accepts_(found)) return {};
@@ -286,7 +268,7 @@ class SymmetrySearch {
   }
 
   const Cloud& cloud_;
-  const std::function<bool(Symmetries&)>& accepts_;
+  const std::function<bool(const Symmetries&)>& accepts_;
   const Context& context_;
   SymmetryTest test_;
   std::vector<FoundDirection> planes_, axes_;
@@ -320,310 +302,10 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
   return found;
 }
 
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, bool is_limited,
-                             const std::function<bool(Symmetries&)>& accepts,
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
+                             const std::function<bool(const Symmetries&)>& accepts,
                              const Context& context) {
-  return SymmetrySearch(cloud, minimum_score, is_limited, accepts, context).run();
-}
-
-namespace {
-
-// How far maps take a shape off itself: the greatest distance from the image of a vertex to the
-// surface, of a cloud from that of a point to the nearest point (Hodan et al. 2020, who call a map
-// a symmetry up to a limit of it).
-class Deviation {
- public:
-  // A cloud, or a mesh with its vertices as points.
-  Deviation(const Cloud& shape, const Context& context);
-
-  // Of each map, in the unit of the points; looks at about as many images in all.
-  std::vector<double> of(const std::vector<Matrix4>& maps, Index looked,
-                         const Context& context) const;
-  bool keeps(const Matrix3& turn, const Vector3& centre, PointsView samples, double limit) const;
-
-  // A mesh with both sides of each edge: it has no side that nobody saw.
-  bool is_closed() const { return is_closed_; }
-  Points vertices() const { return chosen_rows(shape_.points, vertices_); }
-
- private:
-  double squared_distance(const Vector3& x) const;
-
-  Cloud shape_;
-  const PointTree& tree_;
-  std::vector<Index> vertices_;
-  std::optional<ClosestPointOnMesh> surface_;
-  bool is_closed_ = false;
-};
-
-Deviation::Deviation(const Cloud& shape, const Context& context)
-    : shape_(shape), tree_(shape.tree(context)) {
-  const PointsView points = shape.points;
-  const TrianglesView faces = shape.faces;
-  if (!faces.empty()) surface_.emplace(points, faces, context);
-  std::vector<bool> is_vertex(points.size(), faces.empty());
-  for (Index f = 0; f < faces.size(); ++f)
-    for (int c = 0; c < 3; ++c) is_vertex[faces[f][c]] = true;
-  for (const Index i : tree_.order())
-    if (is_vertex[i] && points[i].allFinite()) vertices_.push_back(i);
-  if (faces.empty()) return;
-  const std::vector<bool> rim = TriangleMesh(points, faces, context).is_boundary();
-  is_closed_ = std::none_of(rim.begin(), rim.end(), [](bool is) { return is; });
-}
-
-bool Deviation::keeps(const Matrix3& turn, const Vector3& centre, PointsView samples,
-                      double limit) const {
-  constexpr Index looked = 2000;
-  for (Index i = 0; i < samples.size(); i += 1 + samples.size() / looked)
-    if (squared_distance(centre + turn * (samples[i] - centre)) > limit * limit) return false;
-  return true;
-}
-
-double Deviation::squared_distance(const Vector3& x) const {
-  return surface_ ? (*surface_)(x).squared_distance : tree_.nearest(x).squared_distance;
-}
-
-std::vector<double> Deviation::of(const std::vector<Matrix4>& maps, Index looked,
-                                  const Context& context) const {
-  const auto count = static_cast<Index>(vertices_.size()), all = static_cast<Index>(maps.size());
-  const Index stride = std::max<Index>(1, count * all / looked);
-  std::vector<double> deviations(maps.size(), 0);
-  parallel_for(context, all, 1, [&](Index begin, Index end) {
-    for (Index m = begin; m < end; ++m) {
-      if (maps[m].isIdentity(0)) continue;
-      double greatest = 0;
-      for (Index k = 0; k < count; k += stride) {
-        context.check();
-        const Vector3 image = (maps[m] * shape_.points[vertices_[k]].homogeneous()).head<3>();
-        greatest = std::max(greatest, squared_distance(image));
-      }
-      deviations[m] = std::sqrt(greatest);
-    }
-  });
-  return deviations;
-}
-
-Eigen::MatrixXd column(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
-}
-
-void run_symmetries(const ColouredCloud& cloud, const ParameterValues& values,
-                    const Context& context, AnalysisResult& result) {
-  SymmetryOptions options;
-  options.faces = cloud.faces;
-  options.minimum_score = values.real("minimum_score");
-  options.tolerance = values.real("tolerance");
-  if (values.boolean("texture")) {
-    if (cloud.colours.size() == 0)
-      throw InvalidInput(
-          "texture is true, but no colours are given; allowed is a colour per point");
-    options.colours = cloud.colours;
-  }
-  Symmetries found = find_symmetries(cloud.points, options, context);
-  constexpr double rounding = 1e-5;  // radians and diagonals: that of sets in single precision
-  for (const Matrix4& element : found.elements)
-    result.transformations.push_back(
-        {kind_of(element, found.centre, rounding, rounding * cloud.diagonal),
-         element,
-         found.score,
-         {},
-         {}});
-  const std::vector<double>& deviations = found.max_deviations;
-  result.planes = std::move(found.planes);
-  result.axes = std::move(found.axes);
-  result.statistics = {{"group", found.group},
-                       {"centre", found.centre},
-                       {"inversion", found.inversion},
-                       {"score", found.score},
-                       {"missing", found.missing},
-                       {"max_deviation", *std::max_element(deviations.begin(), deviations.end())},
-                       {"max_deviations", column(deviations)}};
-  if (!found.axis_max_deviations.empty())
-    result.statistics["axis_max_deviations"] = column(found.axis_max_deviations);
-}
-
-// Fills in how far the elements, and some turns about continuous axes, take the shape off itself.
-// Whether all are within the tolerance.
-bool deviates_little(Symmetries& found, const Deviation& deviation, double tolerance,
-                     const Context& context) {
-  constexpr Index looked = 100'000;  // images: less than a second
-  constexpr int turns = 8;
-  std::vector<Matrix4> maps = found.elements;
-  for (const SymmetryAxis& axis : found.axes) {
-    if (axis.order != 0) continue;
-    for (const Matrix3& turned : any_turns(axis.direction, turns))
-      maps.push_back(map_taking(turned, axis.point, axis.point).matrix());
-  }
-  const std::vector<double> deviations = deviation.of(maps, looked, context);
-  const auto end = deviations.begin() + static_cast<std::ptrdiff_t>(found.elements.size());
-  found.max_deviations.assign(deviations.begin(), end);
-  found.axis_max_deviations.clear();
-  for (auto first = end; first != deviations.end(); first += turns)
-    found.axis_max_deviations.push_back(*std::max_element(first, first + turns));
-  return !(tolerance > 0) || *std::max_element(deviations.begin(), deviations.end()) <= tolerance;
-}
-
-// What points have at most: half a unit of the last decimal that all of them have, along each axis,
-// twice. 0 of coordinates with more decimals, or too few to tell a shape by.
-double rounding_of(PointsView points, double diagonal) {
-  constexpr double most = 1e-3;  // diagonals
-  double unit = 1;
-  for (int decimals = 0; decimals <= 6; ++decimals, unit /= 10) {
-    const Eigen::ArrayXXd steps = points.matrix().array() / unit;
-    const bool fits = ((steps - steps.round()).abs() < 1e-6 * (1 + steps.abs())).all();
-    if (fits && unit < most * diagonal) return std::sqrt(3.0) * unit;
-  }
-  return 0;
-}
-
-// The group of the maps that take a small set, or the vertices of a mesh and its faces, exactly
-// onto themselves; C1 of others.
-Symmetries exact_symmetries(const Cloud& cloud, const Deviation& shape, bool is_set,
-                            double tolerance, const Context& context) {
-  constexpr Index most_points = 1000, most_vertices = 20'000;
-  constexpr std::size_t most = 512;
-  constexpr double rounding = 1e-5;  // diagonals
-  const Points vertices = is_set ? Points(cloud.points.matrix()) : shape.vertices();
-  if (vertices.rows() > (is_set ? most_points : most_vertices)) return described({}, {}, {}, {});
-  const PointTree tree(vertices, context);
-  const double reach = is_set ? std::max(tolerance, rounding_of(vertices, cloud.diagonal)) : 0;
-  const ExactIsometries maps =
-      exact_isometries(vertices, tree, context, most, std::numeric_limits<Index>::max(), reach);
-  std::vector<Matrix3> elements = polished(maps.maps);
-  const bool is_kept =
-      !elements.empty() && elements.size() < most &&
-      std::all_of(maps.generators.begin(), maps.generators.end(), [&](const Matrix3& generator) {
-        return is_set ||
-               shape.keeps(generator, maps.centre, cloud.points, rounding * cloud.diagonal);
-      });
-  if (!is_kept) elements = {Matrix3::Identity()};
-  for (Matrix3& map : elements)
-    if (!map.isIdentity(0)) map = cloud.frame.axes.transpose() * map * cloud.frame.axes;
-  const GroupPose pose{Matrix3::Identity(), cloud.frame.to_frame(maps.centre)};
-  return described(PointGroup(elements), pose, {.support = 1}, cloud.frame);
-}
-
-// Whether a group has more elements than the exact ones, all of them to within what tessellation
-// takes off: of a body of revolution less than of a prism of 64 sides, which is none; of others, as
-// of a ball that is drawn coarsely or has studs, more.
-bool has_more(const Symmetries& found, const Symmetries& exact, double diagonal) {
-  constexpr double of_revolution = 2e-4, of_others = 1e-2;  // diagonals
-  if (exact.elements.size() == 1) return true;
-  std::vector<double> deviations = found.max_deviations;
-  deviations.insert(deviations.end(), found.axis_max_deviations.begin(),
-                    found.axis_max_deviations.end());
-  const bool is_continuous = std::any_of(found.axes.begin(), found.axes.end(),
-                                         [](const SymmetryAxis& axis) { return axis.order == 0; });
-  const double most = is_continuous && found.group != "K" ? of_revolution : of_others;
-  return (is_continuous || found.elements.size() > exact.elements.size()) &&
-         *std::max_element(deviations.begin(), deviations.end()) <= most * diagonal;
-}
-
-void run_prepared(PointsView points, TrianglesView faces, bool refuse_nonfinite,
-                  const std::function<void(const Cloud&, const Context&)>& search,
-                  const Context& context) {
-  MethodImplementation searching;  // in place of the method
-  searching.name = "symmetries";
-  searching.preprocessing = Preprocessing::none();
-  searching.preprocessing.remove_outliers = true;
-  searching.preprocessing.sample_faces = true;
-  searching.preprocessing.merge_duplicates = true;
-  searching.run = [&](const Cloud& cloud, const ParameterValues&, const Context& running) {
-    search(cloud, running);
-    return Result{};
-  };
-  Cloud cloud(points);
-  cloud.faces = faces;
-  run_pipeline(searching, {}, cloud, refuse_nonfinite, context);
-}
-
-}  // namespace
-
-Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
-                           const Context& context) {
-  if (!(options.minimum_score >= 0 && options.minimum_score <= 1))
-    throw InvalidParameter("minimum_score is " + to_string(Value(options.minimum_score)) +
-                           "; allowed is [0, 1]");
-  if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)))
-    throw InvalidParameter("tolerance is " + to_string(Value(options.tolerance)) +
-                           "; allowed is [0, inf)");
-  require_colours(points, options.colours);
-  const auto start = std::chrono::steady_clock::now();
-  Symmetries found;
-  Cloud whole(points);
-  whole.faces = options.faces;
-  const auto search = [&](const Cloud& cloud, const Context& running) {
-    const bool is_cloud = options.faces.empty();
-    const Deviation deviation(is_cloud ? cloud : whole, running.stage(0, 0));
-    // A closed mesh has no side that nobody saw: what maps a part of it elsewhere is no symmetry.
-    constexpr double farthest = 0.1;  // diagonals
-    const double limit = options.tolerance > 0   ? options.tolerance
-                         : deviation.is_closed() ? farthest * cloud.diagonal
-                                                 : 0;
-    double done = 0.1;
-    const auto accepts = [&](Symmetries& group) {
-      return deviates_little(group, deviation, limit, running.stage(done, done));
-    };
-    found = exact_symmetries(cloud, deviation, is_cloud, options.tolerance, running.stage(0, 0.1));
-    const bool is_exact = accepts(found) && found.elements.size() > 1;
-    constexpr Index least_searched = 30;  // points: fewer show no surface
-    if (!is_cloud || (!is_exact && cloud.points.size() >= least_searched)) {
-      done = 1;
-      Symmetries searched = search_symmetries(cloud, options.minimum_score, options.tolerance > 0,
-                                              accepts, running.stage(0.1, 1));
-      if (!is_exact || has_more(searched, found, cloud.diagonal)) found = std::move(searched);
-    }
-    if (options.colours.size() > 0) {
-      const Context last = running.stage(1, 1);
-      const ColouredSurface surface(points, options.faces, options.colours, last);
-      found = coloured_group(found, surface, last);
-      deviates_little(found, deviation, 0, last);
-    }
-  };
-  run_prepared(points, options.faces, options.refuse_nonfinite, search, context);
-  context.report(1);
-  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return found;
-}
-
-std::optional<SymmetryAxis> find_axis(PointsView points, TrianglesView faces,
-                                      const Context& context) {
-  SymmetryOptions options;
-  options.faces = faces;
-  options.refuse_nonfinite = true;
-  const Symmetries group = find_symmetries(points, options, context.stage(0, 0.8));
-  if (!group.axes.empty()) return group.axes.front();
-  std::optional<SymmetryAxis> found;
-  const auto search = [&](const Cloud& cloud, const Context& running) {
-    const SymmetryTest test(cloud, options.minimum_score, false, running);
-    if (const auto part = find_revolution(cloud, test, running))
-      found = SymmetryAxis{cloud.frame.from_frame(part->axis.pose.centre),
-                           cloud.frame.axes * part->axis.z(), 0};
-  };
-  run_prepared(points, faces, true, search, context.stage(0.8, 1));
-  return found;
-}
-
-AnalysisImplementation symmetries_analysis() {
-  AnalysisImplementation analysis;
-  analysis.name = "symmetries";
-  analysis.title = "Symmetry group";
-  analysis.summary =
-      "Finds all symmetries of a shape: mirror planes, rotation axes, inversion, and their point "
-      "group.";
-  analysis.parameters = {
-      Parameter::real("minimum_score", 0.7, 0, 1, "", "Minimum score of a group that counts."),
-      Parameter::real(
-          "tolerance", 0, 0, infinity, "input units",
-          "Maximum distance of the image of a vertex from the surface, or of the image of a "
-          "cloud's point from its nearest point, under any element of the group; 0: no limit."),
-      Parameter::boolean("texture", false,
-                         "Symmetries must also preserve the colours of the points: a label breaks "
-                         "the symmetry of a bottle.")};
-  analysis.takes_colours = true;
-  analysis.finds_elements = true;
-  analysis.finds_transforms = true;
-  analysis.run = run_symmetries;
-  return analysis;
+  return SymmetrySearch(cloud, minimum_score, accepts, context).run();
 }
 
 }  // namespace symsurf

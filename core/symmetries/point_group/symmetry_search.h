@@ -117,9 +117,7 @@ class SymmetryTest {
     OrbitVote vote;
   };
 
-  /// `is_limited`: a tolerance decides what spoils a symmetry, not the shares of missing and other
-  /// points.
-  SymmetryTest(const Cloud& cloud, double minimum_score, bool is_limited, const Context& context);
+  SymmetryTest(const Cloud& cloud, double minimum_score, const Context& context);
 
   /// The pose that fits them best, where they may be symmetries. With part of a shape missing two
   /// elements do not distinguish a hole from a feature: what spoils the symmetry is left to
@@ -146,7 +144,6 @@ class SymmetryTest {
   bool may_be(const OrbitVote& vote) const;
 
   double minimum_score_;
-  bool is_limited_;
   NearestPoints points_;
   const Surfels &coarse_, &fine_;
   MirrorScore score_;
@@ -158,6 +155,9 @@ std::vector<Matrix3> turns_of(Index order, std::size_t most = 128);
 
 /// Turns about an axis that are those of no order up to hundreds.
 std::vector<Matrix3> any_turns(const Vector3& axis, int count);
+
+/// The elements of a group, those of a continuous one with eight turns about each axis.
+std::vector<Matrix3> tested_elements(const PointGroup& group);
 
 /// A mirror plane, by its normal, or a rotation axis that a cloud may have.
 struct FoundDirection {
@@ -203,10 +203,9 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
 /// The point group of a validated cloud in one process. Elements are proposed by candidate planes,
 /// by the lines that these meet in and by the principal axes; the groups that they may make are
 /// fitted and judged as a whole, the largest first. Of a surface of revolution any part of the turn
-/// may be missing. `is_limited`: as of SymmetryTest. `accepts`: whether a group that was found is
-/// one; it may fill in more of it.
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, bool is_limited,
-                             const std::function<bool(Symmetries&)>& accepts,
+/// may be missing. `accepts`: whether a group that was found is one.
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
+                             const std::function<bool(const Symmetries&)>& accepts,
                              const Context& context);
 
 /// The axis of the highest order, continuous ones first, or that of what is mostly a surface of

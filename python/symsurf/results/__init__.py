@@ -10,7 +10,7 @@ from .analysis_results import (
     Symmetries,
     SymmetryEmbedding,
 )
-from .elements import Axis, SymmetryAxis, Transformation
+from .elements import Axis, SymmetryAxis, TolerancedGroup, Transformation
 from .given_mirror import found_mirror, mirror_of, plane_of
 from .inspection import Band, Patch
 from .operation_results import (
@@ -52,6 +52,7 @@ __all__ = [
     "Symmetrized",
     "SymmetryAxis",
     "SymmetryEmbedding",
+    "TolerancedGroup",
     "Transferred",
     "Transformation",
     "found_mirror",

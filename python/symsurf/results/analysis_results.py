@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -13,7 +13,7 @@ from .._core import InvalidInput, InvalidParameter, Plane
 from ..base.input_warning import warn_of
 from ..shapes import Shape
 from .base_result import BaseResult
-from .elements import Axis, Transformation
+from .elements import Axis, TolerancedGroup, Transformation, toleranced_group
 from .outputs import plot
 from .poses import extents, isaac_axes, nearest_poses, rigid, stepped
 from .summary import value_text
@@ -141,6 +141,16 @@ class Symmetries(AnalysisResult):
 
     analysis = "symmetries"
 
+    by_tolerance: list[TolerancedGroup] = field(default_factory=list)
+    """The groups that hold within larger and larger tolerances, each of which contains the one
+    before, from C1 on up to an eighth of the diameter; ``group`` is one of them."""
+
+    @classmethod
+    def from_fields(cls, shape: Shape, made: dict[str, Any]) -> Self:
+        """From what the core gives."""
+        chain = [toleranced_group(each) for each in made["by_tolerance"]]
+        return replace(super().from_fields(shape, made), by_tolerance=chain)
+
     @property
     def group(self) -> str:
         """In Schoenflies' notation: "C1", "Cs", "D6h", "Oh", "C∞v", "D∞h", "K", ..."""
@@ -170,10 +180,15 @@ class Symmetries(AnalysisResult):
 
     @property
     def max_deviation(self) -> NDArray[np.float64]:
-        """(n,) maximum deviation of each element, in input units: the greatest distance of the
-        image of a vertex from the surface, for a cloud of the image of a point from the nearest
-        point."""
+        """(n,) maximum deviation of each element, in input units: the greatest distance of an image
+        from the surface, that is from triangles, the tangent planes of a cloud, or the nearest of up to
+        1000 points; images beyond a rim are ignored."""
         return self.statistics["max_deviations"].ravel()
+
+    @property
+    def quantile_deviation(self) -> NDArray[np.float64]:
+        """(n,) 95 % quantile of the same distances, over samples by area."""
+        return self.statistics["quantile_deviations"].ravel()
 
     @property
     def elements(self) -> NDArray[np.float64]:
@@ -194,7 +209,7 @@ class Symmetries(AnalysisResult):
 
     def to_json(self) -> dict[str, Any]:
         """What every analysis gives, with the group, its centre, ``inversion``, ``elements`` as lists
-        of rows, ``score`` and ``missing`` by name, in what ``json.dumps`` takes."""
+        of rows, ``score``, ``missing`` and ``by_tolerance`` by name, in what ``json.dumps`` takes."""
         return {
             **super().to_json(),
             "group": self.group,
@@ -203,12 +218,21 @@ class Symmetries(AnalysisResult):
             "elements": self.elements.tolist(),
             "score": self.score,
             "missing": self.missing,
+            "by_tolerance": [
+                {"tolerance": each.tolerance, "group": each.group, "quantile": each.quantile}
+                for each in self.by_tolerance
+            ],
         }
 
     @property
     def axis_max_deviation(self) -> NDArray[np.float64]:
         """(k,) the same for the rotations about each continuous axis, in the order of ``axes``."""
         return np.ravel(self.statistics.get("axis_max_deviations", ()))
+
+    @property
+    def axis_quantile_deviation(self) -> NDArray[np.float64]:
+        """(k,) the same for ``quantile_deviation``."""
+        return np.ravel(self.statistics.get("axis_quantile_deviations", ()))
 
     def nearest(self, pose: ArrayLike, to: ArrayLike | None = None) -> NDArray[np.float64]:
         """Finds the pose nearest to another one among all poses in which the shape looks the same.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,3 +56,28 @@ class Transformation:
     def __repr__(self) -> str:
         points = len(self.from_points) or "all"
         return f"Transformation({self.kind}, {points} points, score {self.score:.3f})"
+
+
+class TolerancedGroup(NamedTuple("_TolerancedGroup", [("tolerance", float), ("group", str)])):
+    """A point group that holds within a tolerance: ``tolerance, group = ...``.
+
+    ``tolerance`` is the maximum deviation of the images of the surface under all elements, in input
+    units; ``group`` the name, as of ``Symmetries``.
+    """
+
+    quantile: float
+    """95 % quantile of the deviation over the surface, input units."""
+    elements: NDArray[np.float64]
+    """(n, 4, 4), the identity first, as of ``Symmetries``."""
+    axes: list[Axis]
+    """The continuous axes."""
+
+
+def toleranced_group(fields: tuple[Any, ...]) -> TolerancedGroup:
+    """From what the core gives."""
+    tolerance, group, quantile, elements, axes = fields
+    made = TolerancedGroup(tolerance, group)
+    made.quantile = quantile
+    made.elements = np.array(elements)
+    made.axes = [Axis(*axis) for axis in axes]
+    return made
