@@ -1,3 +1,5 @@
+#include <symsurf/attributes.h>
+
 #include <algorithm>
 
 #include "draw.h"
@@ -79,8 +81,11 @@ void fuzz(Source& source) {
   show_rows("faces", triangles);
   show_rows("mask", input.mask);
   const std::shared_ptr<Mirror> mirror = drawn_mirror(source);
-  expect_as_described(operate(operation.name, input, *mirror, given, impatient(source)), operation,
-                      points, triangles);
+  const OperationResult result = operate(operation.name, input, *mirror, given, impatient(source));
+  expect_as_described(result, operation, points, triangles);
+  const AttributeTransform by(result, points, mirror.get());
+  for (const auto kind : {AttributeKind::Vector, AttributeKind::Normal})
+    expect(by(points, kind).rows() == result.points.rows(), "directions of each point");
 }
 
 }  // namespace
