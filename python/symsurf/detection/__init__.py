@@ -7,6 +7,7 @@ from typing import Any, Literal, overload
 from numpy.typing import ArrayLike
 
 from .. import _core
+from .._core import InvalidParameter
 from ..base.descriptions import renamed
 from ..base.lengths import as_fractions
 from ..base.options import Reading, documented, part
@@ -55,12 +56,14 @@ def detect(
     faces: ArrayLike | None = None,
     use_faces: bool = True,
     normals: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
     nonfinite: str = "skip",
     threshold: float | None = None,
     label: int | str | None = None,
     scalars: str | None = None,
     external_files: bool = False,
     absolute: bool = False,
+    repeat: int = 0,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -118,11 +121,14 @@ def detect(
     require_repeat(repeat)
     reading = Reading(**part(Reading, locals()))
     if parts is not None:
+        if weights is not None:
+            raise InvalidParameter("weights are given beside parts; allowed is one of them")
         scene = parts_of(shape, parts, faces, reading, normals)
         options: dict[str, Any] = parameters | {
             "use_faces": use_faces,
             "nonfinite": nonfinite,
             "absolute": absolute,
+            "repeat": repeat,
             "seed": seed,
             "threads": threads,
             "progress": progress,
