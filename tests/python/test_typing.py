@@ -45,7 +45,7 @@ scored(symsurf.detect_sphere(points))
 WRONG = {
     "symsurf.detect_plane(points).mirror.centre": "centre",
     "symsurf.detect(points).mirror.normal": "normal",
-    "symsurf.detect_plane(points, pair_distance='2 mm')": "pair_distance",
+    "symsurf.detect_plane(points, pair_distance='2 mm')": "detect_plane",
     "symsurf.asymmetry(points).index": "index",
     "symsurf.asymmetry(points, speed=3)": "speed",
     "symsurf.symmetries(points, minimum_scores=3)": "minimum_scores",
