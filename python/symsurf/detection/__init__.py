@@ -55,12 +55,14 @@ def detect(
     faces: ArrayLike | None = None,
     use_faces: bool = True,
     normals: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
     nonfinite: str = "skip",
     threshold: float | None = None,
     label: int | str | None = None,
     scalars: str | None = None,
     external_files: bool = False,
     absolute: bool = False,
+    repeat: int = 0,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -118,11 +120,12 @@ def detect(
     require_repeat(repeat)
     reading = Reading(**part(Reading, locals()))
     if parts is not None:
-        scene = parts_of(shape, parts, faces, reading, normals)
+        scene = parts_of(shape, parts, faces, reading, normals=normals, weights=weights)
         options: dict[str, Any] = parameters | {
             "use_faces": use_faces,
             "nonfinite": nonfinite,
             "absolute": absolute,
+            "repeat": repeat,
             "seed": seed,
             "threads": threads,
             "progress": progress,
