@@ -27,6 +27,8 @@ assert_type(symsurf.asymmetry(points, max_angle=30.0), symsurf.Asymmetry)
 assert_type(symsurf.align("scan.ply", frame="ras").shape, symsurf.Shape)
 assert_type(symsurf.symmetries(points, minimum_score=0.5), symsurf.Symmetries)
 assert_type(symsurf.intrinsic_symmetry("scan.ply"), symsurf.IntrinsicSymmetry)
+assert_type(symsurf.detect(points, parts="connected"), list[symsurf.Result[symsurf.Mirror]])
+assert_type(symsurf.symmetries(points, parts="bone"), list[symsurf.Symmetries])
 assert_type(symsurf.helical_symmetry("spring.stl"), symsurf.HelicalSymmetry)
 assert_type(symsurf.match_pair("left.ply", "right.ply"), symsurf.PairMatch)
 plane = symsurf.Plane((1, 0, 0), 0)
@@ -78,6 +80,8 @@ def test_what_is_wrong_is_found(tmp_path):
     first = start.count("\n") + 1
     for line, about in enumerate(WRONG.values(), first):
         assert any(
-            message.startswith(f"example.py:{line}: error") and about in message
+            # Of overloads the notes name the arguments.
+            message.startswith((f"example.py:{line}: error", f"example.py:{line}: note"))
+            and about in message
             for message in said.splitlines()
         ), said

@@ -7,7 +7,6 @@ from typing import Any, Literal, overload
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import InvalidParameter
 from ..base.descriptions import renamed
 from ..base.lengths import as_fractions
 from ..base.options import Reading, documented, part
@@ -121,9 +120,7 @@ def detect(
     require_repeat(repeat)
     reading = Reading(**part(Reading, locals()))
     if parts is not None:
-        if weights is not None:
-            raise InvalidParameter("weights are given beside parts; allowed is one of them")
-        scene = parts_of(shape, parts, faces, reading, normals)
+        scene = parts_of(shape, parts, faces, reading, normals=normals, weights=weights)
         options: dict[str, Any] = parameters | {
             "use_faces": use_faces,
             "nonfinite": nonfinite,

@@ -25,7 +25,7 @@ def parts_of(
     parts: str | ArrayLike,
     faces: ArrayLike | None = None,
     reading: Reading | None = None,
-    normals: ArrayLike | None = None,
+    **rows: ArrayLike | None,
 ) -> list[Shape]:
     """The parts with at least 10 finite points: connected ones in the order of their first points,
     labelled ones by ascending label.
@@ -34,7 +34,7 @@ def parts_of(
         given, faces, reading: as of ``as_input``.
         parts: "connected", the name of a point array of a data set, a table or a file that PyVista
             reads, or (n,) labels; points whose label is NaN belong to none.
-        normals: (n, 3), to be split, too.
+        rows: normals (n, 3) and weights (n,), in place of those of the shape, to be split, too.
 
     Raises:
         InvalidParameter: an unknown array; labels that are not one per point.
@@ -45,8 +45,13 @@ def parts_of(
     if points.ndim != 2 or points.shape[1] != 3:
         raise InvalidInput(f"points have shape {points.shape}; allowed is (n, 3)")
     whole = known.as_shape(points)
-    if normals is not None:
-        whole = replace(whole, normals=np.asarray(normals, dtype=np.float64))
+    own: dict[str, Any] = {
+        name: np.asarray(each, float) for name, each in rows.items() if each is not None
+    }
+    for name, each in own.items():
+        if len(each) != len(points):
+            raise InvalidInput(f"{len(each)} {name} are given for {len(points)} points")
+    whole = replace(whole, **own)
     is_connected = isinstance(parts, str) and parts == CONNECTED
     if is_connected:
         labels = _connected(points, known.faces)
@@ -75,12 +80,14 @@ def parts_of(
 
 
 def _rows(shape: Shape, chosen: NDArray[np.bool_]) -> Shape:
-    faces, of_all = shape.faces, (shape.points, shape.normals, shape.colours)
-    points, normals, colours = (None if rows is None else rows[chosen] for rows in of_all)
-    assert points is not None
+    faces = shape.faces
     if faces is not None:
         faces = (np.cumsum(chosen) - 1)[faces[chosen[faces].all(axis=1)]]
-    return Shape(points, faces, normals, shape.space, colours)
+    names = ("normals", "colours", "weights")
+    rows: dict[str, Any] = {
+        name: each[chosen] for name in names if (each := getattr(shape, name)) is not None
+    }
+    return Shape(shape.points[chosen], faces, space=shape.space, **rows)
 
 
 def named_array(given: Any, name: str) -> NDArray[Any]:
