@@ -61,7 +61,7 @@ std::vector<ImageDeviation> deviations_of(const PointGroup& group, const GroupPo
   const auto count = static_cast<Index>(elements.size());
   constexpr Index grain = 4, least = 16;  // elements, images
   std::vector<ImageDeviation> each(elements.size());
-  parallel_for(context, count, grain, [&](Index begin, Index end) {
+  silent_parallel_for(context, count, grain, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e)
       if (!elements[e].isIdentity())
         each[e] = surface.deviation(pose.placed(elements[e]), std::max(least, looked / count), e);
@@ -279,7 +279,7 @@ std::vector<GroupPose> TolerancedGroups::lines() {
   for (Index order = 2; order <= 6; ++order) kinds.push_back(turns_of(order, 1));
   using Start = std::pair<double, GroupPose>;
   std::vector<std::vector<Start>> starts(kinds.size());
-  parallel_for(context_, static_cast<Index>(kinds.size()), 1, [&](Index begin, Index end) {
+  silent_parallel_for(context_, static_cast<Index>(kinds.size()), 1, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       for (const Vector3& direction : all) {
         const GroupPose pose = GroupPose::along(direction, Vector3::Zero());
@@ -399,7 +399,7 @@ void TolerancedGroups::add_turns(const std::vector<GroupPose>& axes) {
   std::vector<Job> jobs;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     std::vector<ImageDeviation> curve(finest_turn + 1);
-    parallel_for(context_, finest_turn - 1, 8, [&](Index begin, Index end) {
+    silent_parallel_for(context_, finest_turn - 1, 8, [&](Index begin, Index end) {
       constexpr Index looked = 60;
       for (Index n = begin + 2; n < end + 2; ++n)
         curve[n] = surface_.deviation(axes[k].placed(turns_of(n, 1).front()), looked);
