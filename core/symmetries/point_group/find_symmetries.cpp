@@ -104,9 +104,8 @@ MeasuredGroup standing(const Symmetries& found, const PrincipalFrame& frame) {
   return own;
 }
 
-Symmetries in_input_units(const MeasuredGroup& own, double score, const SurfaceDistance& surface) {
-  Symmetries found = described(
-      own.group, own.pose, {.support = score, .missing = own.deviation.missing}, surface.frame());
+Symmetries with_deviations(Symmetries found, const MeasuredGroup& own,
+                           const SurfaceDistance& surface) {
   const auto add = [&](const ImageDeviation& one, std::vector<double>& maxima,
                        std::vector<double>& quantiles) {
     maxima.push_back(surface.diameter() * one.maximum);
@@ -126,6 +125,11 @@ Symmetries in_input_units(const MeasuredGroup& own, double score, const SurfaceD
     add(of_axis, found.axis_max_deviations, found.axis_quantile_deviations);
   }
   return found;
+}
+
+Symmetries in_input_units(const MeasuredGroup& own, double score, const SurfaceDistance& surface) {
+  const OrbitVote vote{.support = score, .missing = own.deviation.missing};
+  return with_deviations(described(own.group, own.pose, vote, surface.frame()), own, surface);
 }
 
 // What points have at most: half a unit of the last decimal that all of them have, along each axis,
@@ -272,11 +276,9 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     TolerancedGroups groups(surface, running.stage(0.1, 0.1));
     groups.add(exact);
     MeasuredGroup own = exact;
-    double score = 1;
     constexpr Index least_searched = 30;  // points: fewer show no surface
     if (rule.is_given()) {
       own = groups.largest(rule, rule.by_quantile());
-      if (rule.by_quantile()) score = quantile_share;
     } else if (!is_cloud || (exact.size() == 1 && cloud.points.size() >= least_searched)) {
       // A closed mesh has no side that nobody saw: what maps a part of it elsewhere is no symmetry.
       const auto accepts = [&](const Symmetries& group) {
@@ -288,7 +290,7 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
       other.deviation.missing = searched.missing;
       if (has_more(other, exact)) {
         own = std::move(other);
-        score = searched.score;
+        found = with_deviations(searched, own, surface);
       }
       if (surface.is_closed()) {
         const double size = own.size();
@@ -299,11 +301,12 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
             false);
         if (larger.size() > size) {
           own = larger;
-          score = 1;
+          found.elements.clear();
         }
       }
     }
-    found = in_input_units(own, score, surface);
+    if (found.elements.empty())
+      found = in_input_units(own, rule.by_quantile() ? quantile_share : 1, surface);
     if (options.colours.size() == 0) {
       for (const MeasuredGroup& each : groups.chain(own, rule.by_quantile()))
         found.by_tolerance.push_back(in_input_units(each, 1, surface));
