@@ -16,15 +16,18 @@ from symsurf import cli
 
 METHODS = symsurf.methods()
 OPTIONS = [
+    "parts",
     "faces",
     "use_faces",
     "normals",
+    "weights",
     "nonfinite",
     "threshold",
     "label",
     "scalars",
     "external_files",
     "absolute",
+    "repeat",
     "seed",
     "threads",
     "progress",
