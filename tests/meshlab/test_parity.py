@@ -16,6 +16,7 @@ PREFIX = "compute_mirror_"
 OF_THE_HOST = {"only_selected", "use_normals", "show_candidates"}
 # What a dialog has no use for: the layer is the input, the filter the method, the bar the progress.
 # MeshLab's layers bring their faces, are no grids or files of other programs, and log what is left out.
+# Its own filters split a layer into parts, and draw samples of it.
 OF_PYTHON = {"absolute", "shape", "method", "normals", "progress", "parameters"} | {
     "faces",
     "threshold",
@@ -23,6 +24,9 @@ OF_PYTHON = {"absolute", "shape", "method", "normals", "progress", "parameters"}
     "nonfinite",
     "label",
     "external_files",
+    "parts",
+    "repeat",
+    "weights",
 }
 
 
