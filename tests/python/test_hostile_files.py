@@ -11,6 +11,7 @@ import resource
 import stat
 import subprocess
 import sys
+import time
 import zipfile
 from pathlib import Path, PureWindowsPath
 
@@ -640,6 +641,12 @@ def test_two_runs_on_one_table(tmp_path):
     assert not (tmp_path / "t.csv").exists()
     assert run(*words, cwd=tmp_path).returncode == 0
     assert {path.name for path in tmp_path.iterdir()} == {"a.xyz", "t.csv", "u.csv"}
+    # One that began at the same time and has ended.
+    soon = time.time() + 60
+    os.utime(tmp_path / "t.csv", (soon, soon))
+    done = run(*words, cwd=tmp_path)
+    assert done.returncode == 2 and "written by another run since this one began" in done.stderr
+    assert run(*words, "--resume", cwd=tmp_path).returncode == 0
 
 
 def test_a_run_that_was_killed_holds_no_table(tmp_path):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import signal
 import sys
+import time
 from collections.abc import Sequence
 
 from .._core import InvalidInput, InvalidParameter, __version__
@@ -15,12 +17,16 @@ from .values import attach_negative_numbers
 
 def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
+    # Of a process of its own when it started, before Python read its modules.
+    began = time.time() - (time.process_time() if arguments is None else 0)
     open_streams()
     try:
         name, *rest = words or ["--help"]
         if name not in COMMANDS:
             return _without_command(name)
-        chosen = parser_of(name).parse_args(attach_negative_numbers(rest))
+        chosen = parser_of(name).parse_args(
+            attach_negative_numbers(rest), argparse.Namespace(began=began)
+        )
         status = COMMANDS[name].run(chosen)
         sys.stdout.flush()
         return status

@@ -280,6 +280,11 @@ def _begun_table(
         return
     path.parent.mkdir(parents=True, exist_ok=True)
     with sole_writer(path):
+        if not arguments.resume and path.exists() and path.stat().st_mtime > arguments.began:
+            raise InvalidParameter(
+                f"{path} was written by another run since this one began; allowed is another table, or "
+                "--resume"
+            )
         table = GrowingTable(path, tasks, places, arguments.resume)
         yield table
         table.finish()
