@@ -29,7 +29,7 @@ def _trial(name: str, rng: np.random.Generator, damage: str) -> Figures:
     return {"named": float(named), "seconds": seconds}
 
 
-BARS = {"named": at_least(1), "seconds": at_most(0.5)}
+BARS = {"named": at_least(1), "seconds": at_most(1)}
 CASES = tuple(
     Case(
         title,
