@@ -467,8 +467,22 @@ class RecurringParts(AnalysisResult):
         return f"RecurringParts({self.shape!r}, instances of each part: {counts or 'none'})"
 
 
+class _WithVerdict(AnalysisResult):
+    """What is found or not, and says why."""
+
+    @property
+    def verdict(self) -> str:
+        """ "found" or "none"."""
+        return str(self.statistics["verdict"])
+
+    @property
+    def reason(self) -> str:
+        """Why the verdict is what it is; empty where nothing is to be said."""
+        return str(self.statistics["reason"])
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class PairMatch(AnalysisResult):
+class PairMatch(_WithVerdict):
     """Two shapes of a pair, as a left and a right bone, laid onto each other.
 
     ``transformations`` has the one map, of the points of ``shape``, the left one.
@@ -489,16 +503,6 @@ class PairMatch(AnalysisResult):
         return float(self.statistics["score"])
 
     @property
-    def verdict(self) -> str:
-        """ "found" or "none"."""
-        return str(self.statistics["verdict"])
-
-    @property
-    def reason(self) -> str:
-        """Why the verdict is what it is."""
-        return str(self.statistics["reason"])
-
-    @property
     def index(self) -> NDArray[np.int64]:
         """(n,) of each point of left: the nearest point of right to its image; -1 for none."""
         return self.arrays["index"]
@@ -508,7 +512,7 @@ class PairMatch(AnalysisResult):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HelicalSymmetry(AnalysisResult):
+class HelicalSymmetry(_WithVerdict):
     """The axis, pitch, handedness and extent of a spring, thread or drill.
 
     ``transformations`` has the screw motion by a quarter of a turn, ``arrays["helical"]`` marks the
@@ -547,16 +551,6 @@ class HelicalSymmetry(AnalysisResult):
     def score(self) -> float:
         """Share of the helical part that screw motions map onto the shape, 0 to 1."""
         return float(self.statistics["score"])
-
-    @property
-    def verdict(self) -> str:
-        """ "found" or "none"."""
-        return str(self.statistics["verdict"])
-
-    @property
-    def reason(self) -> str:
-        """Why the verdict is "none"; empty if it is "found"."""
-        return str(self.statistics["reason"])
 
     def __repr__(self) -> str:
         found = f"{self.handedness}-handed, pitch {self.pitch:.4g}" if self.axis else "none"
