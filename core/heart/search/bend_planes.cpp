@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 
 #include "base/math.h"
 #include "base/parallel.h"
@@ -108,22 +110,20 @@ bool lay_exact_planes(const Cloud& cloud, const SearchCloud& search,
 
 void bend_planes(const Cloud& cloud, const SearchCloud& search, std::vector<GrownSurface>& surfaces,
                  const Context& context) {
-  const std::vector<UnitPlane> planes = candidate_mirrors(cloud, context.stage(0, 0.1)),
-                               half_way = half_way_planes();
-  std::vector<BentPlane> bent, others;
+  std::vector<UnitPlane> planes = candidate_mirrors(cloud, context.stage(0, 0.1));
+  const auto candidates = static_cast<std::ptrdiff_t>(planes.size());
+  for (const UnitPlane& plane : half_way_planes()) planes.push_back(plane);
+  std::vector<BentPlane> bent;
   for (const UnitPlane& plane : planes)
     bent.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
-  for (const UnitPlane& plane : half_way)
-    others.push_back(laid_on(search, in_input_units(plane, cloud.frame)));
-  const auto first = static_cast<Index>(bent.size());
-  silent_parallel_for(search.context, first + static_cast<Index>(others.size()), 1,
-                      [&](Index k, Index) {
-                        bend(search, 0, first_stages, few, k < first ? bent[k] : others[k - first]);
-                      });
+  silent_parallel_for(search.context, static_cast<Index>(bent.size()), 1,
+                      [&](Index k, Index) { bend(search, 0, first_stages, few, bent[k]); });
   double best = 0;
-  for (const BentPlane& one : bent) best = std::max(best, one.support());
-  for (BentPlane& one : others)
-    if (one.support() > beyond_others * best) bent.push_back(std::move(one));
+  const auto half_way = bent.begin() + candidates;
+  std::for_each(bent.begin(), half_way,
+                [&](const BentPlane& one) { best = std::max(best, one.support()); });
+  const auto is_beyond = [&](const BentPlane& one) { return one.support() > beyond_others * best; };
+  bent.erase(std::remove_if(half_way, bent.end(), std::not_fn(is_beyond)), bent.end());
   std::stable_sort(bent.begin(), bent.end(), [](const BentPlane& a, const BentPlane& b) {
     return a.support() > b.support();
   });
