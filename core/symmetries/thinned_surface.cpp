@@ -12,13 +12,14 @@ namespace symsurf {
 
 namespace {
 
+constexpr Index several = 4;  // points of the cloud that are looked at for each thinned one
+
 // Spacings: noise beyond shows in the normals of a dozen points, and is smoothed over so far.
 constexpr double noisy = 0.25, reach = 3.5;
 
 // Each point on the quadratic surface fitted to those of the cloud around it, weighted less the
 // farther away: moving least squares (Levin 2003).
 Points smoothed(const SurfacePoints& surface, const Cloud& cloud, const Context& context) {
-  constexpr Index several = 4;  // of the cloud for each of the thinned points
   const Cloud& some = cloud.thinned(several * surface.size(), context.stage(0, 0.1));
   const Points all = cloud.frame.to_frame(some.points, context.stage(0.1, 0.2));
   const PointTree tree(all, context.stage(0.2, 0.4));
@@ -86,6 +87,22 @@ std::vector<Index> ThinnedSurface::near(const std::vector<Index>& thinned) const
   for (const Index i : thinned) all.insert(all.end(), near_[i].begin(), near_[i].end());
   std::sort(all.begin(), all.end());
   return all;
+}
+
+std::vector<Points> ThinnedSurface::divided(const std::vector<Index>& parts,
+                                            const Context& context) const {
+  const Cloud& some = cloud_.thinned(several * size(), context.stage(0, 0.5));
+  const Points all = cloud_.frame.to_frame(some.points, context.stage(0.5, 1));
+  std::vector<std::vector<Index>> rows;
+  for (Index i = 0; i < all.rows(); ++i) {
+    const Index surfel = surfels_.containing(all.row(i).transpose());
+    if (surfel < 0 || parts[surfel] < 0) continue;
+    if (parts[surfel] >= std::ssize(rows)) rows.resize(parts[surfel] + 1);
+    rows[parts[surfel]].push_back(i);
+  }
+  std::vector<Points> divided;
+  for (const std::vector<Index>& part : rows) divided.push_back(chosen_rows(all, part));
+  return divided;
 }
 
 Matrix4 ThinnedSurface::in_input_units(const Eigen::Affine3d& map) const {

@@ -39,6 +39,10 @@ class ThinnedSurface {
   /// The cloud's points near these thinned points, ascending.
   std::vector<Index> near(const std::vector<Index>& thinned) const;
 
+  /// Points of the surface in the principal frame by the number of the nearest thinned point in
+  /// `parts`, -1: in none.
+  std::vector<Points> divided(const std::vector<Index>& parts, const Context& context) const;
+
   /// A map of the principal frame as one of the cloud's coordinates.
   Matrix4 in_input_units(const Eigen::Affine3d& map) const;
 

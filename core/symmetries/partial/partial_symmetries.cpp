@@ -46,7 +46,11 @@ class PartialSearch {
             std::ceil(options.minimum_size * static_cast<double>(surface.size())))) {}
 
   std::vector<PatchPair> found(const Context& context) const {
-    std::vector<PatchPair> found = grown(voted(context.stage(0, 0.6)), context.stage(0.6, 0.8));
+    std::vector<PatchPair> starts = voted(context.stage(0, 0.4));
+    std::vector<PatchPair> whole =
+        component_pairs(surface_, options_, least_, context.stage(0.4, 0.6));
+    std::move(whole.begin(), whole.end(), std::back_inserter(starts));
+    std::vector<PatchPair> found = grown(starts, context.stage(0.6, 0.8));
     best_of(found);
     for (int round = 0; round < 2; ++round) {
       std::vector<PatchPair> more =
@@ -121,10 +125,12 @@ class PartialSearch {
         pairs[k] = growth_.grown(candidates[k].map, candidates[k].from, least_, context);
     });
     std::vector<PatchPair> found;
-    for (std::optional<PatchPair>& pair : pairs)
-      if (pair && pair->score >= options_.minimum_score && pair->hold > least_hold &&
-          !hardly_moves(*pair))
+    for (Index k = 0; k < count; ++k) {
+      std::optional<PatchPair>& pair = pairs[k];
+      if (pair && pair->score >= options_.minimum_score &&
+          std::max(pair->hold, candidates[k].hold) > least_hold && !hardly_moves(*pair))
         found.push_back(std::move(*pair));
+    }
     return found;
   }
 

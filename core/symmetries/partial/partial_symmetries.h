@@ -173,6 +173,12 @@ struct PartialSearchOptions {
   Index count = 0;           // most that are found
 };
 
+/// Where whole components of at least so many points are laid onto others like them: discs of
+/// smooth ones say too little for votes.
+std::vector<PatchPair> component_pairs(const ThinnedSurface& surface,
+                                       const PartialSearchOptions& options, Index least,
+                                       const Context& context);
+
 /// The partial symmetries of a surface (Mitra et al. 2006): patches that a map takes to other
 /// places of the surface. The largest that fit well first.
 std::vector<PatchPair> partial_patches(const ThinnedSurface& surface,

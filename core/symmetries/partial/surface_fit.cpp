@@ -131,7 +131,7 @@ double SurfaceFit::hold(const Eigen::Affine3d& map, const std::vector<Index>& po
 namespace {
 
 // What the images of some points of a surface find there.
-struct PatchMatcher {
+struct LandingMatcher {
   const SurfaceFit& fit;
   const std::vector<Index>& points;
   double tolerance;
@@ -178,8 +178,8 @@ Eigen::Affine3d SurfaceFit::fitted(const Eigen::Affine3d& start, const std::vect
                                    double tolerance, int steps) const {
   const PatchMap map = map_of(surface_.points(), start, points, scales_);
   if (!(map.lever > 0)) return start;
-  return symsurf::fitted(map, PatchMatcher{*this, points, tolerance}, {tolerance, tolerance, steps},
-                         PlaneKernel())
+  return symsurf::fitted(map, LandingMatcher{*this, points, tolerance},
+                         {tolerance, tolerance, steps}, PlaneKernel())
       .map;
 }
 
@@ -189,7 +189,7 @@ Eigen::Affine3d SurfaceFit::loosest(const Eigen::Affine3d& map, const std::vecto
   const PatchMap posed = map_of(surface_.points(), map, points, false);
   if (!(posed.lever > 0)) return Eigen::Affine3d::Identity();
   GaussNewton<PatchMap> sum;
-  const PatchMatcher matcher{*this, points, tolerance};
+  const LandingMatcher matcher{*this, points, tolerance};
   for (const Match& match : matcher.matches({posed}, tolerance)) {
     const Counted one =
         PlaneKernel()(posed, match, posed.reflect(match.point) - match.partner, tolerance);
