@@ -79,6 +79,19 @@ def test_the_table_has_a_row_for_each_shape(in_slicer):
     assert table["score"][0] < table["score"][1]
 
 
+def test_all_symmetries_of_a_part_are_in_a_table(in_slicer):
+    made = in_slicer("symmetries")
+    elements, to_world = made["elements"], np.array(made["to_world"])
+    assert elements["Element"] == ["plane"] * 3 + ["axis"] * 3
+    assert elements["Order"] == [""] * 3 + ["2"] * 3
+    assert made["figures"]["group"] == ["D2h"]
+    directions = np.column_stack([elements[f"Direction {name}"] for name in "RAS"])
+    for three in (directions[:3], directions[3:]):  # those of the box, in some order
+        np.testing.assert_allclose(abs(three @ to_world[:3, :3]).max(axis=1), 1, atol=1e-9)
+    points = np.column_stack([elements[f"Point {name}"] for name in "RAS"])
+    np.testing.assert_allclose(points, np.tile(to_world[:3, 3], (6, 1)), atol=1e-6)
+
+
 def test_what_is_wrong_is_said(in_slicer):
     said = in_slicer("refused")
     assert said[0] == "no shape is chosen; allowed is a model or a segmentation"

@@ -9,7 +9,7 @@ from mathutils import Matrix
 
 import symsurf
 
-_KEY = "symsurf_mirror"
+_KEY, _AXIS = "symsurf_mirror", "symsurf_axis"
 _COLOUR = (0.45, 0.7, 0.95, 0.5)
 # Off the identity, matrices that objects inherit from their parents are by rounding in single precision.
 _SAME = 1e-5
@@ -42,31 +42,73 @@ def text_of(object_):
 def draw(context, shape, mirror, name, text, mesh=None):
     """Adds an object for a mirror, in the scene's coordinates: the shape's child, and not rendered."""
     vertices, triangles = mirror.mesh() if mesh is None else mesh
-    data = bpy.data.meshes.new(name)
-    data.from_pydata(vertices.tolist(), [], triangles.tolist())
-    data.materials.append(_material())
-    drawn = bpy.data.objects.new(name, data)
-    (shape.users_collection or [context.scene.collection])[0].objects.link(drawn)
-    drawn.parent = shape
-    drawn.matrix_parent_inverse = shape.matrix_world.inverted_safe()
-    drawn.hide_render = True
+    drawn = _child(context, shape, name, vertices, faces=triangles)
     drawn[_KEY] = json.dumps(
         {"kind": mirror.kind, "numbers": mirror.numbers, "text": text}, default=np.ndarray.tolist
     )
     return drawn
 
 
+def _child(context, shape, name, vertices, edges=(), faces=()):
+    """A new object of these, in the scene's coordinates."""
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(np.asarray(vertices).tolist(), list(edges), np.asarray(faces).tolist())
+    data.materials.append(_material())
+    drawn = bpy.data.objects.new(name, data)
+    (shape.users_collection or [context.scene.collection])[0].objects.link(drawn)
+    drawn.parent = shape
+    drawn.matrix_parent_inverse = shape.matrix_world.inverted_safe()
+    drawn.hide_render = True
+    return drawn
+
+
+def _remove_drawn(shape):
+    for child in list(shape.children):
+        if _KEY in child or _AXIS in child:
+            bpy.data.meshes.remove(child.data)  # and the object with it
+
+
 def draw_found(context, shape, result, others=()):
     """Draws what a detection found, in place of what was drawn for the shape before."""
-    for child in list(shape.children):
-        if _KEY in child:
-            bpy.data.meshes.remove(child.data)  # and the object with it
+    _remove_drawn(shape)
     text = f"score {result.score:.3f}"
     shape.symsurf_mirror = draw(context, shape, result.mirror, f"Mirror of {shape.name}", text)
     for number, each in enumerate(others, 2):
         mesh = each.mirror.mesh(result.points)
         name = f"Mirror {number} of {shape.name}"
         draw(context, shape, each.mirror, name, f"score {each.score:.3f}", mesh)
+
+
+def draw_symmetries(context, shape, result):
+    """Draws mirror planes and rotation axes, in place of what was drawn for the shape before; the first
+    plane becomes its mirror."""
+    _remove_drawn(shape)
+    points = result.shape.points
+    drawn = [
+        draw(
+            context,
+            shape,
+            plane,
+            f"Plane {number} of {shape.name}",
+            result.group,
+            plane.mesh(points),
+        )
+        for number, plane in enumerate(result.planes, 1)
+    ]
+    shape.symsurf_mirror = drawn[0] if drawn else None
+    for number, axis in enumerate(result.axes, 1):
+        along = (points - axis.point) @ axis.direction
+        ends = [axis.point + end * axis.direction for end in _past(along.min(), along.max())]
+        order = "∞" if axis.continuous else axis.order
+        line = _child(
+            context, shape, f"Axis {number} of {shape.name}, order {order}", ends, [(0, 1)]
+        )
+        line[_AXIS] = result.group
+
+
+def _past(low, high):
+    """A tenth of the length farther at both ends."""
+    return low - 0.1 * (high - low), high + 0.1 * (high - low)
 
 
 def mirror_and_frame(shape):

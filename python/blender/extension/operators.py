@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators made from symsurf's descriptions: one that finds the mirror, and one an operation."""
+"""Operators made from symsurf's descriptions: one that finds the mirror, one that finds all symmetries,
+and one an operation."""
 
 from typing import ClassVar
 
@@ -147,6 +148,33 @@ class _Detection(_Operator):
         return f"{result.mirror.kind.capitalize()}, score {result.score:.3f}"
 
 
+class _Symmetries(_Operator):
+    """Finds all mirror planes and rotation axes of the active object, and draws them as its children"""
+
+    bl_idname = "symsurf.symmetries"
+    bl_label = "Find Symmetries"
+    analysis = symsurf.analyses()["symmetries"]
+
+    @classmethod
+    def settings(cls, chosen):
+        """The properties to show."""
+        return list(cls.__annotations__)
+
+    def work(self, context):
+        self._shape = context.active_object
+        context.view_layer.update()
+        self._shape.symsurf_mirror = None
+        _, points, faces = self.read(context)
+        parameters = {each.name: value_of(self, each) for each in _parameters_shown(self.analysis)}
+        return lambda progress: symsurf.symmetries(
+            symsurf.Shape(points, faces if len(faces) else None), progress=progress, **parameters
+        )
+
+    def apply(self, context, result):
+        mirrors.draw_symmetries(context, self._shape, result)
+        return f"{result.group}: {len(result.planes)} planes, {len(result.axes)} axes"
+
+
 class _Operation(_Operator):
     @classmethod
     def settings(cls, chosen):
@@ -222,6 +250,17 @@ def _detection():
     return type("SYMSURF_OT_detect", (_Detection, bpy.types.Operator), members)
 
 
+def _parameters_shown(analysis):
+    """Without those that need arrays which the extension does not pass."""
+    return [each for each in analysis.parameters if each.name != "texture"]
+
+
+def _symmetries():
+    made = {each.name: described_property(each) for each in _parameters_shown(_Symmetries.analysis)}
+    members = {"__annotations__": made, "__doc__": _Symmetries.__doc__}
+    return type("SYMSURF_OT_symmetries", (_Symmetries, bpy.types.Operator), members)
+
+
 _CARRIED = {
     "vertex_groups": "Carry the weights of vertex groups",
     "shape_keys": "Carry shape keys, as mirrored displacements",
@@ -254,5 +293,6 @@ def _operation(operation):
 
 
 DETECTION = _detection()
+SYMMETRIES = _symmetries()
 OPERATIONS = [_operation(each) for each in symsurf.operations().values()]
-CLASSES = [DETECTION, *OPERATIONS]
+CLASSES = [DETECTION, SYMMETRIES, *OPERATIONS]

@@ -8,7 +8,7 @@ import bpy
 import symsurf
 
 from . import mirrors
-from .operators import DETECTION, OPERATIONS, draw_settings
+from .operators import DETECTION, OPERATIONS, SYMMETRIES, draw_settings
 
 
 class _Panel:
@@ -60,6 +60,7 @@ def _panel(operator, label, parent=None):
 CLASSES = [
     SYMSURF_PT_mirror,
     _panel(DETECTION, "Detection", "SYMSURF_PT_mirror"),
+    _panel(SYMMETRIES, "All symmetries", "SYMSURF_PT_mirror"),
     *(
         _panel(operator, symsurf.operations()[operator.operation.name].title)
         for operator in OPERATIONS

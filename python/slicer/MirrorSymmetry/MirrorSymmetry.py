@@ -69,6 +69,7 @@ class MirrorSymmetryParameterNode:
     asymmetry: vtkMRMLModelNode
     mirroredLandmarks: vtkMRMLMarkupsFiducialNode
     landmarkTable: vtkMRMLTableNode
+    symmetries: vtkMRMLTableNode
     table: vtkMRMLTableNode
 
 
@@ -279,6 +280,7 @@ class MirrorSymmetryLogic(ScriptedLoadableModuleLogic, SymmetryLogic):
             asymmetry=parameterNode.asymmetry,
             landmarks=parameterNode.mirroredLandmarks,
             landmark_table=parameterNode.landmarkTable,
+            symmetries=parameterNode.symmetries,
             table=parameterNode.table,
         )
 

@@ -50,6 +50,27 @@ def test_detected_mirror_is_drawn_where_it_is():
     assert [each.name for each in shape.children] == ["Mirror of Head"]
 
 
+def test_symmetries_of_a_turned_box_are_drawn():
+    bpy.ops.mesh.primitive_cube_add(location=(3, 1, 2), rotation=(0.3, 0.2, 0.5))
+    shape = bpy.context.active_object
+    shape.scale = (1, 1.5, 2)
+    assert bpy.ops.symsurf.symmetries() == {"FINISHED"}
+    planes = [each for each in shape.children if each.name.startswith("Plane")]
+    axes = [each for each in shape.children if each.name.startswith("Axis")]
+    assert len(planes) == len(axes) == 3 and shape.symsurf_mirror == planes[0]
+    middle = np.array((3, 1, 2))
+    for line in axes:
+        one, other = in_scene(line)
+        across = np.cross(other - one, middle - one) / np.linalg.norm(other - one)
+        assert np.linalg.norm(across) < 1e-5
+    for plane in planes:
+        on, *others = in_scene(plane)
+        normal = np.cross(others[0] - on, others[-1] - on)
+        assert abs((middle - on) @ normal) < 1e-5 * np.linalg.norm(normal)
+    bpy.ops.symsurf.detect(method="plane")
+    assert [each.name for each in shape.children] == [f"Mirror of {shape.name}"]
+
+
 @pytest.mark.parametrize("detects_first", [True, False])
 def test_align_lays_the_mesh_over_x(detects_first):
     shape, partner = head()

@@ -227,6 +227,23 @@ def table() -> dict[str, Any]:
     return columns_of(outputs.table)
 
 
+def symmetries() -> dict[str, Any]:
+    """All planes and axes of a box that lies turned."""
+    corners = np.array([[x, y, z] for x in (-2, 2) for y in (-3, 3) for z in (-5, 5)], float)
+    triangles = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1)]
+    triangles += [(2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+    node = new("Model", "Box")
+    node.SetAndObservePolyData(surface(corners, np.array(triangles)))
+    node.SetAndObserveTransformNodeID(transform(turn()).GetID())
+    outputs = Outputs(symmetries=new("Table"), table=new("Table"))
+    LOGIC.process(node, outputs)
+    return {
+        "elements": columns_of(outputs.symmetries),
+        "figures": columns_of(outputs.table),
+        "to_world": turn().tolist(),
+    }
+
+
 def refused() -> list[str]:
     empty = new("Model", "Empty")
     return [

@@ -38,8 +38,10 @@ class Outputs:
     """Where the other side says that each landmark should be."""
     landmark_table: slicer.vtkMRMLTableNode | None = None
     """Which landmark mirrors which, and how far apart they are over the mirror."""
+    symmetries: slicer.vtkMRMLTableNode | None = None
+    """All mirror planes and rotation axes of the shape, in world coordinates."""
     table: slicer.vtkMRMLTableNode | None = None
-    """The figures, a row a shape: score, verdict, statistics of the asymmetry."""
+    """The figures, a row a shape: score, verdict, statistics of the asymmetry, the group."""
 
 
 class SymmetryLogic:
@@ -76,10 +78,13 @@ class SymmetryLogic:
         """
         surface = world_surface(shape, segment)
         options = {"use_faces": use_faces, "progress": progress, **(parameters or {})}
+        groups = {}
+        if outputs.symmetries is not None:
+            groups["group"] = self._find_symmetries(surface, outputs.symmetries, progress)
         result = self._detected(surface, method, options)
         if result.mirror is None:
             raise ValueError(f"{method} finds no mirror in {shape.GetName()}: {result.reason}")
-        figures = {"verdict": result.verdict, "score": result.score}
+        figures = {"verdict": result.verdict, "score": result.score, **groups}
         if outputs.asymmetry is not None or outputs.table is not None:
             figures |= self._asymmetry(surface, result, outputs.asymmetry)
         self._set_mirror(surface, result, outputs)
@@ -98,6 +103,19 @@ class SymmetryLogic:
         known = symsurf.methods().get(method)
         has_pairs = known is not None and any(each.name == "pairs" for each in known.parameters)
         return symsurf.detect(surface, method, **({"pairs": False} if has_pairs else {}) | options)
+
+    def _find_symmetries(
+        self,
+        surface: vtkPolyData,
+        table: slicer.vtkMRMLTableNode,
+        progress: Callable[[float], bool | None] | None,
+    ) -> str:
+        """The group, whose planes and axes the table gets."""
+        import symsurf
+
+        found = symsurf.symmetries(surface, progress=progress)
+        nodes.set_table(table, _element_columns(found))
+        return found.group
 
     def _set_mirror(self, surface: vtkPolyData, result: symsurf.Result, outputs: Outputs) -> None:
         import symsurf
@@ -152,6 +170,23 @@ def _limit(statistics: Mapping[str, float]) -> float:
     rounding = 1e-9 * statistics["diagonal"]
     limit = statistics["p99"] if statistics["p99"] > rounding else statistics["maximum"]
     return max(limit, rounding)
+
+
+def _element_columns(found: symsurf.Symmetries) -> dict[str, list[Any]]:
+    """A row a plane, by its normal and a point on it, then one an axis."""
+    planes, axes = found.planes, found.axes
+    directions = [plane.normal for plane in planes] + [axis.direction for axis in axes]
+    points = [plane.project(found.centre[None])[0] for plane in planes]
+    points += [axis.point for axis in axes]
+    orders = ["∞" if axis.continuous else str(axis.order) for axis in axes]
+    columns: dict[str, list[Any]] = {
+        "Element": [*["plane"] * len(planes), *["axis"] * len(axes)],
+        "Order": [*[""] * len(planes), *orders],
+    }
+    for number, name in enumerate("RAS"):
+        columns[f"Direction {name}"] = [float(each[number]) for each in directions]
+        columns[f"Point {name}"] = [float(each[number]) for each in points]
+    return columns
 
 
 def _pair_columns(
