@@ -99,7 +99,7 @@ def test_what_is_wrong_is_said(in_slicer):
     assert said[2] == "Points is a vtkMRMLMarkupsFiducialNode; allowed is a model or a segmentation"
     assert "'mirror'; there are auto, plane" in said[3]
     assert said[4].startswith("tolerance is 7; allowed is")
-    assert said[5].startswith("normals_only finds no mirror in Head")
+    assert said[5].startswith("perpendicular finds no mirror in Plate")
 
 
 def test_the_search_can_be_cancelled(in_slicer):

@@ -148,7 +148,11 @@ template <int n>
 requires(n >= 3 &&
          n <= 7) Eigen::Vector<double, n> solved(const Eigen::Matrix<double, n, n>& semidefinite,
                                                  const Eigen::Vector<double, n>& right) {
-  return semidefinite.ldlt().solve(right);
+  // One decomposition for all sizes: one for each takes five times as long to compile.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 7, 7>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 7, 1>;
+  const Column solution = Eigen::LDLT<Small>(semidefinite).solve(Column(right));
+  return solution;
 }
 
 #define SYMSURF_SOLVED(n)                                                      \

@@ -244,6 +244,21 @@ def symmetries() -> dict[str, Any]:
     }
 
 
+def plate() -> Any:
+    """Flat, of uneven triangles: bent mirrors across it move nothing."""
+    count, rng = 45, np.random.default_rng(0)
+    at = np.stack(np.meshgrid(np.arange(count), np.arange(count)), -1).reshape(-1, 2)
+    points = np.column_stack([at + rng.uniform(-0.4, 0.4, at.shape), rng.normal(size=len(at)) / 50])
+    corner = np.arange(count**2).reshape(count, count)[:-1, :-1].ravel()
+    triangles = [
+        (corner, corner + 1, corner + count + 1),
+        (corner, corner + count + 1, corner + count),
+    ]
+    node = new("Model", "Plate")
+    node.SetAndObservePolyData(surface(points, np.vstack([np.column_stack(t) for t in triangles])))
+    return node
+
+
 def refused() -> list[str]:
     empty = new("Model", "Empty")
     return [
@@ -254,7 +269,7 @@ def refused() -> list[str]:
         error_of(lambda: LOGIC.process(model(), Outputs(), parameters={"tolerance": 7})),
         error_of(
             lambda: LOGIC.process(
-                model(), Outputs(plane=new("MarkupsPlane")), method="normals_only"
+                plate(), Outputs(plane=new("MarkupsPlane")), method="perpendicular"
             )
         ),
     ]
