@@ -293,7 +293,7 @@ def test_what_another_format_does_not_hold_is_reported(tmp_path):
     visual = trimesh.visual.TextureVisuals(uv=points[:, :2])
     trimesh.Trimesh(points, triangles, visual=visual, process=False).export(tmp_path / "sheet.glb")
     (tmp_path / "mirror.json").write_text(PLANE)
-    done = run_here("align sheet.glb --mirror mirror.json --output out", tmp_path)
+    done = run_here("align sheet.glb --mirror mirror.json --output out --format ply", tmp_path)
     assert done.returncode == 0 and "textures" in done.stderr and "GLB" in done.stderr
     assert (tmp_path / "out" / "sheet.ply").exists()
     np.savetxt(tmp_path / "plain.xyz", points)

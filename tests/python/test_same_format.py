@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+import itertools
 import struct
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+import trimesh
 from attributed_files import (
     csv_text,
     obj,
@@ -24,6 +26,8 @@ from command_line import run_here
 from symmetric_shapes import random_rotation
 
 import symsurf
+from symsurf.reading.gltf import Scene, tree_and_binary
+from symsurf.saving.glb_format import glb_bytes
 from symsurf.saving.same_format import REWRITERS, NewShape
 
 
@@ -188,6 +192,82 @@ def test_vertices_that_are_not_plain_are_named(box, tmp_path):
     made, said = done("align", tmp_path / "a.ply")
     assert "nothing of the file is kept but points and faces" in said
     assert len(symsurf.read(made).points) == len(points)
+
+
+def glb_parts(path):
+    """Positions, normals, tangents, offsets of the morph target, and the description."""
+    tree, binary = tree_and_binary(path.read_bytes())
+    scene, (primitive,) = Scene(tree, binary), tree["meshes"][0]["primitives"]
+    has = primitive["attributes"]
+    stored = [(has["POSITION"], "VEC3"), (has["NORMAL"], "VEC3"), (has["TANGENT"], "VEC4")]
+    stored.append((primitive["targets"][0]["POSITION"], "VEC3"))
+    return [scene.stored(*each)[:, :3].astype(float) for each in stored], tree
+
+
+@pytest.fixture
+def morphed(tmp_path):
+    """A GLB with a material, normals, tangents and a morph target, under a node that turns and shifts."""
+    ball = trimesh.creation.icosphere(3)
+    points = ball.vertices * (1, 1.3, 0.8)
+    points[:, 2] += 0.2 * points[:, 1] ** 2
+    normals = trimesh.Trimesh(points, ball.faces, process=False).vertex_normals
+    tangents = np.column_stack([np.roll(normals, 1, 1), np.ones(len(normals))])
+    buffers = [points, normals, tangents, 0.01 * normals]
+    views = [each.astype("<f4").tobytes() for each in buffers]
+    views.append(ball.faces.astype("<u4").tobytes())
+    ends = np.cumsum([0, *map(len, views)]).tolist()
+    accessors = [
+        {"bufferView": k, "componentType": 5126, "count": len(each), "type": f"VEC{each.shape[1]}"}
+        for k, each in enumerate(buffers)
+    ]
+    accessors.append(
+        {"bufferView": 4, "componentType": 5125, "count": ball.faces.size, "type": "SCALAR"}
+    )
+    primitive = {
+        "attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2},
+        "targets": [{"POSITION": 3}],
+        "indices": 4,
+        "material": 0,
+    }
+    tree = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "rotation": [0, 0, 0.6, 0.8], "translation": [3, -2, 5]}],
+        "meshes": [{"primitives": [primitive]}],
+        "materials": [{"name": "skin"}],
+        "accessors": accessors,
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": first, "byteLength": last - first}
+            for first, last in itertools.pairwise(ends)
+        ],
+        "buffers": [{"byteLength": ends[-1]}],
+    }
+    path = tmp_path / "morphed.glb"
+    path.write_bytes(glb_bytes(tree, b"".join(views)))
+    return path
+
+
+def test_glb_keeps_materials_tangents_and_morph_targets(morphed, tmp_path):
+    shape = symsurf.read(morphed)
+    found = symsurf.detect(shape)
+    aligned = symsurf.align(shape, found)
+    aligned.save(tmp_path / "aligned.glb")
+    (points, *given), _ = glb_parts(morphed)
+    (_, *made), tree = glb_parts(tmp_path / "aligned.glb")
+    c, s = 0.28, 0.96  # of twice the angle of the node
+    node = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    turn = node.T @ aligned.matrix[:3, :3] @ node  # in the coordinates of the node
+    for before, after in zip(given, made, strict=True):
+        np.testing.assert_allclose(after, before @ turn.T, atol=2e-7)
+    assert tree["materials"] == [{"name": "skin"}]
+    again = symsurf.read(tmp_path / "aligned.glb")
+    np.testing.assert_allclose(again.points, aligned.shape.points, atol=1e-6)
+    assert np.abs(symsurf.detect(again).mirror.normal).max() > 1 - 1e-6
+
+    symsurf.asymmetry(shape, found).save(tmp_path / "asymmetry.glb")
+    kept, tree = glb_parts(tmp_path / "asymmetry.glb")
+    assert (kept[0] == points).all() and tree["materials"] == [{"name": "skin"}]
+    assert "_DISTANCE" in tree["meshes"][0]["primitives"][0]["attributes"]
 
 
 @pytest.fixture

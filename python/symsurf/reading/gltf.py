@@ -24,7 +24,7 @@ from .parts import Part, joined, require_parts, strips
 # Extensions that change no point, and that of coordinates in small integers.
 _KNOWN = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_mesh_quantization")
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_COMPONENTS = {"SCALAR": 1, "VEC3": 3}
+_COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6  # the modes that make faces
 
 
@@ -33,18 +33,18 @@ def read(path: Path, reading: Reading) -> Shape:
 
     The axes are those of the file: y is up.
     """
-    tree, binary = _content(path)
+    tree, binary = tree_and_binary(content_of(path))
     version = str(tree["asset"]["version"])
     if not version.startswith("2."):
         raise InvalidInput(f"glTF's version is {version}; 2.0 can be read")
     for name in tree.get("extensionsRequired", []):
         if not name.startswith(_KNOWN):
             raise InvalidInput(f"it requires the extension {name}, which cannot be read")
-    return joined(_Scene(tree, path, reading, binary).parts(), path.stat().st_size)
+    return joined(Scene(tree, binary, path, reading).parts(), path.stat().st_size)
 
 
-def _content(path: Path) -> tuple[dict[str, Any], bytes | None]:
-    content = content_of(path)
+def tree_and_binary(content: bytes) -> tuple[dict[str, Any], bytes | None]:
+    """The description of a file, and the buffer that a GLB has behind it."""
     if not content.startswith(b"glTF"):
         return json.loads(content.decode("utf-8-sig")), None
     if len(content) < 20 or struct.unpack_from("<I", content, 4)[0] != 2:
@@ -61,16 +61,34 @@ def _content(path: Path) -> tuple[dict[str, Any], bytes | None]:
     return json.loads(chunks[b"JSON"]), chunks.get(b"BIN\0")
 
 
-class _Scene:
+Primitives = list[dict[str, Any]]
+
+
+class Scene:
+    """What a file describes; ``path`` and ``reading``: for buffers in files beside it."""
+
     def __init__(
-        self, tree: dict[str, Any], path: Path, reading: Reading, binary: bytes | None
+        self,
+        tree: dict[str, Any],
+        binary: bytes | bytearray | None,
+        path: Path | None = None,
+        reading: Reading | None = None,
     ) -> None:
         self._tree, self._path, self._reading, self._binary = tree, path, reading, binary
-        self._buffers: dict[int, bytes] = {}
+        self._buffers: dict[int, bytes | bytearray] = {}
         self._files: dict[Path, bytes] = {}
         self._primitives = 0
 
     def parts(self) -> Iterator[Part]:
+        """What ``groups`` gives, with points and faces."""
+        for place, primitives, matrix in self.groups():
+            count = len(self.stored(place, "VEC3"))
+            faces = sum(self._most_faces(primitive, count) for primitive in primitives)
+            yield Part(count, faces, partial(self._made, place, primitives), matrix)
+
+    def groups(self) -> Iterator[tuple[int, Primitives, NDArray[np.float64]]]:
+        """The accessor of points, the primitives that have them, and where the scene has these, in the
+        order of the points of the shape."""
         nodes = self._tree.get("nodes", [])
         scenes = self._tree.get("scenes", [])
         if not scenes:
@@ -92,8 +110,10 @@ class _Scene:
                 yield from self._mesh(self._tree["meshes"][node["mesh"]], matrix)
             left += [(child, matrix) for child in node.get("children", [])]
 
-    def _mesh(self, mesh: dict[str, Any], matrix: NDArray[np.float64]) -> Iterator[Part]:
-        shared: dict[int, list[dict[str, Any]]] = {}  # primitives by the accessor of their points
+    def _mesh(
+        self, mesh: dict[str, Any], matrix: NDArray[np.float64]
+    ) -> Iterator[tuple[int, Primitives, NDArray[np.float64]]]:
+        shared: dict[int, Primitives] = {}
         for primitive in mesh["primitives"]:
             place = primitive.get("attributes", {}).get("POSITION")
             if place is None:
@@ -102,13 +122,9 @@ class _Scene:
         self._primitives += len(mesh["primitives"])
         require_parts(self._primitives)
         for place, primitives in shared.items():
-            count = len(self._stored(place, "VEC3"))
-            faces = sum(self._most_faces(primitive, count) for primitive in primitives)
-            yield Part(count, faces, partial(self._made, place, primitives), matrix)
+            yield place, primitives, matrix
 
-    def _made(
-        self, place: int, primitives: list[dict[str, Any]]
-    ) -> tuple[NDArray[Any], NDArray[np.int64]]:
+    def _made(self, place: int, primitives: Primitives) -> tuple[NDArray[Any], NDArray[np.int64]]:
         points = self._accessor(place, "VEC3")
         return points, np.concatenate([self._faces(each, len(points)) for each in primitives])
 
@@ -117,7 +133,7 @@ class _Scene:
         if mode not in (_TRIANGLES, _STRIP, _FAN):  # points and lines
             return 0
         if "indices" in primitive:
-            count = len(self._stored(primitive["indices"], "SCALAR"))
+            count = len(self.stored(primitive["indices"], "SCALAR"))
         return count // 3 if mode == _TRIANGLES else max(count - 2, 0)
 
     def _faces(self, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
@@ -138,7 +154,7 @@ class _Scene:
             return np.column_stack([first, corners[1:-1], corners[2:]])
         return corners[: len(corners) // 3 * 3].reshape(-1, 3)
 
-    def _stored(self, number: int, kind: str) -> NDArray[Any]:
+    def stored(self, number: int, kind: str) -> NDArray[Any]:
         """The values (n, k) of an accessor as they lie in their buffer."""
         accessor = self._tree["accessors"][number]
         if accessor["type"] != kind:
@@ -151,7 +167,7 @@ class _Scene:
 
     def _accessor(self, number: int, kind: str) -> NDArray[Any]:
         accessor = self._tree["accessors"][number]
-        values = self._stored(number, kind)
+        values = self.stored(number, kind)
         type_ = values.dtype
         if (sparse := accessor.get("sparse")) is not None:
             values = np.array(values)
@@ -188,18 +204,20 @@ class _Scene:
             )
         return np.ndarray(shape, type_, content, offset, (stride, type_.itemsize))
 
-    def _buffer(self, number: int) -> bytes:
+    def _buffer(self, number: int) -> bytes | bytearray:
         if number not in self._buffers:
             buffer = self._tree["buffers"][number]
             uri = buffer.get("uri")
             if uri is None:
                 if self._binary is None:
                     raise InvalidInput(f"buffer {number} has no data")
-                content = self._binary
+                content: bytes | bytearray = self._binary
             elif uri.startswith("data:"):
                 content = base64.b64decode(uri.partition(",")[2])
             elif ":" in uri:
                 raise InvalidInput(f"buffer {number} is at {uri!r:.60}, which is no file beside it")
+            elif self._path is None or self._reading is None:
+                raise InvalidInput(f"buffer {number} is in another file")
             else:
                 content = self._file(referenced(unquote(uri), self._path, self._reading))
             if len(content) < buffer["byteLength"]:

@@ -25,8 +25,6 @@ def shape_glb_bytes(
     """The axes stay those of the shape. An array "distance" becomes the attribute "_DISTANCE", of
     vectors one per component; all are of single precision, the only one that glTF has, and points
     are written relative to the centre of their box, which is the position of the node."""
-    import json  # `import symsurf` does not wait for it
-
     finite = shape.points[np.isfinite(shape.points).all(axis=1)]
     box = np.array([finite.min(axis=0), finite.max(axis=0)]) if len(finite) else np.zeros((2, 3))
     centre = box.mean(axis=0)
@@ -64,9 +62,16 @@ def shape_glb_bytes(
         ],
         "buffers": [{"byteLength": ends[-1]}],
     }
+    return glb_bytes(tree, b"".join(values.tobytes() for values in buffers))
+
+
+def glb_bytes(tree: Mapping[str, Any], binary: bytes) -> bytes:
+    """A description and its only buffer as one file."""
+    import json  # `import symsurf` does not wait for it
+
     text = json.dumps(tree).encode()
-    binary = b"".join(values.tobytes() for values in buffers)
-    chunks = _chunk(b"JSON", text + b" " * (-len(text) % 4)) + _chunk(b"BIN\0", binary)
+    chunks = _chunk(b"JSON", text + b" " * (-len(text) % 4))
+    chunks += _chunk(b"BIN\0", binary + b"\0" * (-len(binary) % 4))
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 

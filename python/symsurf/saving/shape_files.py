@@ -276,6 +276,10 @@ def _kept(content: bytes, suffix: str, new: NewShape) -> Rewritten | None:
 
 def _anew(shape: Shape, suffix: str, new: NewShape) -> Rewritten:
     """A file of points and faces alone."""
+    if suffix == ".glb":
+        faces = new.faces if len(new.faces) else None
+        content = shape_glb_bytes(Shape(new.points, faces), new.arrays)
+        return Rewritten(content, ["nothing of the file is kept but points and faces"])
     if new.is_other:
         shape = Shape(new.points, new.faces if len(new.faces) else None, polygons=new.polygons)
         rows = np.arange(len(new.points))

@@ -13,6 +13,7 @@ from ...shapes import Shape
 from ...shapes.polygons import corners_of
 from ..ply_format import shape_ply_bytes
 from .columns import rewritten_columns
+from .glb import rewritten_glb
 from .new_shape import NewShape, Rewritten, lost_arrays
 from .obj import rewritten_obj
 from .obj_faces import other_obj
@@ -41,6 +42,7 @@ REWRITERS: dict[str, Callable[[bytes, NewShape], Rewritten]] = {
     ".txt": rewritten_columns,
     ".fcsv": rewritten_columns,
     ".splat": rewritten_splat,
+    ".glb": rewritten_glb,
 }
 
 
