@@ -22,7 +22,8 @@ struct DrawnMirror {
 };
 
 constexpr const char* drawn_mirror = "symsurf mirror";
-constexpr const char *const mirror_layer = "mirror_layer", *const other_layer = "other_layer";
+constexpr const char *const mirror_layer = "mirror_layer", *const other_layer = "other_layer",
+                            *const landmarks_layer = "landmarks_layer";
 
 // Light blue: MeshLab's grey is hardly seen before its dark background.
 const vcg::Color4b mirror_colour(170, 210, 255, 255);
@@ -147,6 +148,14 @@ void add_mirror_choice(RichParameterList& dialog, const MeshDocument& document, 
   dialog.addParam(RichMesh(mirror_layer, default_layer, &document, "Mirror layer", tooltip));
 }
 
+void add_landmarks_choice(RichParameterList& dialog, const MeshDocument& document) {
+  dialog.addParam(RichMesh(landmarks_layer, document.mm() ? document.mm()->id() : 0, &document,
+                           "Landmarks layer",
+                           "With homologous pairing: a layer of landmarks, of which each two "
+                           "vertices that follow each other mirror each other. The current layer "
+                           "itself is none."));
+}
+
 void add_other_choice(RichParameterList& dialog, const MeshDocument& document) {
   dialog.addParam(RichMesh(other_layer, document.mm() ? document.mm()->id() : 0, &document,
                            "Other layer",
@@ -168,6 +177,21 @@ MeshModel& chosen_layer(const RichParameterList& dialog, MeshDocument& document,
 
 MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& document) {
   return chosen_layer(dialog, document, mirror_layer, "the mirror");
+}
+
+Eigen::MatrixXd chosen_landmarks(const RichParameterList& dialog, MeshDocument& document,
+                                 const MeshModel& layer) {
+  const MeshModel& holder = chosen_layer(dialog, document, landmarks_layer, "the landmarks");
+  if (&holder == &layer) return {};
+  const Points own = read_cloud(holder, false, false).points;
+  if (own.rows() % 2 != 0)
+    throw InvalidInput("the layer of landmarks has " + std::to_string(own.rows()) +
+                       " vertices; allowed are two for each pair");
+  const Points points = moved(affine(layer.cm.Tr).inverse() * affine(holder.cm.Tr), own);
+  Eigen::MatrixXd pairs = Eigen::MatrixXd::Zero(points.rows() / 2, 7);
+  for (Index k = 0; k < pairs.rows(); ++k)
+    pairs.row(k).head(6) << points.row(2 * k), points.row(2 * k + 1);
+  return pairs;
 }
 
 MeshModel& chosen_other_layer(const RichParameterList& dialog, MeshDocument& document) {

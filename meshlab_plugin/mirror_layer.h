@@ -48,6 +48,14 @@ MeshModel& chosen_mirror_layer(const RichParameterList& dialog, MeshDocument& do
 /// Appends the choice of the layer of the second of two shapes.
 void add_other_choice(RichParameterList& dialog, const MeshDocument& document);
 
+/// Appends the choice of the layer of landmarks, and how well they are placed.
+void add_landmarks_choice(RichParameterList& dialog, const MeshDocument& document);
+
+/// Their vertices by twos, where MeshLab shows them beside a layer: OperationInput::landmark_pairs
+/// without deviations. None where the layer itself is chosen.
+Eigen::MatrixXd chosen_landmarks(const RichParameterList& dialog, MeshDocument& document,
+                                 const MeshModel& layer);
+
 /// Throws InvalidParameter where the document has no such layer.
 MeshModel& chosen_other_layer(const RichParameterList& dialog, MeshDocument& document);
 

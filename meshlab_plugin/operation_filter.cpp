@@ -78,6 +78,11 @@ int OperationFilter::changes() const {
   return changed;
 }
 
+bool OperationFilter::takes_landmarks() const {
+  return std::any_of(operation_.parameters.begin(), operation_.parameters.end(),
+                     [](const Parameter& each) { return each.name == "pairing"; });
+}
+
 // What a host of layers, selections and qualities asks beside the operation's own parameters.
 std::vector<Parameter> OperationFilter::own_parameters() const {
   std::vector<Parameter> described{Parameter::boolean(
@@ -90,6 +95,9 @@ std::vector<Parameter> OperationFilter::own_parameters() const {
         "weigh_by_quality", false,
         "Move each vertex by its quality, 0 to 1, as a share of the full displacement."));
   }
+  if (takes_landmarks())
+    described.push_back(Parameter::real("landmarks_deviation", 0, 0, 1, "diagonal",
+                                        "Standard deviation of placing the landmarks."));
   described.push_back(threads_parameter());
   return described;
 }
@@ -104,6 +112,7 @@ RichParameterList OperationFilter::parameters(const MeshDocument& document) cons
                     "A layer made by one of the mirror filters, or any layer whose vertices lie on "
                     "a plane or a sphere. The current layer itself: its mirror is found first.");
   if (operation_.takes_other) add_other_choice(dialog, document);
+  if (takes_landmarks()) add_landmarks_choice(dialog, document);
   add_parameters(dialog, operation_.parameters, diagonal);
   add_parameters(dialog, own_parameters(), diagonal);
   return dialog;
@@ -126,6 +135,12 @@ Outcome OperationFilter::apply(const RichParameterList& parameters, MeshDocument
   if (operation_.takes_mask)
     input.mask =
         read_mask(layer, cloud, own.boolean("only_selected"), own.boolean("weigh_by_quality"));
+
+  if (takes_landmarks()) {
+    input.landmark_pairs = chosen_landmarks(parameters, document, layer);
+    if (input.landmark_pairs.rows() > 0)
+      input.landmark_pairs.col(6).setConstant(own.real("landmarks_deviation") * diagonal);
+  }
 
   std::optional<LayerCloud> other;
   if (operation_.takes_other)

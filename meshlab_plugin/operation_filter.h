@@ -29,6 +29,7 @@ class OperationFilter final : public Filter {
     return operation_.moves_points || operation_.adds_points || operation_.carries_values;
   }
   std::vector<Parameter> own_parameters() const;
+  bool takes_landmarks() const;
 
   const Operation& operation_;
 };

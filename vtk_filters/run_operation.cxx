@@ -43,6 +43,22 @@ Eigen::VectorXd mask_of(vtkPolyData* input, const std::string& name) {
   return mask;
 }
 
+// Of landmarks that follow each other by twos.
+Eigen::MatrixXd landmark_pairs_of(vtkPolyData* data) {
+  const PointArray array = points_of(data);
+  const symsurf::PointsView points = array.view();
+  if (points.size() % 2 != 0)
+    throw symsurf::InvalidInput("the landmarks are " + std::to_string(points.size()) +
+                                " points; allowed are two for each pair");
+  Eigen::MatrixXd pairs = Eigen::MatrixXd::Zero(points.size() / 2, 7);
+  vtkDataArray* deviations = data ? data->GetPointData()->GetArray("Deviation") : nullptr;
+  for (Eigen::Index k = 0; k < pairs.rows(); ++k) {
+    pairs.row(k).head(6) << points[2 * k].transpose(), points[2 * k + 1].transpose();
+    if (deviations) pairs(k, 6) = deviations->GetComponent(2 * k, 0);
+  }
+  return pairs;
+}
+
 std::shared_ptr<symsurf::Mirror> found_first(vtkMirrorOperation* filter,
                                              const symsurf::OperationInput& input,
                                              const symsurf::Context& context) {
@@ -72,6 +88,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     symsurf::OperationInput input{points.view(), faces.view(), mask_of(shape, call.mask_array)};
     input.other = other.view();
     input.other_faces = other_faces.view();
+    input.landmark_pairs = landmark_pairs_of(vtkPolyData::GetData(inputs[3]));
     const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
     if (second && given)
       throw symsurf::InvalidInput(

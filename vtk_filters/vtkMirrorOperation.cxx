@@ -5,7 +5,7 @@
 #include "vtkInformation.h"
 
 vtkMirrorOperation::vtkMirrorOperation() : Method(symsurf::methods().front().name) {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
 }
 
 int vtkMirrorOperation::FillInputPortInformation(int port, vtkInformation* info) {

@@ -11,6 +11,10 @@
  * own: in place of a mirror, for the asymmetry, the correspondences and the completion of the
  * first, with which the reflection of the second is compared. Both are meshes, or both bare clouds.
  *
+ * Input 3, optional, with homologous pairing, has landmarks: points of which each two that follow
+ * each other are to mirror each other. Their point array "Deviation", or else 0, is the standard
+ * deviation of placing the two, input units.
+ *
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
  * those of the input, with the data of the points and cells that they are made from. Active
@@ -54,6 +58,14 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
    */
   void SetOtherConnection(vtkAlgorithmOutput* other) { this->SetInputConnection(2, other); }
   void RemoveOther() { this->SetInputConnection(2, nullptr); }
+
+  /**
+   * Connects the landmarks, input 3, or leaves it without a connection.
+   */
+  void SetLandmarksConnection(vtkAlgorithmOutput* landmarks) {
+    this->SetInputConnection(3, landmarks);
+  }
+  void RemoveLandmarks() { this->SetInputConnection(3, nullptr); }
 
   ///@{
   /**

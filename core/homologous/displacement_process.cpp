@@ -34,11 +34,7 @@ constexpr double no_weight = 1e3;
 constexpr double deviations_of_median = 1.4826;
 constexpr double least_cosine = 0.5;  // of a normal and the mean of it and its counterpart's
 
-struct Round {
-  Index samples;
-  bool is_last;  // the others look for the closest points
-};
-constexpr Round rounds[]{{800, false}, {800, false}, {3000, true}};
+constexpr Index samples_of_rounds[]{800, 800, 3000};  // the first look for the closest points
 
 constexpr Index nodes_of_deviations = 500;
 constexpr Index neighbours_of_nodes = 4;
@@ -58,7 +54,7 @@ Eigen::MatrixXd covariance(const Points& a, const Points& b) {
 // One component of the displacement at each of some places.
 struct Observations {
   Points places, directions;
-  Eigen::VectorXd values, deviations;
+  Eigen::VectorXd values, deviations, arcs;  // arcs: heights of the surface above its faces
 
   // All components at those landmarks that have an image.
   void add(const Landmarks& landmarks, double standard_deviation) {
@@ -82,7 +78,7 @@ class Posterior {
  public:
   Posterior() = default;
   explicit Posterior(Observations observed) : observed_(std::move(observed)) {
-    const auto& [places, directions, values, deviations] = observed_;
+    const auto& [places, directions, values, deviations, arcs] = observed_;
     Eigen::MatrixXd covariances =
         covariance(places, places).cwiseProduct(directions * directions.transpose());
     covariances.diagonal() += deviations.cwiseAbs2();
@@ -154,6 +150,13 @@ class Comparison {
     for (Index f = 0; f < faces.size(); ++f) {
       const Vector3 x = points[faces[f][0]];
       areas_.push_back((points[faces[f][1]] - x).cross(points[faces[f][2]] - x).norm());
+      // An arc's height above its chord is an eighth of this times the turn of the normal.
+      arcs_.push_back(0);
+      for (int c = 0; c < 3; ++c) {
+        const Index a = faces[f][c], b = faces[f][(c + 1) % 3];
+        arcs_[f] = std::max(arcs_[f], (points[a] - points[b]).norm() / 8 *
+                                          (normals_.row(a) - normals_.row(b)).norm());
+      }
     }
   }
 
@@ -166,7 +169,7 @@ class Comparison {
     const std::vector<FaceSample> samples = even_face_samples(areas_, about);
     const auto count = static_cast<Index>(samples.size());
     Observations all{Points(count, 3), Points(count, 3), Eigen::VectorXd(count),
-                     Eigen::VectorXd::Constant(count, infinity)};
+                     Eigen::VectorXd::Constant(count, infinity), Eigen::VectorXd(count)};
     for (Index s = 0; s < count; ++s) {
       const auto& [face, down, along] = samples[s];
       const Vector3 weights(1 - down, down * (1 - along), down * along);
@@ -189,6 +192,7 @@ class Comparison {
         const Vector3 direction = (normal + other).stableNormalized();
         all.directions.row(s) = direction.transpose();
         all.values[s] = direction.dot(closest.point - x);
+        all.arcs[s] = std::hypot(arcs_[samples[s].face], arcs_[closest.face]);
         if (!on_rim && direction.dot(normal) > least_cosine)
           all.deviations[s] = all.values[s] - direction.dot(move);
       }
@@ -197,7 +201,7 @@ class Comparison {
     for (Index s = 0; s < count; ++s)
       if (std::isfinite(all.deviations[s])) kept.push_back(s);
     return {all.places(kept, Eigen::indexing::all), all.directions(kept, Eigen::indexing::all),
-            all.values(kept), all.deviations(kept)};
+            all.values(kept), all.deviations(kept), all.arcs(kept)};
   }
 
   // The mean of the way there and the way back from there: one is the other's inverse.
@@ -219,7 +223,7 @@ class Comparison {
   Points points_, normals_, image_normals_;
   std::vector<bool> is_boundary_;
   ClosestPointOnMesh image_surface_;
-  std::vector<double> areas_;
+  std::vector<double> areas_, arcs_;
 };
 
 }  // namespace
@@ -231,19 +235,19 @@ Displacements displacement_process(PointsView points, PointsView images, Triangl
   const Context process = context.stage(0.1, 0.6);
   Posterior posterior;
   double scale = 0;  // root mean square of the first values
-  for (const auto& [about, is_last] : rounds) {
+  for (const Index about : samples_of_rounds) {
     Observations seen = comparison.observations(about, posterior, process);
     if (seen.values.size() == 0) break;
     if (scale == 0) scale = least_scale + std::sqrt(seen.values.cwiseAbs2().mean());
     const Eigen::ArrayXd errors = seen.deviations.array().abs() / (amplitude * scale);
-    const double usual =
-        is_last ? noise
-                : std::max(noise, deviations_of_median *
-                                      median(std::vector<double>(errors.begin(), errors.end())));
-    seen.deviations = usual * (1 + (errors / (large_error * usual)).square()).min(no_weight);
+    const double usual = std::max(
+        noise, deviations_of_median * median(std::vector<double>(errors.begin(), errors.end())));
+    const Eigen::ArrayXd noises =
+        (usual * usual + (seen.arcs.array() / (amplitude * scale)).square()).sqrt();
+    seen.deviations = noises * (1 + (errors / (large_error * noises)).square()).min(no_weight);
     seen.add(landmarks, amplitude * scale);
     posterior = Posterior(std::move(seen));
-    process.report(is_last ? 1 : 0.2);
+    process.report(static_cast<double>(about) / samples_of_rounds[2]);
   }
   Points moves = posterior.mean(points.matrix(), context.stage(0.6, 0.8));
   comparison.average_ways(moves, image_of, context.stage(0.8, 0.9));

@@ -149,7 +149,14 @@ _SHARED = {
         "[as in every filter](/meshlab.md#the-filters)",
     ),
     **dict.fromkeys(
-        ("mirror_layer", "other_layer", "find_mirror", "weigh_by_quality"),
+        (
+            "mirror_layer",
+            "other_layer",
+            "landmarks_layer",
+            "landmarks_deviation",
+            "find_mirror",
+            "weigh_by_quality",
+        ),
         "[as in every operation](/meshlab.md#operations)",
     ),
 }

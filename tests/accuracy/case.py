@@ -18,16 +18,18 @@ Figures = Mapping[str, float]
 
 @dataclass(frozen=True)
 class Bar:
-    """What a figure must reach in the median: at most, or at least, a limit."""
+    """What a figure must reach in the median: limits, both of them allowed."""
 
-    limit: float
-    at_most: bool = True
+    low: float = -np.inf
+    high: float = np.inf
 
     def met(self, value: float) -> bool:
-        return value <= self.limit if self.at_most else value >= self.limit
+        return self.low <= value <= self.high
 
     def __str__(self) -> str:
-        return f"{'<=' if self.at_most else '>='} {self.limit:.4g}"
+        if np.isfinite(self.low) and np.isfinite(self.high):
+            return f"{self.low:.4g} to {self.high:.4g}"
+        return f"<= {self.high:.4g}" if np.isfinite(self.high) else f">= {self.low:.4g}"
 
 
 @dataclass(frozen=True)
@@ -48,11 +50,15 @@ class Case:
 
 
 def at_most(limit: float) -> Bar:
-    return Bar(limit)
+    return Bar(high=limit)
 
 
 def at_least(limit: float) -> Bar:
-    return Bar(limit, at_most=False)
+    return Bar(low=limit)
+
+
+def within(low: float, high: float) -> Bar:
+    return Bar(low, high)
 
 
 def timed_detect(points: NDArray[np.float64], method: str) -> tuple[symsurf.Result, float]:

@@ -51,6 +51,34 @@ def bumped(height: float) -> tuple[Shape, np.ndarray]:
     return shape, rise
 
 
+def test_landmarks_count_as_pairs_do():
+    balls = pymeshlab.MeshSet()
+    balls.create_sphere(subdiv=3)
+    ball = balls.current_mesh()
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]  # no vertex has a twin
+    points = ball.vertex_matrix() @ turn * (1, 0.8, 1.2)
+    points += 0.05 * np.clip(points[:, :1], 0, None) * np.cross(points, (1, 0, 0))
+    pairs = np.array([[3, 50], [120, 7]])
+    mesh_set = pymeshlab.MeshSet()
+    mesh_set.add_mesh(pymeshlab.Mesh(points, ball.face_matrix()))
+    square = np.array([(0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)], dtype=float)
+    mesh_set.add_mesh(pymeshlab.Mesh(square, np.array([(0, 1, 2), (0, 2, 3)])))
+    mesh_set.add_mesh(pymeshlab.Mesh(points[pairs.ravel()]))
+    mesh_set.set_current_mesh(0)
+    options = {"mirror_layer": 1, "pairing": "homologous"}
+    deviation = pymeshlab.PureValue(0.01)
+    apply(mesh_set, "asymmetry", **options, landmarks_layer=2, landmarks_deviation=deviation)
+    found = mesh_set.current_mesh().vertex_custom_point_attribute_matrix("vector")
+    expected, without = (
+        symsurf.asymmetry(
+            symsurf.Shape(points, ball.face_matrix()), "x=0", pairing="homologous", **given
+        ).vector
+        for given in ({"pairs": pairs, "pairs_sd": 0.01}, {})
+    )
+    assert abs(expected - without).max() > 1e-2
+    np.testing.assert_allclose(found, expected, atol=1e-4)
+
+
 def images(points: np.ndarray, normal: np.ndarray, offset: float) -> np.ndarray:
     return points - 2 * (points @ normal + offset)[:, None] * normal
 

@@ -84,6 +84,7 @@ def test_parameters_of_operations_are_those_described(operation):
         of_the_host |= {"only_selected", "weigh_by_quality"}
     of_the_host |= {"other_layer"} if described.takes_other else set()
     names = [p.name for p in described.parameters]
+    of_the_host |= {"landmarks_layer", "landmarks_deviation"} if "pairing" in names else set()
     assert set(shown) == set(names) | of_the_host and len(shown) == len(names) + len(of_the_host)
     assert_defaults(shown, described.parameters)
 

@@ -13,13 +13,13 @@ from conftest import ROOT
 
 FIGURES = ("files", "tokens", "literals", "solves", "casts")
 BUDGETS = {
-    "heart": (133, 190827, 1238, 2, 3),
+    "heart": (133, 190898, 1241, 2, 3),
     "symmetries": (41, 100338, 727, 3, 0),
     "synthetic": (8, 17857, 287, 0, 1),
     "io": (7, 12886, 40, 0, 0),
     "published": (5, 11893, 131, 0, 0),
     "light": (4, 8707, 44, 0, 4),
-    "homologous": (6, 12937, 64, 1, 0),
+    "homologous": (6, 13106, 64, 1, 0),
     "remeshing": (7, 8921, 47, 0, 0),
     "processes": (5, 11326, 28, 0, 0),
 }

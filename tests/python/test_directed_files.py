@@ -136,6 +136,25 @@ def test_the_command_line_turns_vectors_and_names_what_it_does_not(suffix, tmp_p
     np.testing.assert_array_equal(curl, rows[:, 6:])
 
 
+def test_active_normals_go_along_but_where_points_move_each_by_itself():
+    pyvista = pytest.importorskip("pyvista")
+    given = pyvista.Sphere().compute_normals(split_vertices=False)
+    given.points[:, 0] += 0.2
+    assert given.point_data.active_normals_name == "Normals"
+    for operation in (symsurf.align, symsurf.complete, symsurf.cut, symsurf.asymmetry):
+        made = operation(given, "z=0.1").like(given)
+        name = made.point_data.active_normals_name
+        assert name == "Normals", operation
+        normals = made.point_data[name]
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-3)
+        # Of a sphere, or of it and its image, they lead away from a middle.
+        if operation is symsurf.align:
+            away = made.points - made.points.mean(axis=0)
+            assert (np.sum(away * normals, axis=1) > 0.49).all()
+    made = symsurf.symmetrize(given, "z=0.1").like(given)
+    assert made.point_data.active_normals_name is None and "Normals" not in made.point_data
+
+
 def test_tables_turn_the_columns_of_vectors_and_keep_their_types():
     pandas = pytest.importorskip("pandas")
     rows = splats(200)[:, :9].astype(float)

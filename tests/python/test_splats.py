@@ -115,7 +115,7 @@ def test_splats_reflected_twice_are_themselves_to_their_quantum(half, tmp_path):
     assert np.minimum(off, 256 - off).max() <= 2
 
 
-@pytest.mark.parametrize("operation", ["align", "symmetrize", "complete"])
+@pytest.mark.parametrize("operation", ["align", "symmetrize", "complete", "cut"])
 def test_splats_keep_their_format(operation, tmp_path):
     table = splat_table()
     (tmp_path / "scene.splat").write_bytes(table.tobytes())

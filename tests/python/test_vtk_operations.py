@@ -7,7 +7,7 @@ import pytest
 
 import symsurf
 
-pytest.importorskip("vtkmodules", reason="needs the vtk package")
+pyvista = pytest.importorskip("pyvista", reason="needs the vtk package")
 
 from bad_input import tables
 from symmetric_shapes import lopsided_blob, mirrored_surface
@@ -20,7 +20,7 @@ from vtk_data import (
     mirror_data,
     polydata,
 )
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 import symsurf.vtk
@@ -233,6 +233,34 @@ def test_faces_of_correspondences_are_cells_of_the_input() -> None:
         ids = ball.GetCell(face).GetPointIds()
         assert partner in {ids.GetId(k) for k in range(ids.GetNumberOfIds())}
     assert np.array_equal(faces < 0, partners < 0)
+
+
+@pytest.mark.parametrize("deviation", [None, 0.01])
+def test_landmarks_count_as_pairs_do(deviation: float | None) -> None:
+    body = pyvista.Icosphere(nsub=3).rotate_vector((1, 2, 3), 40)  # no vertex has a twin
+    body.points = np.asarray(body.points, dtype=float) * (1, 0.8, 1.2)
+    pairs = np.array([(3, 50), (120, 7)])
+    landmarks = polydata(body.points[pairs.ravel()])
+    if deviation is not None:
+        values = numpy_to_vtk(np.full(4, deviation), deep=True)
+        values.SetName("Deviation")
+        landmarks.GetPointData().AddArray(values)
+    filter_ = symsurf.vtk.MirrorAsymmetry(
+        input_data=body,
+        mirror_data=mirror_data(symsurf.Plane((1, 0, 0), 0)),
+        landmarks_data=landmarks,
+        pairing="homologous",
+    )
+    filter_.Update()
+    found = array(filter_.output, "MirrorAsymmetryVector")
+    expected, without = (
+        symsurf.asymmetry(body, "x=0", pairing="homologous", **given).vector
+        for given in ({"pairs": pairs, "pairs_sd": deviation or 0}, {})
+    )
+    assert np.nanmax(abs(expected - without)) > 1e-2
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+    filter_.landmarks_data = polydata(body.points[:3])
+    assert "3 points; allowed are two for each pair" in error_of(filter_)
 
 
 def test_properties_are_the_descriptions(operation: symsurf.Operation) -> None:

@@ -16,6 +16,7 @@
 #include "vtkMirrorAsymmetry.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkStringArray.h"
 #include "vtkSymmetryAnalysis.h"
 
@@ -115,11 +116,25 @@ TEST(SymmetryAnalysis, LaysAShapeOnASecondOne) {
   filter->RemoveOther();
   vtkNew<vtkMirrorAsymmetry> asymmetry;
   asymmetry->SetInputData(box());
+  const ErrorListener refused(asymmetry);
   asymmetry->SetOtherConnection(second->GetOutputPort());
   asymmetry->Update();
   EXPECT_LT(
       asymmetry->GetOutput()->GetPointData()->GetArray("MirrorAsymmetryDistance")->GetRange()[1],
       1e-6);
+  asymmetry->RemoveOther();
+  asymmetry->SetMethod("plane");
+  asymmetry->SetPairing("homologous");
+  vtkNew<vtkPolyData> landmarks;
+  landmarks->SetPoints(second->GetOutput()->GetPoints());
+  asymmetry->SetInputDataObject(3, landmarks);
+  asymmetry->Update();
+  EXPECT_EQ(refused.message(), "");
+  vtkNew<vtkPoints> three;
+  for (int i = 0; i < 3; ++i) three->InsertNextPoint(0, 0, i);
+  landmarks->SetPoints(three);
+  asymmetry->Update();
+  EXPECT_NE(refused.message().find("3 points; allowed are two"), std::string::npos);
 }
 
 // Every analysis runs, and gives each point what it describes.

@@ -191,9 +191,11 @@ std::string found_mirror_properties() {
          property("RequireFound", kind_of(require_found), documentation(require_found), "", true);
 }
 
-// The second of two shapes. `hint`: what else is said of when it is shown.
-std::string other_input(int port, const std::string& hint) {
-  return R"(      <InputProperty name="Other" command="SetInputConnection" clean_command="RemoveOther"
+// Points or a mesh beside the shape. `hint`: what else is said of when it is shown.
+std::string further_input(const std::string& name, int port, const std::string& text,
+                          const std::string& hint) {
+  return R"(      <InputProperty name=")" + name +
+         R"(" command="SetInputConnection" clean_command="Remove)" + name + R"("
                      port_index=")" +
          std::to_string(port) + R"(" panel_widget="input_selector">
         <ProxyGroupDomain name="groups">
@@ -203,15 +205,31 @@ std::string other_input(int port, const std::string& hint) {
         <DataTypeDomain name="input_type">
           <DataType value="vtkPolyData"/>
         </DataTypeDomain>
-        <Documentation>
-          The second of two shapes of a pair, such as a right bone, in a pose of its own.
-        </Documentation>
+        <Documentation>)" +
+         text + R"(</Documentation>
         <Hints>
           <Optional/>
 )" + hint +
          R"(        </Hints>
       </InputProperty>
 )";
+}
+
+std::string other_input(int port, const std::string& hint) {
+  return further_input(
+      "Other", port,
+      "The second of two shapes of a pair, such as a right bone, in a pose of its own.", hint);
+}
+
+std::string landmarks_input(const Operation& operation) {
+  for (const Parameter& parameter : operation.parameters)
+    if (parameter.name == "pairing")
+      return further_input("Landmarks", 3,
+                           "With homologous pairing: points of which each two that follow each "
+                           "other mirror each other. Their array Deviation, or else 0, is the "
+                           "standard deviation of placing the two.",
+                           "");
+  return "";
 }
 
 // What vtkShapeAlgorithm takes, and how it takes an image.
@@ -332,6 +350,7 @@ std::string server_manager_xml(const Described& d, std::string text) {
       : d.operation->takes_other ? other_input(2, "")
                                  : "");
   if (!d.operation) return text;
+  fill_line(text, "@LANDMARKS@", landmarks_input(*d.operation));
   fill_line(text, "@OUTPUTS@", output_ports(*d.operation));
   fill_line(text, "@COLOURS@", colour_ranges(*d.operation));
   fill(text, "@NAME@", filter_name(*d.operation));

@@ -72,7 +72,8 @@ class BaseResult(Summarised):
         Returns:
             A new one with the points and faces of ``shape``, the attributes of the points and faces
             that they come from, and, if the type has room, ``arrays``; Open3D's older classes and
-            ITK's have none. Without normals if points are moved or added.
+            ITK's have none. Normals of points that are moved or added
+            go along in PyVista, unless each point moves by itself (``symmetrize``); other types lose them.
 
         Raises InvalidInput for another type, or another number of points.
         """

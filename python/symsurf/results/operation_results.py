@@ -199,6 +199,9 @@ class OperationResult(BaseResult):
             carried=self.carried,
             keeps=not (is_other or described.carries_values),
             turns=self.turns,
+            # Else points are moved each by itself: their normals are not known.
+            carries_normals=not described.carries_values
+            and (self.turns or not described.takes_mask),
             kinds=self.kinds,
             keeps_texture=described.carries_values,
             arrays=self.arrays,

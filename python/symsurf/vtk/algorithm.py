@@ -24,7 +24,7 @@ class Property(NamedTuple):
     doc: str
 
 
-_INPUT_TYPES = ("vtkDataObject", "vtkPolyData", "vtkPolyData")  # shape, its mirror, the other
+_INPUT_TYPES = ("vtkDataObject", *3 * ["vtkPolyData"])  # shape, its mirror, the other, landmarks
 THREADS = Property(0, "0 means as many as the machine has.")
 IMAGE_THRESHOLD = Property(
     0.5,

@@ -15,6 +15,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithmOutput
 
 from .. import _core
 from .._core import (
+    InvalidInput,
     InvalidParameter,
     Mirror,
     Operation,
@@ -53,6 +54,10 @@ class MirrorOperation(Algorithm):
     Input 2, optional, is the second of two shapes of a pair, in a pose of its own, in place of a mirror:
     for the operations that take one, see ``operations()``.
 
+    Input 3, optional, with homologous pairing, has landmarks: points of which each two that follow each
+    other mirror each other. Their point array "Deviation", or else 0, is the standard deviation of placing
+    the two, input units.
+
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
     from. Active vectors, normals and tensors of points go along with them; normals of points that
@@ -62,11 +67,12 @@ class MirrorOperation(Algorithm):
 
     operation: ClassVar[Operation]
 
-    _optional_inputs = (1, 2)
+    _optional_inputs = (1, 2, 3)
     _inputs: ClassVar = {
         "input_data": "The shape, where no filter makes it.",
         "mirror_data": 'The output "Mirror" of a detection, where no filter makes it.',
         "other_data": "The second of two shapes, where no filter makes it.",
+        "landmarks_data": "The landmarks, where no filter makes them.",
     }
 
     def SetMirrorConnection(self, mirror: vtkAlgorithmOutput | None) -> None:
@@ -74,7 +80,7 @@ class MirrorOperation(Algorithm):
         self.SetInputConnection(1, mirror)
 
     def _run(self, inputs: list[Any], outputs: list[vtkPolyData]) -> None:
-        shape, given, other = inputs
+        shape, given, other, landmarks = inputs
         if given is not None and other is not None:
             raise InvalidParameter("a mirror and a second shape are given; allowed is one of them")
         options, operation = self._options, self.operation
@@ -97,6 +103,7 @@ class MirrorOperation(Algorithm):
             options["number_of_threads"],
             lambda fraction: self._progress(before + (1 - before) * fraction),
             parameters,
+            None if landmarks is None else _landmark_pairs(landmarks),
             other=None if other is None else points_of(other),
             other_faces=None if other is None else faces_of(other).corners,
         )
@@ -141,6 +148,15 @@ def _mask_of(shape: vtkPolyData, name: str) -> NDArray[np.float64] | None:
             "is one"
         )
     return vtk_to_numpy(array).astype(np.float64)
+
+
+def _landmark_pairs(landmarks: vtkPolyData) -> NDArray[np.float64]:
+    points = points_of(landmarks)
+    if len(points) % 2:
+        raise InvalidInput(f"the landmarks are {len(points)} points; allowed are two for each pair")
+    array = landmarks.GetPointData().GetArray("Deviation")
+    deviations = np.zeros(len(points)) if array is None else vtk_to_numpy(array)
+    return np.column_stack([np.reshape(points, (-1, 6)), deviations[::2]])
 
 
 def filter_name(operation: Operation) -> str:

@@ -47,6 +47,8 @@ class Remade:
     """Whether attributes without directions stay as they are."""
     turns: bool = False
     """Whether directions change."""
+    carries_normals: bool = False
+    """Whether normals at points that are moved or added are those of their sources, carried."""
     kinds: Mapping[str, str] = field(default_factory=dict)
     """Those of attributes of the points, by name, that are given."""
     keeps_texture: bool = False

@@ -75,10 +75,11 @@ def _carry_points(
     made: Remade,
     kept: str | None = None,
 ) -> None:
-    """Carries the attributes along, but for one; active normals, which would be wrong, not."""
+    """Carries the attributes along, but for one; active normals not where they would be wrong."""
     known = kinds_of(before.VTKObject)
     for name, values in before.items():
-        if name in (before.active_normals_name, kept):
+        is_normal = known.get(name) == "normal"
+        if name == kept or (is_normal and not made.carries_normals):
             continue
         after[name] = made.of_points(values, name, known.get(name))
         if name == before.active_texture_coordinates_name:
@@ -86,6 +87,8 @@ def _carry_points(
         if known.get(name) in ("vector", "tensor"):
             activate = after.SetActiveVectors if known[name] == "vector" else after.SetActiveTensors
             activate(name)
+        if is_normal:
+            after.SetActiveNormals(name)
 
 
 def _text(name: str, value: str) -> vtkStringArray:
