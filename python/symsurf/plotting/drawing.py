@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import pyvista
 
 SIZE = (1200, 900)
+_BAR = np.array([480, 54])  # pixels, as the sizes of its letters are
 UNPAIRED = "#9aa3ad"
 MIRROR = "#2f7fd0"
 AXIS = "#a83244"
@@ -129,6 +130,7 @@ def draw_scalars(
     """Adds a mesh or a cloud coloured by values of its points, grey where they are NaN, and the bar
     of colours with its title."""
     object_[title] = values
+    width, height = np.minimum(_BAR / _pixels(plotter), 0.9)
     plotter.add_mesh(
         object_,
         scalars=title,
@@ -140,9 +142,9 @@ def draw_scalars(
             "color": INK,
             "fmt": "%.2g" if clim[1] < 99.5 else "%.0f",  # 100, not 1e+02
             "n_labels": 2,
-            "width": 0.4,
-            "height": 0.06,
-            "position_x": 0.3,
+            "width": width,
+            "height": height,
+            "position_x": (1 - width) / 2,
             "position_y": 0.02,
             "title_font_size": 20,
             "label_font_size": 18,
@@ -225,6 +227,12 @@ def place_camera(
         ) from error
 
 
+def _pixels(plotter: pyvista.Plotter) -> NDArray[np.float64]:
+    """Width and height of the picture, or of its active part."""
+    corners = np.reshape(plotter.renderer.viewport, (2, 2))
+    return np.multiply(plotter.window_size, corners[1] - corners[0])
+
+
 def look(
     plotter: pyvista.Plotter,
     direction: NDArray[np.float64],
@@ -236,9 +244,7 @@ def look(
     """From that direction, so close that the points fill the picture between bar and title."""
     # Of the way to the picture's edges.
     sides, bottom, top = 0.94, 0.7 if has_bar else 0.94, 0.86 if title else 0.94
-    x0, y0, x1, y1 = plotter.renderer.viewport
-    width, height = plotter.window_size
-    aspect = width * (x1 - x0) / (height * (y1 - y0))
+    aspect = np.divide(*_pixels(plotter))
     across = np.cross(up, direction)
     across /= np.linalg.norm(across)
     axes = np.array([across, np.cross(direction, across), direction])
