@@ -18,9 +18,9 @@ struct Component {
   Vector3 extents = Vector3::Zero();  // standard deviations along its axes, diagonals
 };
 
-// The largest first. Neighbours that lie farther apart are not connected.
+// The largest first.
 std::vector<std::vector<Index>> connected_components(const ThinnedSurface& surface) {
-  constexpr double farthest = 3;  // spacings
+  constexpr double farthest = 3;  // spacings between connected points
   const SurfacePoints& all = surface.points();
   std::vector<char> seen(all.size(), 0);
   std::vector<std::vector<Index>> components;
@@ -41,11 +41,11 @@ std::vector<std::vector<Index>> connected_components(const ThinnedSurface& surfa
 
 Vector3 extents_of(const Points& points) {
   const Points centred = points.rowwise() - points.colwise().mean();
-  const Matrix3 covariance = centred.transpose() * centred / static_cast<double>(points.rows());
-  return eigen_of(covariance).values.cwiseMax(0).cwiseSqrt();
+  const double count = static_cast<double>(points.rows());
+  return (eigen_of_scatter(centred).values / count).cwiseMax(0).cwiseSqrt();
 }
 
-// Of those that are not lines.
+// Those that are no lines, which no placement is found for.
 std::vector<Component> components_of(const ThinnedSurface& surface, Index least,
                                      const Context& context) {
   constexpr Index fewest = 20;

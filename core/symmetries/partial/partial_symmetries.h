@@ -61,7 +61,7 @@ struct PatchPair {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
   std::vector<Index> from, onto;  ///< points of the patch, ascending; the nearest to their images
   double score = 0;  ///< 0..1: how close images come to the surface, of how close its points do
-  double hold = 0;   ///< as SurfaceFit::hold
+  double hold = 0;   ///< as SurfaceFit::hold, or the evidence of a pair of components
 };
 
 /// Grows the patch on which a map holds (Mitra et al. 2006), and fits the map to it.
