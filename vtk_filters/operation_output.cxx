@@ -4,7 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "carried_arrays.h"
 #include "described_arrays.h"
 #include "field_values.h"
 #include "operation_names.h"
@@ -126,7 +125,7 @@ void set_others(vtkPolyData* output, vtkPolyData* input, const AddedCells& made,
 
 vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
                                  const TriangleArray& faces, const symsurf::OperationResult& result,
-                                 const symsurf::AttributeTransform& by) {
+                                 const symsurf::AttributeTransform& by, const KindsByName& kinds) {
   const symsurf::Operation& operation = symsurf::operation(result.operation);
   const AddedCells cells = added_cells(input, faces, result);
   vtkPointData *data = output->GetPointData(), *given = input->GetPointData();
@@ -137,7 +136,7 @@ vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
     set_others(output, input, cells, result.point_sources);
   else if (!result.point_sources.empty())
     add_parts(output, input, cells, result.point_sources);
-  carry_values(data, given, by, result.point_parents.rows() > 0);
+  carry_values(data, given, by, result.point_parents.rows() > 0, kinds);
   if (operation.carries_values) {
     data->SetNormals(given->GetNormals());
     data->SetTCoords(given->GetTCoords());

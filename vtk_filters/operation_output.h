@@ -3,17 +3,18 @@
 
 #include <symsurf/attributes.h>
 
+#include "carried_arrays.h"
 #include "vtkNew.h"
 
 class TriangleArray;
 class vtkPolyData;
 
 /// Makes the output the input with what an operation on its points and its triangles gave, and what
-/// the transform makes of its arrays. Gives what was added: the output's points with the added
-/// cells alone, and their data.
+/// the transform makes of its arrays, some of which are of other kinds than the active ones. Gives
+/// what was added: the output's points with the added cells alone, and their data.
 vtkNew<vtkPolyData> set_operated(vtkPolyData* output, vtkPolyData* input,
                                  const TriangleArray& faces, const symsurf::OperationResult& result,
-                                 const symsurf::AttributeTransform& by);
+                                 const symsurf::AttributeTransform& by, const KindsByName& kinds);
 
 /// Makes the patch what was added, with the points from `first_added` on and those that added cells
 /// share with the input, and no others.

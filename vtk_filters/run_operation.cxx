@@ -89,6 +89,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     input.other = other.view();
     input.other_faces = other_faces.view();
     input.landmark_pairs = landmark_pairs_of(vtkPolyData::GetData(inputs[3]));
+    const KindsByName kinds = kinds_of(filter->GetKinds(), shape->GetPointData());
     const symsurf::Context context = context_of(filter, filter->GetNumberOfThreads());
     if (second && given)
       throw symsurf::InvalidInput(
@@ -103,7 +104,7 @@ int run_operation(vtkMirrorOperation* filter, vtkInformationVector** inputs,
     warn_of(filter, result.statistics);
     vtkPolyData* whole = vtkPolyData::GetData(outputs, 0);
     const symsurf::AttributeTransform by(result, points.view(), mirror.get(), context.stage(1, 1));
-    const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result, by);
+    const vtkNew<vtkPolyData> added = set_operated(whole, shape, faces, result, by, kinds);
     if (filter->GetNumberOfOutputPorts() > 1)
       set_patch(vtkPolyData::GetData(outputs, 1), added, points.view().size());
   });

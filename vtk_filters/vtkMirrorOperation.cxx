@@ -17,4 +17,5 @@ void vtkMirrorOperation::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "RequireFound: " << (this->RequireFound ? "On" : "Off") << "\n";
+  os << indent << "Kinds: " << this->Kinds << "\n";
 }

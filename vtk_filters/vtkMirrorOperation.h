@@ -18,12 +18,13 @@
  * Output 0 has the points and cells of the input in their order, the points moved where the
  * operation moves them, with their data. Points and polygons that an operation adds come behind
  * those of the input, with the data of the points and cells that they are made from. Active
- * vectors, normals and tensors of points go along by the local Jacobian J of what moves the points
- * or makes images of them: vectors J v, normals J^-T n at their length, tensors J T J'. Normals of
- * points that are moved each by itself (symmetrization) and of cells are not passed on. What the
- * operation gives each point are point arrays that begin with the filter's name without "vtk", one
- * of them the active scalars. Figures about the whole are field data. Polygons of more than three
- * corners, and strips, are divided into triangles for the operation alone.
+ * vectors, normals and tensors of points, and those named by Kinds, go along by the local Jacobian
+ * J of what moves the points or makes images of them: vectors J v, normals J^-T n at their length,
+ * tensors J T J'. Normals of points that are moved each by itself (symmetrization) and of cells are
+ * not passed on. What the operation gives each point are point arrays that begin with the filter's
+ * name without "vtk", one of them the active scalars. Figures about the whole are field data.
+ * Polygons of more than three corners, and strips, are divided into triangles for the operation
+ * alone.
  *
  * Points that are not finite, less than half of the points with an image over the mirror, an
  * unknown method or a value out of range are errors and leave the outputs empty. Where several
@@ -85,6 +86,15 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
   vtkBooleanMacro(RequireFound, bool);
   ///@}
 
+  ///@{
+  /**
+   * What further point arrays are, as "wind=vector,stress=tensor": vector, normal, tensor, or
+   * scalar for one that stays as it is. Empty initially: the active ones alone have directions.
+   */
+  vtkSetStdStringFromCharMacro(Kinds);
+  vtkGetCharFromStdStringMacro(Kinds);
+  ///@}
+
  protected:
   vtkMirrorOperation();
   ~vtkMirrorOperation() override = default;
@@ -92,7 +102,7 @@ class VTKSYMSURFFILTERS_EXPORT vtkMirrorOperation : public vtkSharedShapeAlgorit
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override = 0;
 
-  std::string Method;
+  std::string Method, Kinds;
   bool RequireFound = false;
 
  private:

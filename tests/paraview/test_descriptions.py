@@ -161,7 +161,7 @@ def test_xml_is_the_description_of_the_operation(
         name = camel_case(parameter.name)
         check(proxy[name], name, parameter)
     check(proxy["RequireFound"], "RequireFound", symsurf._core.require_found_parameter())
-    own = INPUT | {"Mirror", "Method", "RequireFound", "NumberOfThreads"}
+    own = INPUT | {"Mirror", "Method", "RequireFound", "Kinds", "NumberOfThreads"}
     own |= {"MaskArray"} if operation.takes_mask else set()
     own |= {"Other"} if operation.takes_other else set()
     own |= {"Landmarks"} if "pairing" in {each.name for each in operation.parameters} else set()
@@ -219,6 +219,8 @@ def another_in_xml(element: ElementTree.Element) -> Any:
     if element.find("ArrayListDomain") is not None:
         return "Normals"
     default = default_in_xml(element)
+    if isinstance(default, str):
+        return "wind=vector"
     if element.find("BooleanDomain") is not None:
         return 1 - default
     return [1.0, 2.0, 3.0] if isinstance(default, list) else default + 1

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 # Without a heading, on purpose: what stands above the panel's properties, or alone in its filter.
-ALONE = {"Input", "MirrorReflection Mirror", "Other", "PointDamage Seed"}
+ALONE = {"Input", "Landmarks", "MirrorReflection Mirror", "Other", "PointDamage Seed"}
 
 
 @pytest.fixture

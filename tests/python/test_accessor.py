@@ -69,14 +69,15 @@ def test_operations_give_meshes_with_arrays(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(set(symsurf.operations()) - {"complete"}))
-def test_normals_stay_only_where_points_do(name: str) -> None:
+def test_normals_stay_where_they_are_known(name: str) -> None:
     mesh = pyvista.Sphere().scale((3, 2, 1), inplace=False)
     mesh = mesh.compute_normals(cell_normals=True, point_normals=True)
     mesh.point_data["other"] = mesh.points[:, 0]
     mesh.symmetry.detect("plane")
     made = getattr(mesh.symmetry, name)()
-    stay = not symsurf.operations()[name].moves_points
-    for data in (made.point_data, made.cell_data):
+    cells = not symsurf.operations()[name].moves_points
+    points = cells or name in ("align", "cut", "remesh")  # go along with the points
+    for data, stay in ((made.point_data, points), (made.cell_data, cells)):
         assert ("Normals" in data) == stay
         assert (data.active_normals is not None) == stay
     assert "other" in made.point_data and mesh.point_data.active_normals is not None

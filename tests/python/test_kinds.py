@@ -7,6 +7,7 @@ import pytest
 import pyvista
 from symmetric_shapes import random_rotation
 from symsurf._core import AttributeTransform
+from vtk_data import error_of
 
 import symsurf
 from symsurf.reflection import carry_over
@@ -180,6 +181,25 @@ def test_arrays_of_unknown_kind_are_named(mesh):
         symsurf.align(mesh, PLANE, kinds={"wind": "breeze"})
     with pytest.raises(symsurf.InvalidInput, match="heat of the kind vector have 1 components"):
         mesh.symmetry.align(mirror=PLANE, kinds={"heat": "vector", "wind": "scalar"})
+
+
+def test_filters_turn_arrays_whose_kind_is_given(mesh):
+    moving = filters.MirrorAlignment(
+        input_data=mesh, method="plane", kinds="wind=vector,stress=tensor"
+    )
+    moving.Update()
+    made, expected = (
+        pyvista.wrap(moving.GetOutput()),
+        mesh.symmetry.align(
+            mirror=symsurf.detect(mesh, "plane").mirror,
+            kinds={"wind": "vector", "stress": "tensor"},
+        ),
+    )
+    for name in ("wind", "stress"):
+        np.testing.assert_allclose(made[name], expected[name], atol=1e-9)
+        assert not np.allclose(made[name], mesh[name])
+    wrong = filters.MirrorAlignment(input_data=mesh, kinds="breeze=vector")
+    assert "kinds has 'breeze=vector'; allowed is NAME=KIND" in error_of(wrong)
 
 
 def test_filters_turn_active_vectors(mesh):

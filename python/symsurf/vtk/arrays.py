@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -128,12 +129,15 @@ def copy_rows(
 
 
 def carry_rows(
-    to: vtkDataSetAttributes, source: vtkDataSetAttributes, made: OperationResult
+    to: vtkDataSetAttributes,
+    source: vtkDataSetAttributes,
+    made: OperationResult,
+    kinds: Mapping[str, str] | None = None,
 ) -> None:
-    """Makes the data those of the points of a result: active vectors, normals and tensors are turned
-    with their points; of others real numbers and colours are interpolated where points lie between several."""
+    """Makes the data those of the points of a result: active vectors, normals and tensors, and arrays of
+    further ``kinds``, are turned with their points; of others real numbers and colours are interpolated where points lie between several."""
     copy_rows(to, source, made.sources)
-    _set_carried(to, source, made.carried)
+    _set_carried(to, source, made.carried, kinds or {})
 
 
 def turn_rows(data: vtkDataSetAttributes, carried: Carry) -> None:
@@ -141,11 +145,16 @@ def turn_rows(data: vtkDataSetAttributes, carried: Carry) -> None:
     before = vtkPointData()
     before.ShallowCopy(data)
     copy_rows(data, before, np.arange(before.GetNumberOfTuples()))
-    _set_carried(data, before, carried)
+    _set_carried(data, before, carried, {})
 
 
-def _set_carried(to: vtkDataSetAttributes, source: vtkDataSetAttributes, carried: Carry) -> None:
-    kinds = kinds_of(source)
+def _set_carried(
+    to: vtkDataSetAttributes,
+    source: vtkDataSetAttributes,
+    carried: Carry,
+    further: Mapping[str, str],
+) -> None:
+    kinds = kinds_of(source) | dict(further)
     for i in range(source.GetNumberOfArrays()):
         if (array := source.GetArray(i)) is not None and array.GetDataType() != VTK_BIT:
             name = array.GetName()

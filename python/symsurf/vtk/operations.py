@@ -41,6 +41,7 @@ from .arrays import (
 )
 from .names import camel_case
 
+_KINDS = ("vector", "normal", "tensor", "quaternion", "harmonics", "scalar")
 _FOUND_AT = 0.6  # the share of the progress that finding the mirror takes
 
 
@@ -60,7 +61,7 @@ class MirrorOperation(Algorithm):
 
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
-    from. Active vectors, normals and tensors of points go along with them; normals of points that
+    from. Active vectors, normals and tensors of points, and those that ``kinds`` names, go along; normals of points that
     are moved each by itself (symmetrization) and of cells are not passed on. Figures about the whole
     are field data.
     """
@@ -89,6 +90,7 @@ class MirrorOperation(Algorithm):
             require_finite(points)
         mask = _mask_of(shape, options["mask_array"]) if operation.takes_mask else None
         parameters = {each.name: options[each.name] for each in operation.parameters}
+        kinds = _kinds_of(shape, options["kinds"])
         mirror: Mirror | None = None
         before: float = 0
         if other is None and _core.needs_mirror(operation.name, parameters):
@@ -108,7 +110,7 @@ class MirrorOperation(Algorithm):
             other_faces=None if other is None else faces_of(other).corners,
         )
         self._warn_of(result["statistics"])
-        added = _set_operated(outputs[0], shape, faces, operation, mirror, result)
+        added = _set_operated(outputs[0], shape, faces, operation, mirror, result, kinds)
         if operation.adds_points:
             _set_patch(outputs[1], added, len(points))
 
@@ -129,6 +131,19 @@ class MirrorOperation(Algorithm):
         if warning:
             self._warn(warning)
         return mirror
+
+
+def _kinds_of(shape: vtkPolyData, text: str) -> dict[str, str]:
+    kinds = {}
+    for part in filter(None, text.split(",")):
+        name, equals, kind = part.rpartition("=")
+        if not equals or kind not in _KINDS or shape.GetPointData().GetArray(name) is None:
+            raise InvalidParameter(
+                f"kinds has {part!r}; allowed is NAME=KIND with a point array of the input and "
+                f"{', '.join(_KINDS[:-1])} or {_KINDS[-1]}"
+            )
+        kinds[name] = kind
+    return kinds
 
 
 def _mask_of(shape: vtkPolyData, name: str) -> NDArray[np.float64] | None:
@@ -176,6 +191,7 @@ def _set_operated(
     operation: Operation,
     mirror: Mirror | None,
     result: dict[str, Any],
+    kinds: dict[str, str],
 ) -> vtkPolyData:
     """Makes the output the shape with what the operation gave. Gives what was added: the output's
     points with the added cells alone, and their data."""
@@ -189,7 +205,7 @@ def _set_operated(
     )
     if operation.carries_values:
         data = shape.GetPointData()
-        carry_rows(output.GetPointData(), data, made)
+        carry_rows(output.GetPointData(), data, made, kinds)
         output.GetPointData().SetNormals(data.GetNormals())
         output.GetPointData().SetTCoords(data.GetTCoords())
     elif _is_other(result):
@@ -198,21 +214,21 @@ def _set_operated(
             set_cells(vtkCellArray())
         output.SetVerts(verts)
         output.SetPolys(polys)
-        carry_rows(output.GetPointData(), shape.GetPointData(), made)
+        carry_rows(output.GetPointData(), shape.GetPointData(), made, kinds)
         rows = np.concatenate([vert_sources, poly_sources])
         copy_rows(output.GetCellData(), shape.GetCellData(), rows)
     elif len(result["point_sources"]):
         output.DeleteCells()
         output.SetVerts(_joined(shape.GetVerts(), verts))
         output.SetPolys(_joined(shape.GetPolys(), polys))
-        carry_rows(output.GetPointData(), shape.GetPointData(), made)
+        carry_rows(output.GetPointData(), shape.GetPointData(), made, kinds)
         old = np.arange(shape.GetNumberOfCells())
         ends = [shape.GetNumberOfVerts(), len(old) - shape.GetNumberOfStrips()]
         first, middle, last = np.split(old, ends)
         rows = np.concatenate([first, vert_sources, middle, poly_sources, last])
         copy_rows(output.GetCellData(), shape.GetCellData(), rows)
     elif made.turns:
-        carry_rows(output.GetPointData(), shape.GetPointData(), made)
+        carry_rows(output.GetPointData(), shape.GetPointData(), made, kinds)
     if operation.moves_points or operation.adds_points:
         output.SetPoints(vtk_points(result["points"]))
         if operation.takes_mask and not made.turns:  # each by itself: nobody knows the normals
@@ -335,6 +351,11 @@ def _filter(operation: Operation) -> type[MirrorOperation]:
     )
     properties |= {"seed": SEED, "refuse_nonfinite": REFUSE_NONFINITE}
     properties |= described([require_found_parameter()])
+    properties["kinds"] = Property(
+        "",
+        "What further point arrays are, as ``wind=vector,stress=tensor``: vector, normal, tensor, "
+        "quaternion, harmonics, or scalar for one that stays as it is. The active ones are known.",
+    )
     properties["number_of_threads"] = THREADS
     members: dict[str, Any] = {
         "__doc__": _docstring(operation),

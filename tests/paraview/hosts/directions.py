@@ -42,6 +42,9 @@ for name in ("Vectors", "Normals", "Tensors"):
     array = numpy_to_vtk(given[name], deep=True)
     array.SetName(name)
     getattr(shape.GetPointData(), "Set" + name)(array)
+wind = numpy_to_vtk(given["Vectors"], deep=True)
+wind.SetName("wind")
+shape.GetPointData().AddArray(wind)
 
 
 def mirror_data(kind, numbers):
@@ -69,6 +72,8 @@ for name, (kind, numbers) in mirrors.items():
         for option in filter(None, options.split(",")):
             key, value = option.split("=")
             setattr(made, key, int(value) if value.isdigit() else value)
+        if "Kinds" in made.ListProperties():
+            made.Kinds = "wind=vector"
         made.UpdatePipeline()
         data = servermanager.Fetch(made, idx=0)
         arrays = {
@@ -76,6 +81,10 @@ for name, (kind, numbers) in mirrors.items():
             for each in ("Vectors", "Normals", "Tensors")
             if (array := getattr(data.GetPointData(), "Get" + each)()) is not None
         }
+        if "Kinds" in made.ListProperties() and "Vectors" in arrays:
+            np.testing.assert_array_equal(
+                vtk_to_numpy(data.GetPointData().GetArray("wind")), arrays["Vectors"]
+            )
         np.savez(
             os.path.join(folder, f"{name}-{word}"),
             points=vtk_to_numpy(data.GetPoints().GetData()),

@@ -3,15 +3,17 @@ textures, animations and all else stay as they are."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...reading.gltf import Primitives, Scene, tree_and_binary
 from ...shapes.columns import columns_of
 from ..glb_format import glb_bytes
 from .new_shape import LOST_NORMALS, NewShape, Rewritten
+
+if TYPE_CHECKING:
+    from ...reading.gltf import Primitives, Scene
 
 _FLOAT = 5126
 _DIRECTIONS = {"NORMAL": ("VEC3", "normal"), "TANGENT": ("VEC4", "vector")}
@@ -20,6 +22,8 @@ _DIRECTIONS = {"NORMAL": ("VEC3", "normal"), "TANGENT": ("VEC4", "vector")}
 def rewritten_glb(content: bytes, new: NewShape) -> Rewritten:
     """Raises ValueError for points that are not the file's, and for a file that does not hold them as
     floats in its own buffer, each once."""
+    from ...reading.gltf import tree_and_binary  # `import symsurf` does not wait for json
+
     tree, binary = tree_and_binary(content)
     if binary is None or new.adds_points or new.carried is not None or len(tree["buffers"]) > 1:
         raise ValueError
@@ -34,6 +38,8 @@ class _Rewriting:
         self._lost: set[str] = set()
 
     def done(self) -> Rewritten:
+        from ...reading.gltf import Scene
+
         scene = Scene(self._tree, self._binary)
         added: list[tuple[Primitives, slice]] = []
         first = 0
