@@ -308,8 +308,14 @@ PlacedGroup group_of_sphere(const Symmetries& found, const ColouredSurface& surf
   });
   if (any_turn) return {spherical_group(), {}};
   const Points relief = surface.relief(found.centre);
-  const Symmetries raised =
-      search_symmetries(checked_cloud(relief, {}, 4, context), least_score, context);
+  const Symmetries raised = search_symmetries(
+      checked_cloud(relief, {}, 4, context), least_score,
+      [&](const Symmetries& group) {
+        return std::all_of(group.elements.begin(), group.elements.end(), [&](const Matrix4& each) {
+          return surface.is_kept_by(Eigen::Isometry3d(each));
+        });
+      },
+      context);
   std::vector<Vector3> directions = surface.principal_directions(found.centre);
   for (const SymmetryAxis& axis : raised.axes) directions.push_back(axis.direction);
   suppress_non_maxima(directions, directions.size(), [](const Vector3& a, const Vector3& b) {

@@ -279,22 +279,30 @@ Symmetries find_symmetries(PointsView points, const SymmetryOptions& options,
     constexpr Index least_searched = 30;  // points: fewer show no surface
     if (rule.is_given()) {
       own = groups.largest(rule, rule.by_quantile());
-    } else if (surface.is_closed()) {
-      // A closed mesh has no side that nobody saw: what maps a part of it elsewhere is no symmetry.
-      const MeasuredGroup larger = groups.largest(
-          [&](const MeasuredGroup& group) {
-            return group.size() > exact.size() && rule(group) && has_more(group, exact);
-          },
-          false);
-      if (larger.size() > exact.size()) own = larger;
     } else if (!is_cloud || (exact.size() == 1 && cloud.points.size() >= least_searched)) {
+      // A closed mesh has no side that nobody saw: what maps a part of it elsewhere is no symmetry.
+      const auto accepts = [&](const Symmetries& group) {
+        return !surface.is_closed() || rule(measured(group));
+      };
       const Symmetries searched =
-          search_symmetries(cloud, options.minimum_score, running.stage(0.5, 1));
+          search_symmetries(cloud, options.minimum_score, accepts, running.stage(0.5, 1));
       MeasuredGroup other = measured(searched);
       other.deviation.missing = searched.missing;
       if (has_more(other, exact)) {
         own = std::move(other);
         found = with_deviations(searched, own, surface);
+      }
+      if (surface.is_closed()) {
+        const double size = own.size();
+        const MeasuredGroup larger = groups.largest(
+            [&](const MeasuredGroup& group) {
+              return group.size() > size && rule(group) && has_more(group, exact);
+            },
+            false);
+        if (larger.size() > size) {
+          own = larger;
+          found.elements.clear();
+        }
       }
     }
     if (found.elements.empty())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -35,8 +36,12 @@ GroupPose with_x(GroupPose pose, const Vector3& x) {
 
 class SymmetrySearch {
  public:
-  SymmetrySearch(const Cloud& cloud, double minimum_score, const Context& context)
-      : cloud_(cloud), context_(context), test_(cloud, minimum_score, context.stage(0, 0.4)) {}
+  SymmetrySearch(const Cloud& cloud, double minimum_score,
+                 const std::function<bool(const Symmetries&)>& accepts, const Context& context)
+      : cloud_(cloud),
+        accepts_(accepts),
+        context_(context),
+        test_(cloud, minimum_score, context.stage(0, 0.4)) {}
 
   Symmetries run() {
     planes_ = find_planes(test_);
@@ -48,7 +53,9 @@ class SymmetrySearch {
     for (const auto& kind : {&SymmetrySearch::spherical, &SymmetrySearch::polyhedral,
                              &SymmetrySearch::axial, &SymmetrySearch::of_two})
       if (std::optional<Symmetries> found = (this->*kind)()) return *found;
-    return described({}, {}, {.support = 1}, cloud_.frame);
+    Symmetries none = described({}, {}, {.support = 1}, cloud_.frame);
+    accepts_(none);
+    return none;
   }
 
  private:
@@ -72,7 +79,10 @@ class SymmetrySearch {
       if (axis.order > 2 && axis.vote.fit > part->axis.vote.fit + below_turns) return {};
     OrbitVote vote = part->axis.vote;
     vote.missing = 1 - part->turn;
-    return described(axial_group(0, {.vertical = true}), part->axis.pose, vote, cloud_.frame);
+    Symmetries found =
+        described(axial_group(0, {.vertical = true}), part->axis.pose, vote, cloud_.frame);
+    if (!accepts_(found)) return {};
+    return found;
   }
 
   std::optional<Symmetries> spherical() const {
@@ -252,10 +262,13 @@ class SymmetrySearch {
     const bool continuous = placed.group.continuous || placed.group.all;
     const auto passed = test_.passed(placed.pose, tested_elements(placed.group), continuous);
     if (!passed || passed->vote.fit < placed.expected - below_turns) return {};
-    return described(placed.group, passed->pose, passed->vote, cloud_.frame);
+    Symmetries found = described(placed.group, passed->pose, passed->vote, cloud_.frame);
+    if (!accepts_(found)) return {};
+    return found;
   }
 
   const Cloud& cloud_;
+  const std::function<bool(const Symmetries&)>& accepts_;
   const Context& context_;
   SymmetryTest test_;
   std::vector<FoundDirection> planes_, axes_;
@@ -289,8 +302,10 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
   return found;
 }
 
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context) {
-  return SymmetrySearch(cloud, minimum_score, context).run();
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
+                             const std::function<bool(const Symmetries&)>& accepts,
+                             const Context& context) {
+  return SymmetrySearch(cloud, minimum_score, accepts, context).run();
 }
 
 }  // namespace symsurf

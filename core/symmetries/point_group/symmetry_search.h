@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -202,8 +203,10 @@ Symmetries described(const PointGroup& group, const GroupPose& pose, const Orbit
 /// The point group of a validated cloud in one process. Elements are proposed by candidate planes,
 /// by the lines that these meet in and by the principal axes; the groups that they may make are
 /// fitted and judged as a whole, the largest first. Of a surface of revolution any part of the turn
-/// may be missing.
-Symmetries search_symmetries(const Cloud& cloud, double minimum_score, const Context& context);
+/// may be missing. `accepts`: whether a group that was found is one.
+Symmetries search_symmetries(const Cloud& cloud, double minimum_score,
+                             const std::function<bool(const Symmetries&)>& accepts,
+                             const Context& context);
 
 /// The axis of the highest order, continuous ones first, or that of what is mostly a surface of
 /// revolution, whatever spoils it, as a handle or a broken edge does. Throws what find_symmetries()
