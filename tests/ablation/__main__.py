@@ -49,7 +49,7 @@ def _worth(tasks: list[Task], trials: list[Figures]) -> Worth:
     for (name, _, _), figures in zip(tasks, trials):
         bars = {n: bar for n, bar in CASES[name].bars.items() if _is_measured(figures, n)}
         right += all(bar.met(figures[n]) for n, bar in bars.items())
-        errors += [figures[n] / bar.limit for n, bar in bars.items() if bar.at_most]
+        errors += [figures[n] / bar.high for n, bar in bars.items() if np.isfinite(bar.high)]
     median = float(np.median(errors)) if errors else np.nan
     return Worth(right, median, sum(figures.get("seconds", 0) for figures in trials))
 

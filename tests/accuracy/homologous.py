@@ -126,7 +126,7 @@ def _face(body: str, rng: np.random.Generator) -> Shape:
         .decimate_pro(lost, preserve_topology=True, boundary_vertex_deletion=False)
         for side, lost in zip((right, left), DECIMATED)
     ]
-    whole = pyvista.merge(parts).extract_surface().clean(tolerance=1e-9).triangulate()
+    whole = pyvista.merge(parts).extract_surface(algorithm=None).clean(tolerance=1e-9).triangulate()
     return Shape(on_relief(np.asarray(whole.points, dtype=float)[:, :2]), whole.regular_faces)
 
 

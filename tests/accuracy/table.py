@@ -35,7 +35,7 @@ def _row(title: str, name: str, values: np.ndarray, bar: Bar | None) -> str:
     yes_or_no = np.isin(values, (0, 1)).all()
     middle = values.mean() if yes_or_no else np.median(values)
     # The tenth that is worst.
-    worst = np.quantile(values, 0.1 if bar and not bar.at_most else 0.9, method="nearest")
+    worst = np.quantile(values, 0.1 if bar and np.isinf(bar.high) else 0.9, method="nearest")
     cells = [title, name, f"{middle:.3g}", "" if yes_or_no else f"{worst:.3g}"]
     if not bar:
         return line([*cells, "", "", ""])

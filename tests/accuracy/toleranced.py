@@ -1,7 +1,9 @@
-"""Symmetric bodies with pins, dents and labels: what is left within what pose benchmarks accept."""
+"""Symmetric bodies with pins, dents and labels: what is left within what pose benchmarks accept. And how
+far elements deviate that hold within a tolerance."""
 
 from __future__ import annotations
 
+import itertools
 import time
 
 import numpy as np
@@ -10,6 +12,7 @@ import symsurf
 
 from .case import Case, Figures, at_least, at_most
 from .poses import random_rotation
+from .solids import sampled
 from .symmetric_parts import PARTS, Array, box, extruded, gear, polygon, rotation_about, turned
 
 # Under the rule "object": a hexagonal head on a long shaft is within 5 % of the diameter, a handle of a
@@ -75,6 +78,58 @@ def _trial(name: str, rng: np.random.Generator) -> Figures:
     return {"named": float(found.group == group), "seconds": seconds}
 
 
+KINDS = ("prism", "box", "rings", "studs")
+
+
+def _nearly_symmetric(kind: str, rng: np.random.Generator) -> tuple[symsurf.Shape, float]:
+    """A convex part with a corner moved, a corner added, or stretched, by 0.01 to 10 % of its diagonal,
+    which is given, too."""
+    import trimesh
+
+    turn = 2 * np.pi * np.arange(rng.integers(3, 9))
+    turn /= len(turn)
+    ring = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    height = rng.uniform(0.3, 2) * np.array((0, 0, 1))
+    corners = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
+    points = {
+        "prism": np.vstack([ring - height / 2, rng.choice([1, 0.7]) * ring + height / 2]),
+        "box": corners * rng.choice([1, rng.uniform(0.4, 1)], 3),
+        "rings": np.vstack([ring - height / 2, 0.6 * ring + height, 1.1 * ring]),
+        "studs": np.vstack([corners, 1.6 * np.eye(3), -1.6 * np.eye(3)]),
+    }[kind]
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    change = 10 ** rng.uniform(-4, -1)
+    what = rng.integers(3)
+    if what == 0:
+        points[rng.integers(len(points))] *= 1 + 2 * change
+    elif what == 1:
+        way = rng.normal(size=3)
+        end = np.abs(points).max() + change * diagonal
+        points = np.vstack([points, points.mean(axis=0) + end * way / np.linalg.norm(way)])
+    else:
+        points *= 1 + change * rng.choice([0, 1], 3)
+    hull = trimesh.convex.convex_hull(points @ random_rotation(rng).T + rng.normal(size=3))
+    hull = hull.subdivide() if rng.random() < 0.5 else hull
+    return symsurf.Shape(np.array(hull.vertices), np.array(hull.faces)), diagonal
+
+
+def _greatest_deviation(kind: str, rng: np.random.Generator) -> Figures:
+    """Of vertices and 1500 points of the faces under every element from the surface, in tolerances, by
+    VTK's closest points."""
+    shape, diagonal = _nearly_symmetric(kind, rng)
+    tolerance = 10 ** rng.uniform(-3.5, -1) * diagonal
+    start = time.process_time()
+    found = symsurf.symmetries(shape, tolerance=tolerance, threads=1)
+    seconds = time.process_time() - start
+    points = np.vstack([shape.points, sampled(shape.points, shape.faces, 1500, rng)])
+    mesh, worst = shape.to_pyvista(), 0.0
+    for element in found.elements:
+        images = points @ element[:3, :3].T + element[:3, 3]
+        _, closest = mesh.find_closest_cell(images, return_closest_point=True)
+        worst = max(worst, float(np.linalg.norm(closest - images, axis=1).max()))
+    return {"deviation": worst / tolerance, "seconds": seconds}
+
+
 CASES = (
     Case(
         "symmetries: pins and labels",
@@ -82,5 +137,12 @@ CASES = (
         _trial,
         {"named": at_least(1), "seconds": at_most(1)},
         trials=4,
+    ),
+    Case(
+        "symmetries: deviations within the tolerance",
+        KINDS,
+        _greatest_deviation,
+        {"deviation": at_most(1.001)},
+        trials=125,
     ),
 )
