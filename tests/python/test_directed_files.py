@@ -147,7 +147,7 @@ def test_active_normals_go_along_but_where_points_move_each_by_itself():
         assert name == "Normals", operation
         normals = made.point_data[name]
         np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-3)
-        # Of a sphere, or of it and its image, they lead away from a middle.
+        # The normals of a sphere point away from its centre.
         if operation is symsurf.align:
             away = made.points - made.points.mean(axis=0)
             assert (np.sum(away * normals, axis=1) > 0.49).all()

@@ -11,6 +11,8 @@ namespace symsurf {
 
 namespace {
 
+constexpr Index fewest = 20;  // points of a component
+
 // A connected component of a thinned surface.
 struct Component {
   std::vector<Index> thinned;
@@ -48,7 +50,6 @@ Vector3 extents_of(const Points& points) {
 // Those that are no lines, which no placement is found for.
 std::vector<Component> components_of(const ThinnedSurface& surface, Index least,
                                      const Context& context) {
-  constexpr Index fewest = 20;
   std::vector<std::vector<Index>> found = connected_components(surface);
   std::erase_if(found, [&](const auto& one) { return std::ssize(one) < std::max(least, fewest); });
   if (found.size() < 2) return {};
@@ -76,6 +77,8 @@ double unlikeness(const Component& a, const Component& b, double spacing) {
 struct Twins {
   std::size_t from, onto;
   double unlikeness;
+
+  bool operator<(const Twins& other) const { return unlikeness < other.unlikeness; }
 };
 
 // Each component with those that are most like it, the likest pairs first.
@@ -87,13 +90,8 @@ std::vector<Twins> likely_twins(const std::vector<Component>& components, double
     std::vector<Twins> own;
     for (std::size_t b = a + 1; b < components.size(); ++b)
       if (const double u = unlikeness(components[a], components[b], spacing); u < most_unlike)
-        own.push_back({a, b, u});
-    const auto less = [](const Twins& x, const Twins& y) { return x.unlikeness < y.unlikeness; };
-    std::stable_sort(own.begin(), own.end(), less);
-    if (own.size() > partners) own.resize(partners);
-    all.insert(all.end(), own.begin(), own.end());
-    std::stable_sort(all.begin(), all.end(), less);
-    if (all.size() > most) all.resize(most);
+        keep_best(own, partners, Twins{a, b, u});
+    for (const Twins& twins : own) keep_best(all, most, twins);
   }
   return all;
 }
@@ -111,7 +109,6 @@ std::vector<PatchPair> component_pairs(const ThinnedSurface& surface,
     const Context step = context.stage(0.1 + share * static_cast<double>(k),
                                        0.1 + share * static_cast<double>(k + 1));
     const Component &from = components[twins[k].from], &onto = components[twins[k].onto];
-    constexpr Index fewest = 10;
     Cloud one = checked_cloud(from.points, {}, fewest, step.stage(0, 0));
     Cloud other = checked_cloud(onto.points, {}, fewest, step.stage(0, 0));
     const double size = std::max(one.frame.size, other.frame.size);

@@ -84,31 +84,19 @@ def draw_symmetries(context, shape, result):
     plane becomes its mirror."""
     _remove_drawn(shape)
     points = result.shape.points
-    drawn = [
-        draw(
-            context,
-            shape,
-            plane,
-            f"Plane {number} of {shape.name}",
-            result.group,
-            plane.mesh(points),
-        )
-        for number, plane in enumerate(result.planes, 1)
-    ]
-    shape.symsurf_mirror = drawn[0] if drawn else None
+    shape.symsurf_mirror = None
+    for number, plane in enumerate(result.planes, 1):
+        name = f"Plane {number} of {shape.name}"
+        drawn = draw(context, shape, plane, name, result.group, plane.mesh(points))
+        shape.symsurf_mirror = shape.symsurf_mirror or drawn
     for number, axis in enumerate(result.axes, 1):
         along = (points - axis.point) @ axis.direction
-        ends = [axis.point + end * axis.direction for end in _past(along.min(), along.max())]
+        beyond = 0.1 * np.ptp(along)  # at either end
+        ends = np.array([[along.min() - beyond], [along.max() + beyond]]) * axis.direction
         order = "∞" if axis.continuous else axis.order
-        line = _child(
-            context, shape, f"Axis {number} of {shape.name}, order {order}", ends, [(0, 1)]
-        )
+        name = f"Axis {number} of {shape.name}, order {order}"
+        line = _child(context, shape, name, axis.point + ends, [(0, 1)])
         line[_AXIS] = result.group
-
-
-def _past(low, high):
-    """A tenth of the length farther at both ends."""
-    return low - 0.1 * (high - low), high + 0.1 * (high - low)
 
 
 def mirror_and_frame(shape):

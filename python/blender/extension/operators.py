@@ -38,6 +38,11 @@ class _Operator:
             return False
         return True
 
+    @classmethod
+    def settings(cls, chosen):
+        """The properties to show."""
+        return list(cls.__annotations__)
+
     def draw(self, context):
         draw_settings(self.layout, type(self), self, context)
 
@@ -155,15 +160,8 @@ class _Symmetries(_Operator):
     bl_label = "Find Symmetries"
     analysis = symsurf.analyses()["symmetries"]
 
-    @classmethod
-    def settings(cls, chosen):
-        """The properties to show."""
-        return list(cls.__annotations__)
-
     def work(self, context):
-        self._shape = context.active_object
-        context.view_layer.update()
-        self._shape.symsurf_mirror = None
+        context.active_object.symsurf_mirror = None
         _, points, faces = self.read(context)
         parameters = {each.name: value_of(self, each) for each in _parameters_shown(self.analysis)}
         return lambda progress: symsurf.symmetries(
@@ -176,11 +174,6 @@ class _Symmetries(_Operator):
 
 
 class _Operation(_Operator):
-    @classmethod
-    def settings(cls, chosen):
-        """The properties to show."""
-        return list(cls.__annotations__)
-
     def work(self, context):
         mirror, points, faces = self.read(context)
         name, parameters = self.operation.name, self._parameters()

@@ -61,9 +61,9 @@ class MirrorOperation(Algorithm):
 
     Output 0 has the points and cells of the input in their order, moved where the operation moves
     them, with their data, and behind them what the operation adds, with the data of what it is made
-    from. Active vectors, normals and tensors of points, and those that ``kinds`` names, go along; normals of points that
-    are moved each by itself (symmetrization) and of cells are not passed on. Figures about the whole
-    are field data.
+    from. Active vectors, normals and tensors of points, and those that ``kinds`` names, go along;
+    normals of points that are moved each by itself (symmetrization) and of cells are not passed on.
+    Figures about the whole are field data.
     """
 
     operation: ClassVar[Operation]
